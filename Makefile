@@ -30,7 +30,7 @@ files := lib/libmicroslip.a include/microslip.h include/microslip.f90 $(pcdir)/m
 products := $(addprefix $(tree)/,$(files))
 
 .PHONY: all shared install uninstall demo demo-dependencies audit coverage miri test accuracy bench instructions \
-	figures host stress fuzz check parallel header python docs dist recipes release clean help
+	figures identification host stress fuzz check parallel header python docs dist recipes release clean help
 .DELETE_ON_ERROR:
 
 ## all: build dist/, the tree that `install` copies (the default); TARGET=aarch64-unknown-linux-gnu for another processor
@@ -140,6 +140,10 @@ figures:
 	verification/validation/draw.sh
 	tools/identification.sh
 	tools/layer.sh
+
+## identification: fit 200 computed data sets of each kind, and write the tables of docs/identification.md (half an hour)
+identification:
+	MICROSLIP_FITS=200 $(CARGO) test --quiet --locked --package microslip-fit
 
 ## host: build CalculiX with the law as one of its elements, and compare its results with the library (some minutes)
 host: all

@@ -349,8 +349,8 @@ pub struct Fit {
     /// Units of displacement and forces in the tables: m, mm, um or nm; N, mN or kN [default: those of the contact]
     #[arg(long, value_name = "LENGTH,FORCE", value_parser = DataUnits::parse)]
     pub data_units: Option<DataUnits>,
-    /// What is not fitted: friction_coefficient, series_compliance, contact_compliance (a factor on the displacements of the law)
-    /// with a value [default: of the contact, 0, 1], shape; in the units of the contact
+    /// What is not fitted: friction_coefficient, series_compliance, contact_compliance (a factor on the displacements of the law),
+    /// parallel_stiffness with a value [default: of the contact, 0, 1, 0], shape; in the units of the contact
     #[arg(long, value_name = "NAME[=VALUE]", value_delimiter = ',', value_parser = parse_fixed)]
     pub fix: Vec<(Fixable, Option<f64>)>,
     /// Parameter of shape that is fitted
@@ -371,6 +371,7 @@ pub enum Fixable {
     FrictionCoefficient,
     SeriesCompliance,
     ContactCompliance,
+    ParallelStiffness,
     Shape,
 }
 
@@ -380,6 +381,7 @@ impl fmt::Display for Fixable {
             Fixable::FrictionCoefficient => "friction_coefficient",
             Fixable::SeriesCompliance => "series_compliance",
             Fixable::ContactCompliance => "contact_compliance",
+            Fixable::ParallelStiffness => "parallel_stiffness",
             Fixable::Shape => "shape",
         })
     }

@@ -117,6 +117,7 @@ fn fixed(options: &Fit, spec: &ContactSpec) -> Options {
         friction_coefficient: value(Fixable::FrictionCoefficient, spec.given.friction_coefficient),
         series_compliance: value(Fixable::SeriesCompliance, Some(0.0)),
         contact_compliance: value(Fixable::ContactCompliance, Some(1.0)),
+        parallel_stiffness: value(Fixable::ParallelStiffness, Some(0.0)),
         shape: match options.shape {
             _ if options.fix.iter().any(|(fixed, _)| *fixed == Fixable::Shape) => ShapeParameter::Fixed,
             ShapeOption::FlatHalfWidth => ShapeParameter::FlatHalfWidth,
@@ -175,6 +176,7 @@ fn table(found: &microslip_fit::Report, units: Units) -> Table {
         ("series_compliance", &found.series_compliance, compliance.as_str()),
         ("series_stiffening", &found.series_stiffening, "-"),
         ("contact_compliance", &found.contact_compliance, "-"),
+        ("parallel_stiffness", &found.parallel_stiffness, stiffness),
         ("total_compliance", &found.total_compliance, compliance.as_str()),
     ];
     let mut rows: Vec<_> = estimates.into_iter().chain(shape).map(estimate).collect();

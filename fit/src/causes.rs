@@ -6,15 +6,15 @@
 
 use crate::cycles::{Loop, Sample};
 use crate::least_squares::Fit;
-use crate::model::{FRICTION, PARAMETERS, Prediction};
-use crate::report::{Cause, CauseKind};
+use crate::model::{FRICTION, Prediction};
+use crate::report::{Cause, CauseKind, CauseKind::*};
 use nalgebra::{DMatrix, DVector};
 
-/// A cause and the errors of the parameters that it has in a fit that does not know it.
-#[derive(Debug, Clone, Copy)]
+/// A cause, and its residuals.
+#[derive(Debug, Clone)]
 pub(crate) struct Effect {
     pub cause: Cause,
-    pub errors: [f64; PARAMETERS],
+    pub residuals: DVector<f64>,
 }
 
 /// A direction of which the parameters of the fit take all but this part is not distinguished from them.
@@ -32,9 +32,9 @@ struct At<'a> {
     sigma: f64,
 }
 
-/// Friction coefficient, and ranges over all loops.
+/// Largest slip force, and ranges over all loops.
 struct Ranges {
-    friction: f64,
+    slip_force: f64,
     speed: f64,
     amplitude: [f64; 2],
 }
@@ -44,34 +44,25 @@ impl Ranges {
     fn direction(&self, kind: CauseKind, at: &At) -> f64 {
         let [smallest, largest] = self.amplitude;
         let (force, speed) = (at.prediction.force, at.sample.velocity / self.speed);
-        let slip_force = self.friction * at.one.normal_force;
         match kind {
-            CauseKind::DifferentPlateaus => force.max(0.0),
-            CauseKind::Amplitude => force * (at.one.amplitude - smallest) / (largest - smallest).max(f64::MIN_POSITIVE),
-            CauseKind::Cycle => 0.5 * force * at.sample.time,
-            CauseKind::Speed => force * speed.abs(),
-            CauseKind::Lag => -at.force_step,
+            DifferentPlateaus => force.max(0.0),
+            Amplitude => force * (at.one.amplitude - smallest) / (largest - smallest).max(f64::MIN_POSITIVE),
+            Cycle => 0.5 * force * at.sample.time,
+            Speed => force * speed.abs(),
+            Lag => -at.force_step,
             // The displacement of the contact is less by half the play in the direction of the force.
-            CauseKind::Play => {
+            Play => {
                 let [_, _, low, high] = at.prediction.nuisance_slopes;
                 -0.5 * (low + high + at.prediction.stiffness * force.signum())
             }
-            CauseKind::Viscous => slip_force * speed,
-            CauseKind::ParallelSpring => slip_force * at.sample.displacement / largest,
+            Viscous => self.slip_force * speed,
+            ParallelSpring => self.slip_force * at.sample.displacement / largest,
         }
     }
 }
 
-const KINDS: [CauseKind; 8] = [
-    CauseKind::DifferentPlateaus,
-    CauseKind::Amplitude,
-    CauseKind::Cycle,
-    CauseKind::Speed,
-    CauseKind::Lag,
-    CauseKind::Play,
-    CauseKind::Viscous,
-    CauseKind::ParallelSpring,
-];
+pub(crate) const KINDS: [CauseKind; 8] =
+    [DifferentPlateaus, Amplitude, Cycle, Speed, Lag, Play, Viscous, ParallelSpring];
 
 /// The model at all samples.
 fn samples<'a>(fit: &'a Fit) -> Vec<At<'a>> {
@@ -88,13 +79,13 @@ fn samples<'a>(fit: &'a Fit) -> Vec<At<'a>> {
     fit.predictions().flat_map(of_loop).collect()
 }
 
-/// The causes that explain at least this share of the residuals, the one that explains most first.
-pub(crate) fn causes(fit: &Fit, least_share: f64) -> Vec<Effect> {
-    let Some((residuals, parameters, upper)) = fit.factors() else { return Vec::new() };
+/// The causes of these kinds that explain more than this share of the residuals, the one that explains most first.
+pub(crate) fn causes(fit: &Fit, kinds: &[CauseKind], least_share: f64) -> Vec<Effect> {
+    let Some((residuals, parameters)) = fit.basis() else { return Vec::new() };
     let samples = samples(fit);
     let least = |value: &dyn Fn(&At) -> f64| samples.iter().map(value).fold(f64::INFINITY, f64::min);
     let ranges = Ranges {
-        friction: fit.parameters[FRICTION],
+        slip_force: -fit.parameters[FRICTION] * least(&|at| -at.one.normal_force),
         speed: -least(&|at| -at.sample.velocity.abs()),
         amplitude: [least(&|at| at.one.amplitude), -least(&|at| -at.one.amplitude)],
     };
@@ -103,23 +94,21 @@ pub(crate) fn causes(fit: &Fit, least_share: f64) -> Vec<Effect> {
         // The corrections of the reversals have residuals of their own, which no cause has.
         let mut direction = DVector::zeros(residuals.len());
         samples.iter().enumerate().for_each(|(row, at)| direction[row] = ranges.direction(kind, at) / at.sigma);
-        let whole = direction.norm();
-        let errors = upper.solve_upper_triangular(&parameters.tr_mul(&direction));
+        let whole = direction.clone();
         remove(&mut direction, &parameters);
-        (direction.norm() > DISTINCT * whole).then_some((kind, direction, fit.of_columns(&errors?)))
+        (direction.norm() > DISTINCT * whole.norm()).then_some((kind, direction, whole))
     };
-    let mut directions: Vec<_> = KINDS.into_iter().filter_map(direction).collect();
+    let mut directions: Vec<_> = kinds.iter().copied().filter_map(direction).collect();
     let (mut rest, mut found) = (residuals.clone(), Vec::new());
     remove(&mut rest, &parameters);
     let whole = rest.norm_squared();
     loop {
-        let explained = |(kind, direction, errors): (CauseKind, DVector<f64>, [f64; PARAMETERS])| {
+        let explained = |(kind, direction, raw): (CauseKind, DVector<f64>, DVector<f64>)| {
             let size = direction.dot(&rest) / direction.norm_squared();
             let share = size * size * direction.norm_squared() / whole;
-            let is_possible = size > 0.0 || !matches!(kind, CauseKind::Play | CauseKind::Viscous);
-            let errors = errors.map(|error| size * error);
+            let is_possible = size > 0.0 || !matches!(kind, Play | Viscous);
             (is_possible && share > least_share)
-                .then_some((Effect { cause: Cause { kind, size, share }, errors }, direction))
+                .then_some((Effect { cause: Cause { kind, size, share }, residuals: raw * size }, direction))
         };
         let effects = directions.iter().cloned().filter_map(explained);
         let largest = effects.max_by(|(one, _), (other, _)| one.cause.share.total_cmp(&other.cause.share));

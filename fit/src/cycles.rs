@@ -107,7 +107,14 @@ pub(crate) fn loops(original: &Record) -> Result<Vec<Loop>, Error> {
             "the amplitude changes by more than 5 % from each reversal to the next: there are no closed loops",
         );
     }
-    loops.iter().try_for_each(Loop::check)?;
+    let swing = loops.iter().map(Loop::swing).fold(0.0, f64::max);
+    if swing > LARGEST_SWING {
+        return fail(&format!(
+            "the normal force swings by {:.0} % about its mean; the law for a constant normal force admits 10 %. Measure under a \
+             steady load, or compare with `microslip history --normal-force-column`",
+            100.0 * swing
+        ));
+    }
     Ok(loops)
 }
 
@@ -214,20 +221,6 @@ impl Loop {
             complete: (samples.start..end.min(last + 1)).filter(|i| !rests[*i]).count(),
             samples: samples.filter(|i| !rests[*i]).map(sample).collect(),
         }
-    }
-
-    /// Checks the swing of the normal force.
-    fn check(&self) -> Result<(), Error> {
-        let fail = |reason: String| error(format!("{}: {reason}", self.name));
-        let swing = self.swing();
-        if swing > LARGEST_SWING {
-            return fail(format!(
-                "the normal force swings by {:.0} % about its mean; the law for a constant normal force admits 10 %. Measure under \
-                 a steady load, or compare with `microslip history --normal-force-column`",
-                100.0 * swing
-            ));
-        }
-        Ok(())
     }
 
     /// Energy per cycle over that of the rectangle around the loop.

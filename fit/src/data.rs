@@ -37,17 +37,10 @@ impl Record {
         let fail = |reason: String| error(format!("{name}: {reason}"));
         let Measurement { displacement, force, time, .. } = measurement;
         let count = displacement.len();
-        let constant;
-        let normal_force = match &measurement.normal_force {
-            Some(NormalForce::Samples(samples)) => samples,
-            Some(NormalForce::Constant(value)) => {
-                constant = vec![*value; count];
-                &constant
-            }
-            None => {
-                constant = vec![normal_force; count];
-                &constant
-            }
+        let normal_force = &match &measurement.normal_force {
+            Some(NormalForce::Samples(samples)) => samples.clone(),
+            Some(NormalForce::Constant(value)) => vec![*value; count],
+            None => vec![normal_force; count],
         };
         let columns = [("displacement", displacement), ("force", force), ("normal force", normal_force)];
         for (column, values) in columns.into_iter().chain(time.iter().map(|time| ("time", time))) {
@@ -107,36 +100,24 @@ impl Record {
         Ok(Record { name, time, displacement, force, normal_force, noise, resolution, interval, step })
     }
 
+    /// The same record with other columns.
+    fn map(&self, of: impl Fn(&[f64]) -> Vec<f64>) -> Record {
+        let [time, displacement, force] = [&self.time, &self.displacement, &self.force].map(|column| of(column));
+        Record { name: self.name.clone(), time, displacement, force, normal_force: of(&self.normal_force), ..*self }
+    }
+
     /// Means of the given number of successive samples.
     pub fn averaged(&self, samples: usize) -> Record {
-        let mean = |values: &[f64]| -> Vec<f64> {
-            values.chunks_exact(samples).map(|part| part.iter().sum::<f64>() / samples as f64).collect()
-        };
-        let [displacement, force] = [mean(&self.displacement), mean(&self.force)];
-        Record {
-            name: self.name.clone(),
-            time: mean(&self.time),
-            noise: [noise(&displacement), noise(&force)],
-            displacement,
-            force,
-            normal_force: mean(&self.normal_force),
-            resolution: self.resolution,
-            interval: self.interval * samples as f64,
-            step: self.step * samples as f64,
-        }
+        let mean = |part: &[f64]| part.iter().sum::<f64>() / samples as f64;
+        let record = self.map(|values| values.chunks_exact(samples).map(mean).collect());
+        let noise = [noise(&record.displacement), noise(&record.force)];
+        let [interval, step] = [self.interval, self.step].map(|size| size * samples as f64);
+        Record { noise, interval, step, ..record }
     }
 
     /// The same record from another sample on, which is repeated at the end, if it ends where it starts.
     pub fn rotated(&self, start: usize) -> Record {
-        let rotate = |values: &[f64]| [&values[start..], &values[..=start]].concat();
-        Record {
-            name: self.name.clone(),
-            time: rotate(&self.time),
-            displacement: rotate(&self.displacement),
-            force: rotate(&self.force),
-            normal_force: rotate(&self.normal_force),
-            ..*self
-        }
+        self.map(|values| [&values[start..], &values[..=start]].concat())
     }
 }
 

@@ -195,6 +195,8 @@ pub struct Options {
     pub series_compliance: Option<f64>,
     /// Factor on the displacements of the law; 1 is the law itself.
     pub contact_compliance: Option<f64>,
+    /// Stiffness of a spring in parallel with the contact \[N/m\].
+    pub parallel_stiffness: Option<f64>,
     /// The parameter of shape that is fitted.
     pub shape: ShapeParameter,
 }
@@ -220,8 +222,9 @@ impl Options {
         if !self.friction_coefficient.is_none_or(positive) {
             return error("a fixed friction coefficient must be > 0");
         }
-        if ![self.series_compliance, self.contact_compliance].iter().all(|value| value.is_none_or(not_negative)) {
-            return error("a fixed compliance must be >= 0");
+        let others = [self.series_compliance, self.contact_compliance, self.parallel_stiffness];
+        if !others.iter().all(|value| value.is_none_or(not_negative)) {
+            return error("a fixed compliance or stiffness must be >= 0");
         }
         if self.series_compliance == Some(0.0) && self.contact_compliance == Some(0.0) {
             return error("both compliances are fixed at 0: a rigid slider");

@@ -29,7 +29,8 @@ pub(crate) struct Fit<'a> {
     pub free: Free,
     /// Whether the shape is a parameter.
     has_shape: bool,
-    /// Friction coefficient, series compliance, contact compliance, a/b, share of the series stiffness that grows with the load.
+    /// Friction coefficient, series compliance, contact compliance, a/b, share of the series stiffness that grows with the load,
+    /// parallel stiffness.
     pub parameters: [f64; PARAMETERS],
     nuisances: Vec<[f64; NUISANCES]>,
     /// Lower and upper limits of the parameters.
@@ -193,17 +194,23 @@ impl<'a> Fit<'a> {
         })
     }
 
-    /// All residuals, measured less computed, and factors Q R of their derivatives with respect to the free parameters.
-    pub fn factors(&self) -> Option<(DVector<f64>, DMatrix<f64>, DMatrix<f64>)> {
-        let (basis, upper) = self.jacobian()?.qr().unpack();
-        Some((-self.residuals()?, basis, upper))
+    /// All residuals, measured less computed, and an orthonormal basis of their derivatives with respect to the free parameters.
+    pub fn basis(&self) -> Option<(DVector<f64>, DMatrix<f64>)> {
+        Some((-self.residuals()?, self.jacobian()?.qr().q()))
     }
 
-    /// Parameters of which the first derivatives are those of a solution of R.
-    pub fn of_columns(&self, solution: &DVector<f64>) -> [f64; PARAMETERS] {
-        let mut parameters = [0.0; PARAMETERS];
-        self.columns().into_iter().zip(solution.iter()).for_each(|(i, value)| parameters[i] = *value);
-        parameters
+    /// Enlarges the distance of all parameters from others by this part, as far as the limits admit.
+    pub fn extrapolate(&mut self, from: &[f64; PARAMETERS], part: f64) -> Result<(), Error> {
+        for (i, [low, high]) in self.limits.into_iter().enumerate().filter(|(_, [low, high])| low < high) {
+            self.parameters[i] = (self.parameters[i] + part * (self.parameters[i] - from[i])).clamp(low, high);
+        }
+        self.set_shape(self.parameters[SHAPE])
+    }
+
+    /// Removes residuals from the measured forces.
+    pub fn remove(&mut self, residuals: &DVector<f64>) {
+        let targets = self.targets.iter_mut().flatten();
+        targets.zip(residuals.iter()).for_each(|([force, sigma], residual)| *force -= residual * *sigma);
     }
 
     /// Frees parameters, except those at a limit, and a shape or a share without effect.
@@ -224,6 +231,18 @@ impl<'a> Fit<'a> {
     pub fn slip_ratios(&self) -> Vec<f64> {
         let of_loop = |(one, curve): (&Loop, &Curve)| one.amplitude / curve.slip_displacement(&self.parameters);
         self.loops.iter().zip(&self.curves).map(of_loop).collect()
+    }
+
+    /// The least slope of a plateau that rises by μN from the middle to the end of a loop.
+    pub fn plateau_slope(&self) -> f64 {
+        let of_loop = |one: &Loop| self.parameters[FRICTION] * one.normal_force / one.amplitude;
+        self.loops.iter().map(of_loop).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Largest force of the law at the mean normal force, less an error, over the normal force.
+    pub fn carried(&self, error: f64) -> f64 {
+        let of_loop = |(one, model): (&Loop, LoopModel)| (model.end.force - error) / one.normal_force;
+        self.models().map(of_loop).fold(0.0, f64::max)
     }
 
     /// Initial compliance of the law under the normal force of the contact, and its derivative with respect to the shape.

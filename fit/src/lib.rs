@@ -55,24 +55,23 @@ pub fn fit(contact: &Contact, measurements: &[Measurement], options: &Options) -
     let warnings = plausibility::check(&loops, &compliances, friction, series + contact_factor * mean(&compliances))?;
 
     let limit = [1e-3 * friction, 1e3 * friction];
+    let spring = options.parallel_stiffness.unwrap_or(0.0);
     let least = 1e-6 * (series + contact_factor * mean(&compliances));
-    let limits = [limit, [least, f64::MAX], [0.0, f64::MAX], range.unwrap_or_default(), [0.0, MOST_STIFFENING]];
+    let positive = [0.0, f64::MAX];
+    let limits = [limit, [least, f64::MAX], positive, range.unwrap_or_default(), [0.0, MOST_STIFFENING], positive];
     let in_range = |shape: f64| range.map_or(shape, |[low, high]| shape.clamp(low, high));
-    let start = [friction, series, contact_factor, shape.map_or(0.0, in_range), 0.0];
+    let start = [friction, series, contact_factor, shape.map_or(0.0, in_range), 0.0, spring];
     let start = Fit::new(&family, &loops, start, limits, range.is_some())?;
     let solution = verdict::solve(&start, options, range)?;
 
-    // A spring and a slider: the law without the contact's compliance.
-    let [friction, series, contact_factor, ..] = solution.fit.parameters;
-    let spring = [friction, series + contact_factor * mean(&compliances), 0.0, 0.0, 0.0];
-    let mut slider = Fit::new(&family, &loops, spring, limits, false)?;
-    slider.settle([options.friction_coefficient.is_none(), true, false, false, false]);
-    let ([friction_coefficient, compliance, ..], slider_forces) = (slider.parameters, slider.forces());
+    let ([friction_coefficient, compliance, ..], slider_forces) =
+        (solution.slider.parameters, solution.slider.forces());
     let spring_slider =
         SpringSlider { friction_coefficient, stiffness: 1.0 / compliance, misfit: Misfit::new(&loops, &slider_forces) };
 
     let forces = solution.fit.forces();
-    let [friction, series, contact_compliance, shape_estimate, series_stiffening] = solution.estimates;
+    let [friction, series, contact_compliance, shape_estimate, series_stiffening, parallel_stiffness] =
+        solution.estimates;
     let geometry = if range.is_some() { family.geometry(shape_estimate.value) } else { contact.geometry };
     let shape = shape.map(|given| match range {
         Some(_) => shape_estimate,
@@ -85,6 +84,7 @@ pub fn fit(contact: &Contact, measurements: &[Measurement], options: &Options) -
         series_compliance: series,
         series_stiffening,
         contact_compliance,
+        parallel_stiffness,
         total_compliance: solution.total_compliance,
         shape,
         explanation: solution.explanation.clone(),

@@ -16,16 +16,19 @@ const MODEL_ERROR: f64 = 1e-3;
 
 /// Residuals of a loop.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct LoopMisfit {
+pub(crate) struct LoopMisfit<'a> {
+    pub one: &'a Loop,
     /// Root mean square of the residuals.
     pub misfit: f64,
     /// The root mean square that noise, digitiser and errors of the model explain.
     pub noise: f64,
+    /// Square of the error of the model.
+    pub of_model: f64,
 }
 
-impl LoopMisfit {
+impl<'a> LoopMisfit<'a> {
     /// Of measured and computed forces, without offset and drift, and the stiffnesses of the loop.
-    pub fn new(one: &Loop, forces: &[[f64; 2]], stiffnesses: &[f64]) -> LoopMisfit {
+    pub fn new(one: &'a Loop, forces: &[[f64; 2]], stiffnesses: &[f64]) -> LoopMisfit<'a> {
         let residuals: Vec<_> = forces.iter().map(|[measured, law]| measured - law).collect();
         let [of_displacement, of_force] = one.noise;
         let mean_square = |values: &[f64]| values.iter().map(|value| value * value).sum::<f64>() / values.len() as f64;
@@ -33,10 +36,12 @@ impl LoopMisfit {
         let of_cycles = between_branches(one, &residuals, forces);
         let of_digits = one.resolution.powi(2) / 12.0;
         // The effect of a swing of the normal force is included to first order.
-        let of_model = (MODEL_ERROR + one.swing().powi(2)) * one.height();
+        let of_model = ((MODEL_ERROR + one.swing().powi(2)) * one.height()).powi(2);
         LoopMisfit {
+            one,
             misfit: mean_square(&residuals).sqrt(),
-            noise: (of_samples.max(of_cycles) + of_digits + (of_model / FACTOR).powi(2)).sqrt(),
+            noise: (of_samples.max(of_cycles) + of_digits + of_model / FACTOR.powi(2)).sqrt(),
+            of_model,
         }
     }
 
@@ -65,13 +70,8 @@ fn between_branches(one: &Loop, residuals: &[f64], forces: &[[f64; 2]]) -> f64 {
             0 => 1.0,
             1 => law(k),
             // A difference of both directions; from cycle to cycle none.
-            _ => {
-                if sign < 0.0 {
-                    law(k).abs()
-                } else {
-                    0.0
-                }
-            }
+            _ if sign < 0.0 => law(k).abs(),
+            _ => 0.0,
         });
         let differences = DVector::from_iterator(second.len(), second.clone().map(difference));
         if let Ok(changes) = columns.clone().svd(true, true).solve(&differences, 1e-12) {

@@ -17,6 +17,8 @@ pub struct Report {
     pub series_stiffening: Estimate,
     /// Factor on the displacements of the law \[-\].
     pub contact_compliance: Estimate,
+    /// Stiffness of a spring in parallel with the contact \[N/m\]; 0 and not determined without a long plateau of gross slip.
+    pub parallel_stiffness: Estimate,
     /// Initial compliance of contact, rig and bodies, under the normal force of the contact \[m/N\].
     pub total_compliance: Estimate,
     /// Half-width of the flat over that of the contact under the normal force of the contact \[-\]; none of an ellipse.
@@ -114,7 +116,7 @@ pub enum CauseKind {
     Play,
     /// A viscous part: its force at the largest speed over mu N.
     Viscous,
-    /// A spring in parallel: its force at the largest amplitude over mu N.
+    /// Plateaus with a slope in displacement that no spring in parallel has: the force at the largest amplitude over mu N.
     ParallelSpring,
 }
 
@@ -227,7 +229,7 @@ pub(crate) fn stiffening_load(share: f64, normal_force: f64) -> f64 {
 /// The fitted contact as a parameter file. A factor κ on the displacements of the law is a modulus E/κ, and a radius R/κ so that
 /// the contact has the same width.
 pub(crate) fn contact_toml(contact: &Contact, geometry: &Geometry, parameters: &[f64; PARAMETERS]) -> String {
-    let [friction, series, factor, _, share] = parameters;
+    let [friction, series, factor, _, share, _] = parameters;
     let mut text =
         "# Fitted to measured loops. tangential_compliance is that of all in series with the contact: rig, bodies, roughness.\n"
             .to_owned();

@@ -8,22 +8,23 @@
 //! they show more than a spring and a slider. The last two compare the best fit with the best one without a plateau, or without
 //! microslip.
 
-use crate::causes::{Effect, causes};
-use crate::cycles::Loop;
+use crate::causes::{KINDS, causes};
 use crate::error::Error;
 use crate::input::Options;
 use crate::least_squares::{Fit, Free};
 use crate::misfit::{FACTOR, LoopMisfit};
-use crate::model::{CONTACT, FRICTION, MOST_STIFFENING, PARAMETERS, Prediction, SERIES, SHAPE, STIFFENING};
+use crate::model::{CONTACT, FRICTION, MOST_STIFFENING, PARALLEL, PARAMETERS, Prediction, SERIES, SHAPE, STIFFENING};
 use crate::report::{Cause, CauseKind, Estimate, Explanation, ProfilePoint, Status, stiffening_load};
 
 /// 97.5 % quantile of the normal distribution; its square is the 95 % quantile of chi squared.
 const QUANTILE: f64 = 1.96;
 /// Number of shapes of the profile.
 const SHAPES: usize = 10;
-/// Widest interval of a/b, and half-widths of the others as fractions (the last of the total compliance), of what is determined.
+/// Widest interval of a/b, and half-widths of the others as fractions, of what is determined: of friction coefficient, series
+/// compliance (of the total one), factor of the contact, total compliance, and parallel stiffness (of the slope of a plateau that
+/// rises by μN up to the amplitude).
 const WIDEST_SHAPE: f64 = 0.3;
-const WIDEST: [f64; 4] = [0.1, 0.1, 0.5, 0.1];
+const WIDEST: [f64; COMBINATIONS] = [0.1, 0.1, 0.5, 0.1, 0.01];
 /// Half-width of what is determined of the share of the series stiffness that grows with the load.
 const WIDEST_STIFFENING: f64 = 0.1;
 
@@ -36,7 +37,8 @@ pub(crate) struct Solution<'a> {
     pub total_compliance: Estimate,
     pub profile: Vec<ProfilePoint>,
     pub explanation: Explanation,
-    /// Whether a spring and a slider fit as well.
+    /// The best spring and slider, and whether it fits as well.
+    pub slider: Fit<'a>,
     pub is_spring_slider: bool,
 }
 
@@ -48,14 +50,16 @@ const SIGNIFICANT: f64 = 4.0;
 /// A cause of residuals that noise does not explain is named if it explains this part of their squares, of which noise has a
 /// quarter at most.
 const LEAST_SHARE: f64 = 0.1;
+/// Passes that remove what the causes explain from the forces, and fit the rest: their sizes are estimates at first.
+const CORRECTIONS: usize = 3;
 /// A plateau is seen if the displacement exceeds that of gross slip by this part. A shorter one is not distinguished from the bend
 /// before it.
 const SHORTEST_PLATEAU: f64 = 0.02;
+/// A spring in parallel is looked for from this length on: in a shorter plateau it is not distinguished from microslip.
+const LONG_PLATEAU: f64 = 0.2;
 /// A contact that has less than this part of the total compliance, as it is given, is hidden by the rest.
 const SMALL_PART: f64 = 0.1;
-/// A spring and a slider fit as well as the law if their misfit is larger by no more than this part.
-const EQUAL: f64 = 0.05;
-/// A plateau is claimed only beyond this multiple of the quantile: with a confidence of 0.9999.
+/// A plateau, and microslip, are claimed only beyond this multiple of the quantile: with a confidence of 0.9999.
 const CLAIM: f64 = 2.0;
 
 /// A fit at one shape.
@@ -79,13 +83,13 @@ const DIFFERENT_LOADS: f64 = 1.2;
 /// Fits all free parameters, from start values of the others than the shape. With several loads the stiffness in series may grow
 /// with the load; it is constant if the data admit that.
 pub(crate) fn solve<'a>(start: &Fit<'a>, options: &Options, range: Option<[f64; 2]>) -> Result<Solution<'a>, Error> {
-    let constant = || solve_with(start.clone(), options, range, false);
+    let constant = || solve_with(start, options, range, [false, true]);
     if options.series_compliance.is_some() || start.range_of_loads() < DIFFERENT_LOADS {
         return constant();
     }
     let mut growing = start.clone();
     growing.parameters[STIFFENING] = 0.5;
-    let growing = solve_with(growing, options, range, true)?;
+    let growing = solve_with(&growing, options, range, [true, true])?;
     let share = growing.estimates[STIFFENING];
     if share.lower > 0.0 {
         return Ok(growing);
@@ -96,18 +100,25 @@ pub(crate) fn solve<'a>(start: &Fit<'a>, options: &Options, range: Option<[f64; 
     Ok(solution)
 }
 
-/// Fits all free parameters, the share of the stiffness that grows with the load or without.
+/// Fits all free parameters, with or without the share of the stiffness that grows with the load and a spring in parallel. The
+/// latter is the slope of plateaus: without gross slip it is not distinguished from the law.
 fn solve_with<'a>(
-    mut start: Fit<'a>,
+    given: &Fit<'a>,
     options: &Options,
     range: Option<[f64; 2]>,
-    is_growing: bool,
+    [is_growing, with_spring]: [bool; 2],
 ) -> Result<Solution<'a>, Error> {
-    let given = [options.friction_coefficient, options.series_compliance, options.contact_compliance];
-    let [friction, series, contact] = given.map(|value| value.is_none());
-    let others: Free = [friction, series, contact, false, is_growing];
+    let mut start = given.clone();
+    let Options { friction_coefficient, series_compliance, contact_compliance, parallel_stiffness, .. } = options;
+    let [friction, series, contact, spring] =
+        [friction_coefficient, series_compliance, contact_compliance, parallel_stiffness].map(Option::is_none);
+    let spring = spring && with_spring;
+    let others: Free = [friction, series, contact, false, is_growing, spring];
     let all: Free = std::array::from_fn(|i| i == SHAPE || others[i]);
     start.settle(others);
+    if spring && !slips(&start, LONG_PLATEAU) {
+        return solve_with(given, options, range, [is_growing, false]);
+    }
     let candidates = match range {
         None => vec![Candidate::new(start, others)],
         Some(range) => along_shapes(&start, range, others, all)?,
@@ -129,6 +140,32 @@ fn solve_with<'a>(
     let excess = |candidate: &Candidate| (candidate.chi_squared - chi_squared) / unit;
     let without_plateau = without_plateau(&fit, free, |candidate| excess(candidate).max(0.0).sqrt());
     let has_plateau = without_plateau.is_none();
+    if spring && !has_plateau {
+        return solve_with(given, options, range, [is_growing, false]);
+    }
+    let mut explanation = explanation(&fit);
+    // Residuals below the noise that digitiser and model explain are no evidence.
+    let evidence = (explanation.noise / explanation.misfit).powi(2).max(1.0);
+    let significant = SIGNIFICANT.powi(2) / independent * evidence;
+    let least_share = if explanation.explained { significant } else { LEAST_SHARE };
+    let found = |fit: &Fit, kinds: &[CauseKind], least_share: f64| {
+        let mut released = fit.clone();
+        released.release(free);
+        causes(&released, kinds, least_share)
+    };
+    let (mut effects, mut corrected) = (found(&fit, &KINDS, least_share), fit.clone());
+    explanation.causes = effects.iter().map(|effect| effect.cause).collect();
+    if explanation.explained && !effects.is_empty() {
+        let kinds: Vec<_> = effects.iter().map(|effect| effect.cause.kind).collect();
+        let weakest = effects.iter().map(|effect| effect.cause.share).fold(1.0, f64::min);
+        for _ in 0..CORRECTIONS {
+            effects.iter().for_each(|effect| corrected.remove(&effect.residuals));
+            corrected.minimize(free);
+            effects = found(&corrected, &kinds, 0.0);
+        }
+        corrected.extrapolate(&fit.parameters, QUANTILE / (weakest * independent).sqrt())?;
+    }
+
     let mut estimates = fit.parameters.map(fixed);
     let mut of_shapes = vec![(fit.clone(), others)];
     if let Some(range) = range {
@@ -136,6 +173,7 @@ fn solve_with<'a>(
         refined.free = all;
         let error = QUANTILE * (unit * refined.variances(&[unit_of(SHAPE)])[0]).sqrt();
         estimates[SHAPE] = shape_estimate(&profile, &excesses, best, error, range);
+        widen_shape(&mut estimates[SHAPE], corrected.parameters[SHAPE], error, range);
         let Estimate { value, status, .. } = estimates[SHAPE];
         of_shapes = if status == Status::Determined && value > range[0] && value < range[1] {
             vec![(fit.clone(), all)]
@@ -145,24 +183,11 @@ fn solve_with<'a>(
         };
     }
     of_shapes.extend(without_plateau.map(|candidate| (candidate.fit, others)));
-    let (values, mut lower, mut upper) = intervals(&fit, of_shapes, unit);
-    let (mut explanation, mut released) = (explanation(&fit), fit.clone());
-    // Residuals below the noise that digitiser and model explain are no evidence.
-    let significant = SIGNIFICANT.powi(2) / independent * (explanation.noise / explanation.misfit).powi(2).max(1.0);
-    released.release(free);
-    let effects = causes(&released, if explanation.explained { significant } else { LEAST_SHARE });
-    explanation.causes = effects.iter().map(|effect| effect.cause).collect();
-    for Effect { errors, .. } in &effects {
-        let [law, slope] = fit.law_compliance();
-        let of_total = errors[SERIES] + law * errors[CONTACT] + fit.parameters[CONTACT] * slope * errors[SHAPE];
-        for (i, error) in [errors[FRICTION], errors[SERIES], errors[CONTACT], of_total].into_iter().enumerate() {
-            (lower[i], upper[i]) = (lower[i] - error.max(0.0), upper[i] - error.min(0.0));
-        }
+    if corrected.parameters != fit.parameters {
+        of_shapes.push((corrected, of_shapes[0].1));
     }
-    if let Some(range) = range {
-        effects.iter().for_each(|effect| widen_shape(&mut estimates[SHAPE], effect.errors[SHAPE], range));
-    }
-    let scales = [values[FRICTION], values[TOTAL], values[CONTACT], values[TOTAL]];
+    let [values, lower, upper] = intervals(&fit, of_shapes, unit);
+    let scales = [values[FRICTION], values[TOTAL], values[CONTACT], values[TOTAL], fit.plateau_slope()];
     let estimate = |i: usize| {
         let half_width = 0.5 * (upper[i] - lower[i]);
         let status = match i {
@@ -171,11 +196,11 @@ fn solve_with<'a>(
             _ if lower[i] > 0.0 => Status::Bounded,
             _ => Status::NotDetermined,
         };
-        Estimate { value: values[i], lower: lower[i].max(0.0), upper: Some(upper[i]), status }
+        let upper = Some(upper[i]).filter(|upper| upper.is_finite());
+        Estimate { value: values[i], lower: lower[i].max(0.0), upper, status }
     };
-    for i in (0..SHAPE).filter(|i| others[*i]) {
-        estimates[i] = estimate(i);
-    }
+    let places = [(FRICTION, FRICTION), (SERIES, SERIES), (CONTACT, CONTACT), (PARALLEL, SPRING)];
+    places.into_iter().filter(|(i, _)| others[*i]).for_each(|(i, place)| estimates[i] = estimate(place));
     let is_fixed = !others[SERIES] && !others[CONTACT] && range.is_none();
     let mut total_compliance = if is_fixed { fixed(values[TOTAL]) } else { estimate(TOTAL) };
     let profile = if range.is_some() { profile } else { Vec::new() };
@@ -189,13 +214,27 @@ fn solve_with<'a>(
     }
     if !has_plateau && others[FRICTION] {
         // A quarter of the residuals is near the largest force.
-        let largest = carried(&fit, 2.0 * QUANTILE * explanation.misfit / independent.sqrt());
-        let slips = fit.slip_ratios().iter().any(|ratio| *ratio > 1.0);
-        let lower = if slips { largest.min(lower[FRICTION]).max(0.0) } else { largest };
+        let lower = fit.carried(2.0 * QUANTILE * explanation.misfit / independent.sqrt());
         estimates[FRICTION] = Estimate { lower, upper: None, status: Status::LowerBound, ..estimates[FRICTION] };
     }
-    let is_spring_slider = is_spring_slider(&fit, others);
-    Ok(Solution { fit, estimates, total_compliance, profile, explanation, is_spring_slider })
+    if parallel_stiffness.is_none() && !spring {
+        estimates[PARALLEL] = Estimate { upper: None, status: Status::NotDetermined, ..fixed(0.0) };
+    }
+    let slider = spring_slider(&fit, others);
+    // What the law explains beyond the slider is below the error of the model, or may be chance.
+    let slider_misfits = misfits(&slider.fit).into_iter().zip(misfits(&fit));
+    let is_below = |(slider, law): (LoopMisfit, LoopMisfit)| slider.misfit.powi(2) <= law.misfit.powi(2) + law.of_model;
+    let is_spring_slider = excess(&slider) <= (CLAIM * QUANTILE).powi(2) || { slider_misfits }.all(is_below);
+    if let Some([low, high]) = range.filter(|_| is_spring_slider) {
+        let value = estimates[SHAPE].value;
+        estimates[SHAPE] = Estimate { value, lower: low, upper: Some(high), status: Status::NotDetermined };
+    }
+    Ok(Solution { fit, estimates, total_compliance, profile, explanation, slider: slider.fit, is_spring_slider })
+}
+
+/// Whether a loop exceeds the displacement of gross slip by this part.
+fn slips(fit: &Fit, part: f64) -> bool {
+    fit.slip_ratios().iter().any(|ratio| *ratio > 1.0 + part)
 }
 
 /// The share of the stiffness that grows with the load: by the covariance, and 0 or the largest one as far as they are admitted.
@@ -203,6 +242,8 @@ fn stiffening(best: &Fit, free: Free, unit: f64) -> Estimate {
     let value = best.parameters[STIFFENING];
     let mut released = best.clone();
     released.release(free);
+    // At 0 the error is that of the other side.
+    released.free[STIFFENING] = true;
     let error = QUANTILE * (unit * released.variances(&[unit_of(STIFFENING)])[0]).sqrt();
     let others = std::array::from_fn(|i| free[i] && i != STIFFENING);
     let is_admitted = |share: f64| {
@@ -227,21 +268,22 @@ fn unit_of(parameter: usize) -> [f64; PARAMETERS] {
     std::array::from_fn(|i| if i == parameter { 1.0 } else { 0.0 })
 }
 
+/// The misfit of each loop.
+fn misfits<'a>(fit: &'a Fit<'_>) -> Vec<LoopMisfit<'a>> {
+    let stiffnesses = |of: &[(Prediction, f64)]| of.iter().map(|(at, _)| at.stiffness).collect::<Vec<_>>();
+    let loops = fit.predictions().zip(fit.forces());
+    loops.map(|((one, at), forces)| LoopMisfit::new(one, &forces, &stiffnesses(&at))).collect()
+}
+
 /// Compares the misfit of each loop with its noise.
 fn explanation(fit: &Fit) -> Explanation {
-    let forces = fit.forces();
-    let misfits = fit.predictions().zip(&forces).map(|((one, predictions), forces)| {
-        let stiffnesses: Vec<_> = predictions.iter().map(|(at, _)| at.stiffness).collect();
-        (one, LoopMisfit::new(one, forces, &stiffnesses))
-    });
-    let worst = misfits.max_by(|(_, one), (_, other)| one.ratio().total_cmp(&other.ratio()));
-    let (one, found) = worst.expect("there are loops");
-    let explained = found.ratio() <= FACTOR;
+    let worst = misfits(fit).into_iter().max_by(|one, other| one.ratio().total_cmp(&other.ratio()));
+    let found = worst.expect("there are loops");
     Explanation {
-        explained,
-        name: one.name.clone(),
+        explained: found.ratio() <= FACTOR,
+        name: found.one.name.clone(),
         misfit: found.misfit,
-        relative_misfit: found.misfit / (fit.parameters[FRICTION] * one.normal_force),
+        relative_misfit: found.misfit / (fit.parameters[FRICTION] * found.one.normal_force),
         noise: found.noise,
         causes: Vec::new(),
     }
@@ -250,11 +292,10 @@ fn explanation(fit: &Fit) -> Explanation {
 /// A fit without gross slip that the data admit: the best one, or one of larger friction coefficient. `None` if no
 /// such fit is admitted: the loops have a plateau.
 fn without_plateau<'a>(best: &Fit<'a>, free: Free, excess: impl Fn(&Candidate) -> f64) -> Option<Candidate<'a>> {
-    let slips = |fit: &Fit| fit.slip_ratios().iter().any(|ratio| *ratio > 1.0 + SHORTEST_PLATEAU);
     let mut candidate = Candidate { fit: best.clone(), chi_squared: best.chi_squared() };
     let others = std::array::from_fn(|i| free[i] && i != FRICTION);
     let mut steps = FRICTION_STEPS.into_iter();
-    while slips(&candidate.fit) && excess(&candidate) <= CLAIM * QUANTILE {
+    while slips(&candidate.fit, SHORTEST_PLATEAU) && excess(&candidate) <= CLAIM * QUANTILE {
         if !free[FRICTION] {
             return None;
         }
@@ -265,23 +306,13 @@ fn without_plateau<'a>(best: &Fit<'a>, free: Free, excess: impl Fn(&Candidate) -
     (excess(&candidate) <= CLAIM * QUANTILE).then_some(candidate)
 }
 
-/// Largest force of the law at the mean normal force, less its error, over the normal force.
-fn carried(fit: &Fit, error: f64) -> f64 {
-    let of_loop = |(one, predictions): (&Loop, Vec<(Prediction, f64)>)| {
-        let largest = predictions.iter().map(|(at, _)| at.force.abs()).fold(0.0, f64::max);
-        (largest - error) / one.normal_force
-    };
-    fit.predictions().map(of_loop).fold(0.0, f64::max)
-}
-
-/// Whether a spring and a slider fit as well as the law.
-fn is_spring_slider(best: &Fit, others: Free) -> bool {
+/// The best spring and slider.
+fn spring_slider<'a>(best: &Fit<'a>, others: Free) -> Candidate<'a> {
     let [_, series, contact, ..] = best.parameters;
     let mut fit = best.clone();
     fit.parameters[SERIES] = series + contact * best.law_compliance()[0];
     (fit.parameters[CONTACT], fit.parameters[STIFFENING]) = (0.0, 0.0);
-    let slider = Candidate::new(fit, [others[FRICTION], true, false, false, false]);
-    slider.chi_squared <= (1.0 + EQUAL).powi(2) * best.chi_squared()
+    Candidate::new(fit, [others[FRICTION], true, false, false, false, others[PARALLEL]])
 }
 
 /// Fits at shapes over the whole range, each from the one beside it, and at the best shape, in the order of the shapes.
@@ -353,26 +384,31 @@ fn shape_estimate(
     Estimate { value, lower, upper: Some(upper), status }
 }
 
-/// Includes the shape without the error by a cause.
-fn widen_shape(shape: &mut Estimate, error: f64, [low, high]: [f64; 2]) {
-    let upper = (shape.upper.unwrap_or(high) - error.min(0.0)).min(high);
-    shape.lower = (shape.lower - error.max(0.0)).max(low);
+/// Includes the shape without the effect of the causes, and its error.
+fn widen_shape(shape: &mut Estimate, corrected: f64, error: f64, [low, high]: [f64; 2]) {
+    if corrected == shape.value {
+        return;
+    }
+    let upper = shape.upper.unwrap_or(high).max(corrected + error).min(high);
+    shape.lower = shape.lower.min(corrected - error).max(low);
     shape.upper = Some(upper);
     if shape.status == Status::Determined && upper - shape.lower > WIDEST_SHAPE {
         shape.status = Status::Bounded;
     }
 }
 
-/// Place of the total compliance C + κ/k beside the three parameters.
+/// Places of the total compliance C + κ/k and of the parallel stiffness beside the three parameters.
 const TOTAL: usize = 3;
+const SPRING: usize = 4;
+const COMBINATIONS: usize = 5;
 
 /// Values of the best fit, and intervals that enclose those of fits at several shapes.
-fn intervals(best: &Fit, of_shapes: Vec<(Fit, Free)>, unit: f64) -> ([f64; 4], [f64; 4], [f64; 4]) {
+fn intervals(best: &Fit, of_shapes: Vec<(Fit, Free)>, unit: f64) -> [[f64; COMBINATIONS]; 3] {
     let values = |fit: &Fit| {
         let ([friction, series, contact, ..], [law, slope]) = (fit.parameters, fit.law_compliance());
-        let total = [0.0, 1.0, law, contact * slope, 0.0];
-        let combinations = [unit_of(FRICTION), unit_of(SERIES), unit_of(CONTACT), total];
-        ([friction, series, contact, series + contact * law], combinations)
+        let total = [0.0, 1.0, law, contact * slope, 0.0, 0.0];
+        let combinations = [unit_of(FRICTION), unit_of(SERIES), unit_of(CONTACT), total, unit_of(PARALLEL)];
+        ([friction, series, contact, series + contact * law, fit.parameters[PARALLEL]], combinations)
     };
     let best = values(best).0;
     let (mut lower, mut upper) = (best, best);
@@ -384,7 +420,7 @@ fn intervals(best: &Fit, of_shapes: Vec<(Fit, Free)>, unit: f64) -> ([f64; 4], [
             (lower[i], upper[i]) = (lower[i].min(values[i] - error), upper[i].max(values[i] + error));
         }
     }
-    (best, lower, upper)
+    [best, lower, upper]
 }
 
 fn fixed(value: f64) -> Estimate {
@@ -405,9 +441,11 @@ fn correlation(residuals: &[Vec<f64>]) -> f64 {
 
 /// The verdict in sentences.
 pub(crate) fn sentences(solution: &Solution, range: Option<[f64; 2]>, normal_force: f64) -> Vec<String> {
-    let ([friction, series, contact, shape, share], explanation) = (&solution.estimates, &solution.explanation);
-    let interval =
-        |estimate: &Estimate| format!("{:.4} to {:.4}", estimate.lower, estimate.upper.unwrap_or(f64::INFINITY));
+    let ([friction, series, contact, shape, share, spring], explanation) = (&solution.estimates, &solution.explanation);
+    let interval = |&Estimate { lower, upper, .. }: &Estimate| match upper {
+        Some(upper) => format!("{lower:.4} to {upper:.4}"),
+        None => format!("at least {lower:.4}"),
+    };
     let mut sentences = Vec::new();
     if !explanation.explained {
         let Explanation { name, misfit, relative_misfit, noise, .. } = explanation;
@@ -422,7 +460,10 @@ pub(crate) fn sentences(solution: &Solution, range: Option<[f64; 2]>, normal_for
     }
     sentences.extend(explanation.causes.iter().map(cause));
     if explanation.explained && !explanation.causes.is_empty() {
-        sentences.push("That is below twice the noise; the intervals include its effect.".to_owned());
+        // Beside a plateau that is too short, the size of this cause is only an estimate.
+        let is_spring = explanation.causes.iter().any(|cause| cause.kind == CauseKind::ParallelSpring);
+        let include = if is_spring { "do not include" } else { "include" };
+        sentences.push(format!("That is below twice the noise; the intervals {include} its effect."));
     }
     match friction.status {
         Status::Fixed => {}
@@ -463,9 +504,9 @@ pub(crate) fn sentences(solution: &Solution, range: Option<[f64; 2]>, normal_for
         }
     }
     sentences.extend(of_stiffening(share, normal_force));
+    sentences.extend(of_spring(spring, solution.fit.plateau_slope()));
     let hides = solution.fit.law_compliance()[0] < SMALL_PART * total.value;
-    let is_seen = [contact, shape].iter().any(|estimate| estimate.status == Status::Determined);
-    if solution.is_spring_slider && !hides && !is_seen {
+    if solution.is_spring_slider && !hides {
         sentences.push("No microslip is seen: a spring and a slider fit as well.".to_owned());
     }
     if let Some([low, high]) = range {
@@ -504,6 +545,22 @@ fn of_stiffening(share: &Estimate, normal_force: f64) -> Option<String> {
     })
 }
 
+/// Whether there is a spring in parallel; none if it is given.
+fn of_spring(spring: &Estimate, plateau_slope: f64) -> Option<String> {
+    let [low, high] =
+        [spring.lower, spring.upper.unwrap_or(f64::NAN)].map(|stiffness| 100.0 * stiffness / plateau_slope);
+    Some(match spring.upper {
+        _ if spring.status == Status::Fixed => return None,
+        None => "Without a longer plateau of gross slip a spring in parallel is not distinguished from the contact: no interval \
+                 contains its effect."
+            .to_owned(),
+        _ if low > 0.0 => format!(
+            "A spring in parallel is seen: its force is {low:.2} to {high:.2} % of mu N at the largest amplitude, beside friction."
+        ),
+        _ => format!("No spring in parallel is seen: its force is at most {high:.2} % of mu N at the largest amplitude."),
+    })
+}
+
 /// A cause of the residuals in a sentence.
 fn cause(cause: &Cause) -> String {
     let percent = 100.0 * cause.size.abs();
@@ -532,30 +589,4 @@ fn cause(cause: &Cause) -> String {
         }
     };
     format!("The residuals show {what}; this explains {:.0} % of their squares.", 100.0 * cause.share)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Noise of which neighbours have the correlation ρ: the sum of ρ^|lag| over all lags is (1 + ρ)/(1 - ρ). The estimate from 1e5
-    /// samples has a standard error of some percent.
-    #[test]
-    fn correlation_is_that_of_an_autoregressive_process() {
-        let mut state = 1_u64;
-        let mut uniform = || {
-            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-            (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
-        };
-        for rho in [0.0, 0.5, 0.9] {
-            let mut last = 0.0;
-            let mut next = || {
-                last = rho * last + uniform();
-                last
-            };
-            let residuals: [Vec<f64>; 2] = std::array::from_fn(|_| (0..50_000).map(|_| next()).collect());
-            let expected = (1.0 + rho) / (1.0 - rho);
-            assert!((correlation(&residuals) / expected - 1.0).abs() < 0.1, "{rho}: {}", correlation(&residuals));
-        }
-    }
 }

@@ -1,17 +1,14 @@
 //! Loops that the law does not describe: nothing is determined that is wrong, and the cause is named.
 //!
-//! Each seed draws contact, rig, noise, drift and the steps of a digitiser. `MICROSLIP_SEEDS` sets the number of seeds of each
-//! kind and size; 200 is the full test.
+//! Each seed draws contact, rig, noise, drift and the steps of a digitiser.
 
 mod common;
 use common::*;
 use microslip_fit::{CauseKind, Contact, Geometry, Measurement, Options, Report, ShapeParameter, Status, fit};
 use std::f64::consts::TAU;
-use std::thread;
 
-fn seeds() -> u64 {
-    std::env::var("MICROSLIP_SEEDS").map_or(3, |seeds| seeds.parse().unwrap())
-}
+/// Fits of each kind and size.
+const FITS: usize = 3;
 
 /// Noise of force and its correlation, noise of displacement, drift, and steps of the force over its range.
 const DISTURBANCES: [([f64; 3], f64, f64); 6] = [
@@ -44,11 +41,26 @@ impl Drawn {
         Drawn { contact, series_compliance, disturbance: DISTURBANCES[(seed % 6) as usize], random }
     }
 
-    fn truth(&self) -> [f64; 5] {
+    /// Of the estimates.
+    fn truth(&self, parallel_stiffness: f64) -> [f64; 6] {
         let law = library_contact(&self.contact, 800.0);
         let Geometry::Flat { flat_half_width, .. } = self.contact.geometry else { panic!() };
         let compliance = 1.0 / law.initial_stiffness;
-        [0.5, self.series_compliance, 1.0, self.series_compliance + compliance, flat_half_width / law.half_width]
+        let (series, shape) = (self.series_compliance, flat_half_width / law.half_width);
+        [0.5, series, 1.0, series + compliance, shape, parallel_stiffness]
+    }
+
+    /// What is fixed: nothing, or one or all of what the rig is known by.
+    fn options(&self, which: u64) -> Options {
+        let (series_compliance, contact_compliance) = (Some(self.series_compliance), Some(1.0));
+        match which {
+            0 => Options::default(),
+            1 => Options { contact_compliance, ..Options::default() },
+            2 => Options { series_compliance, ..Options::default() },
+            3 => Options { series_compliance, contact_compliance, ..Options::default() },
+            4 => Options { parallel_stiffness: Some(0.0), ..Options::default() },
+            _ => Options { series_compliance, contact_compliance, shape: ShapeParameter::Fixed, ..Options::default() },
+        }
     }
 
     fn slip_displacement(&self) -> f64 {
@@ -89,24 +101,25 @@ impl Drawn {
 
 /// Speed over that of the largest loop.
 fn speeds(loops: &[Measurement]) -> Vec<Vec<f64>> {
-    let speed = |one: &Measurement| -> Vec<f64> {
-        let x = &one.displacement;
-        (0..x.len())
-            .map(|i| {
-                let (a, b) = (i.saturating_sub(1), (i + 1).min(x.len() - 1));
-                (x[b] - x[a]) / (b - a) as f64
-            })
-            .collect()
+    let speed = |x: &[f64], i: usize| {
+        let (a, b) = (i.saturating_sub(1), (i + 1).min(x.len() - 1));
+        (x[b] - x[a]) / (b - a) as f64
     };
-    let speeds: Vec<_> = loops.iter().map(speed).collect();
+    let of_loop = |one: &Measurement| (0..one.force.len()).map(|i| speed(&one.displacement, i)).collect();
+    let speeds: Vec<Vec<f64>> = loops.iter().map(of_loop).collect();
     let most = speeds.iter().flatten().fold(0.0, |most: f64, v| most.max(v.abs()));
     speeds.into_iter().map(|one| one.into_iter().map(|v| v / most).collect()).collect()
+}
+
+/// The largest displacement.
+fn largest(loops: &[Measurement]) -> f64 {
+    loops.iter().flat_map(|one| &one.displacement).fold(0.0, |most: f64, at| most.max(at.abs()))
 }
 
 /// The loops with an effect of this kind and size, that of [`CauseKind`]; play over the displacement of slip.
 fn with_cause(kind: CauseKind, size: f64, drawn: &Drawn, loops: &mut [Measurement]) {
     let (speeds, slip_force, slip, count) = (speeds(loops), 0.5 * 800.0, drawn.slip_displacement(), loops.len());
-    let largest = loops.iter().flat_map(|one| &one.displacement).fold(0.0, |most: f64, at| most.max(at.abs()));
+    let largest = largest(loops);
     for (l, one) in loops.iter_mut().enumerate() {
         let samples = one.force.len();
         let old = one.force.clone();
@@ -131,164 +144,159 @@ fn with_cause(kind: CauseKind, size: f64, drawn: &Drawn, loops: &mut [Measuremen
 
 /// Kinds, what their size is in the table of the document, and sizes.
 const KINDS: [(CauseKind, &str, [f64; 3]); 8] = [
-    (CauseKind::DifferentPlateaus, "positive forces change by", [-0.03, -0.1, -0.3]),
-    (CauseKind::Amplitude, "forces change by, from the smallest to the largest amplitude", [-0.05, -0.1, -0.2]),
-    (CauseKind::Cycle, "forces change by, over three cycles", [-0.05, -0.1, -0.2]),
-    (CauseKind::Speed, "forces change by, up to the largest speed", [-0.05, -0.1, -0.3]),
-    (CauseKind::Lag, "lag of the force in samples, of 150 a cycle", [0.5, 1.0, 3.0]),
-    (CauseKind::Play, "play over the displacement of gross slip", [0.1, 0.3, 0.6]),
-    (CauseKind::Viscous, "viscous force over μN", [0.05, 0.15, 0.3]),
-    (CauseKind::ParallelSpring, "force of a parallel spring over μN", [0.05, 0.15, 0.3]),
+    (CauseKind::DifferentPlateaus, "positive forces change by", [-0.01, -0.1, -0.3]),
+    (CauseKind::Amplitude, "forces change by, from the smallest to the largest amplitude", [-0.01, -0.05, -0.2]),
+    (CauseKind::Cycle, "forces change by, over three cycles", [-0.01, -0.05, -0.2]),
+    (CauseKind::Speed, "forces change by, up to the largest speed", [-0.01, -0.05, -0.3]),
+    (CauseKind::Lag, "lag of the force in samples, of 150 a cycle", [0.1, 0.5, 3.0]),
+    (CauseKind::Play, "play over the displacement of gross slip", [0.01, 0.1, 0.6]),
+    (CauseKind::Viscous, "viscous force over μN", [0.01, 0.05, 0.3]),
+    (CauseKind::ParallelSpring, "force of a parallel spring over μN", [0.01, 0.02, 0.05]),
 ];
 
-/// Whether a parameter is determined, and its interval beside the truth. If the cause changes all forces, the truth is a range.
-/// Without noise, the fit has an error of 1e-3.
-fn is_wrong(report: &Report, truth: [f64; 5], kind: CauseKind, size: f64) -> bool {
+/// Whether an interval is beside the truth, of a parameter of which the verdict says something. If the cause changes all forces,
+/// the truth is a range. Without noise, the fit has an error of 1e-3.
+fn is_wrong(report: &Report, truth: [f64; 6], kind: CauseKind, size: f64) -> bool {
     let changes_forces = !matches!(kind, CauseKind::Lag | CauseKind::Play | CauseKind::ParallelSpring);
     let factor = if changes_forces { 1.0 + size } else { 1.0 };
-    let shape = report.shape.unwrap();
-    let Report { friction_coefficient, series_compliance, contact_compliance, total_compliance, .. } = *report;
-    let estimates = [friction_coefficient, series_compliance, contact_compliance, total_compliance, shape];
-    estimates.into_iter().zip(truth).any(|(estimate, truth)| {
+    estimates(report).into_iter().zip(truth).any(|(estimate, truth)| {
         let ends = [factor, 1.0, 1.0 / factor].map(|factor| factor * truth);
         let [low, high] = [ends.into_iter().fold(truth, f64::min), ends.into_iter().fold(truth, f64::max)];
         let upper = estimate.upper.unwrap_or(f64::INFINITY);
-        estimate.status == Status::Determined && (upper < 0.999 * low || estimate.lower > 1.001 * high)
+        estimate.status != Status::NotDetermined && (upper < 0.999 * low || estimate.lower > 1.001 * high)
     })
 }
 
-fn statuses(report: &Report) -> [Status; 5] {
-    let Report { friction_coefficient, series_compliance, contact_compliance, total_compliance, .. } = report;
-    let shape = report.shape.unwrap();
-    [friction_coefficient, series_compliance, contact_compliance, total_compliance, &shape]
-        .map(|estimate| estimate.status)
-}
+/// Part of the sets in which at least one of the intervals of 95 % does not contain the truth: of six independent ones 0.26.
+const JOINT: f64 = 0.25;
 
-/// Results of all seeds, the same on every run.
-fn reports<T: Send>(of_seed: impl Fn(u64) -> T + Sync) -> Vec<T> {
-    let part = |start: u64| (start..seeds()).step_by(2).map(&of_seed).collect::<Vec<_>>();
-    thread::scope(|scope| {
-        let odd = scope.spawn(|| part(1));
-        let even = part(0);
-        even.into_iter().chain(odd.join().unwrap()).collect()
-    })
-}
-
-fn count<T>(results: &[T], is: impl Fn(&T) -> bool) -> usize {
-    results.iter().filter(|result| is(result)).count()
-}
-
-/// A number of results that is at most this part, or a single one of few.
-fn is_rare(number: usize, part: f64) -> bool {
-    number as f64 <= (part * seeds() as f64).max(1.0)
+/// A number of results that is at most this part of all, or a single one of few.
+fn is_rare(number: usize, all: usize, part: f64) -> bool {
+    number as f64 <= (part * all as f64).max(if part > 0.0 { 1.0 } else { 0.0 })
 }
 
 /// The loops of a seed with a cause, its report, and whether something wrong is determined.
 fn report(seed: u64, kind: CauseKind, size: f64) -> (Report, bool) {
     let mut drawn = Drawn::new(seed);
     let mut loops = drawn.loops(&[0.7, 1.3, 3.0]);
+    let is_spring = kind == CauseKind::ParallelSpring;
+    let spring = if is_spring { size * 0.5 * 800.0 / largest(&loops) } else { 0.0 };
     with_cause(kind, size, &drawn, &mut loops);
     loops.iter_mut().for_each(|one| drawn.disturb(one));
     let report = fit(&drawn.contact, &loops, &Options::default()).unwrap();
-    let wrong = is_wrong(&report, drawn.truth(), kind, size);
+    let wrong = is_wrong(&report, drawn.truth(spring), kind, size);
     (report, wrong)
 }
 
 #[test]
-fn loops_of_the_law_are_explained() {
-    let reports = reports(|seed| report(seed, CauseKind::Speed, 0.0));
-    let explained = count(&reports, |(report, _)| report.explanation.explained);
+fn causes_are_named_and_nothing_wrong_is_determined() {
+    let reports = of_seeds(FITS, |seed| report(seed, CauseKind::Speed, 0.0));
+    let all = reports.len();
+    let refused = count(&reports, |(report, _)| !report.explanation.explained);
     let named = count(&reports, |(report, _)| !report.explanation.causes.is_empty());
     let determined = count(&reports, |(report, _)| report.friction_coefficient.status == Status::Determined);
     let wrong = count(&reports, |(_, wrong)| *wrong);
-    println!(
-        "loops of the law: {explained} explained, {named} with a cause, mu determined {determined}, wrong {wrong}"
-    );
-    assert!(is_rare(seeds() as usize - explained, 0.0) && is_rare(seeds() as usize - determined, 0.0));
-    assert!(is_rare(named, 0.01));
-    // One of five intervals of 95 % does not contain the truth.
-    assert!(is_rare(wrong, 0.25), "{wrong}");
-}
-
-#[test]
-fn causes_are_named_and_nothing_wrong_is_determined() {
-    let document = include_str!("../../docs/identification.md");
+    assert!(refused == 0 && determined == all && is_rare(named, all, 0.01) && is_rare(wrong, all, JOINT), "{wrong}");
+    let mut rows = vec![(all, format!("| none | 0 | {refused} | {named} | {wrong} |"))];
     for (kind, name, sizes) in KINDS {
-        let mut rows = [const { String::new() }; 4];
-        for (i, size) in sizes.into_iter().enumerate() {
-            let reports = reports(|seed| report(seed, kind, size));
+        let counts = sizes.map(|size| {
+            let reports = of_seeds(FITS, |seed| report(seed, kind, size));
             let refused = count(&reports, |(report, _)| !report.explanation.explained);
-            let first = count(&reports, |(report, _)| {
-                report.explanation.causes.first().is_some_and(|cause| cause.kind == kind)
-            });
+            let is_first = |report: &Report| match kind {
+                CauseKind::ParallelSpring => report.parallel_stiffness.lower > 0.0,
+                _ => report.explanation.causes.first().is_some_and(|cause| cause.kind == kind),
+            };
+            let first = count(&reports, |(report, _)| is_first(report));
             let wrong = count(&reports, |(_, wrong)| *wrong);
-            let values = [size.to_string(), refused.to_string(), first.to_string(), wrong.to_string()];
-            rows.iter_mut()
-                .zip(values)
-                .for_each(|(row, value)| *row += &(if i > 0 { ", " } else { "" }.to_owned() + &value));
+            // Of a cause that is too small to be named, an interval contains no effect.
+            let named_and_wrong = count(&reports, |(report, wrong)| *wrong && is_first(report));
             let determined = count(&reports, |(report, _)| {
-                !report.explanation.explained && statuses(report).contains(&Status::Determined)
+                !report.explanation.explained && estimates(report).iter().any(|one| one.status == Status::Determined)
             });
             assert_eq!(determined, 0);
-            assert!(i < 2 || refused == reports.len(), "{name} {size}: {refused}");
-            assert!(i < 1 || is_rare(reports.len() - first, 0.1), "{name} {size}: {first}");
-            assert!(is_rare(wrong, 0.1), "{name} {size}: {wrong}");
-        }
-        let row = format!("| {name} | {} |", rows.join(" | "));
-        println!("{row}");
-        assert!(seeds() != 200 || document.contains(&row), "not in the document: {row}");
+            // A spring in parallel is a parameter: its loops are those of the law. A small cause leaves such loops as well.
+            let (is_law, is_small) = (kind == CauseKind::ParallelSpring, size == sizes[0]);
+            let expected = if is_law { Some(0) } else { (size == sizes[2]).then_some(all) };
+            assert!(expected.is_none_or(|expected| refused == expected), "{name} {size}: {refused}");
+            assert!((is_small && !is_law) || is_rare(all - first, all, 0.1), "{name} {size}: {first}");
+            assert!(
+                is_rare(named_and_wrong, all, if is_small || is_law { JOINT } else { 0.1 }),
+                "{name} {size}: {wrong}"
+            );
+            [refused, first, wrong]
+        });
+        let column = |i: usize| counts.map(|counts| counts[i].to_string()).join(", ");
+        let [refused, first, wrong] = [0, 1, 2].map(column);
+        let sizes = sizes.map(|size| size.to_string()).join(", ");
+        rows.push((all, format!("| {name} | {sizes} | {refused} | {first} | {wrong} |")));
+        println!("{}", rows[rows.len() - 1].1);
     }
+    check_table("causes", &rows);
+}
+
+/// Results of the seeds from 1000 `MICROSLIP_SEED` on.
+fn of_drawn_seeds<T: Send>(number: usize, of_seed: impl Fn(u64) -> T + Sync) -> Vec<T> {
+    let first = 1000 * variable("MICROSLIP_SEED").unwrap_or(1) as u64;
+    of_seeds(number, |seed| of_seed(first + seed))
 }
 
 /// Loops without gross slip, with whatever is fixed.
 #[test]
 fn without_a_plateau_friction_has_a_lower_bound() {
-    let amplitudes: [&[f64]; 5] = [&[0.3], &[0.3, 0.5], &[0.8], &[0.5, 0.8], &[0.3, 0.5, 0.9]];
+    let amplitudes: [&[f64]; 6] = [&[0.3], &[0.3, 0.5], &[0.8], &[0.5, 0.8], &[0.3, 0.5, 0.9], &[1.0]];
     for amplitudes in amplitudes {
-        let reports = reports(|seed| {
+        let reports = of_drawn_seeds(FITS, |seed| {
             let mut drawn = Drawn::new(seed);
             let mut loops = drawn.loops(amplitudes);
+            let carried =
+                loops.iter().flat_map(|one| &one.force).fold(0.0, |most: f64, force| most.max(*force / 800.0));
             loops.iter_mut().for_each(|one| drawn.disturb(one));
             let contact = Contact { friction_coefficient: 0.4, ..drawn.contact.clone() };
-            let (series_compliance, contact_compliance) = (Some(drawn.series_compliance), Some(1.0));
-            let options = [
-                Options::default(),
-                Options { contact_compliance, ..Options::default() },
-                Options { series_compliance, ..Options::default() },
-                Options { series_compliance, contact_compliance, shape: ShapeParameter::Fixed, ..Options::default() },
-            ];
-            let report = fit(&contact, &loops, &options[(seed / 6 % 4) as usize]).unwrap();
-            (report.friction_coefficient, report.verdict)
+            let report = fit(&contact, &loops, &drawn.options(seed / 6 % 6)).unwrap();
+            (report.friction_coefficient, says(&report, "lower bound"), carried)
         });
-        let bounds = count(&reports, |(friction, _)| friction.status == Status::LowerBound);
-        let said = count(&reports, |(_, verdict)| verdict.iter().any(|sentence| sentence.contains("lower bound")));
-        let above = count(&reports, |(friction, _)| friction.lower > 0.5 * 1.001);
-        println!("amplitudes {amplitudes:?}: {bounds} lower bounds, {above} above the truth");
-        assert!(bounds == reports.len() && said == bounds && is_rare(above, 0.05), "{amplitudes:?}");
+        let bounds = count(&reports, |(friction, ..)| friction.status == Status::LowerBound);
+        let said = count(&reports, |(_, said, _)| *said);
+        let above = count(&reports, |(friction, ..)| friction.lower > 0.5 * 1.001);
+        // The documented bound is the largest force over N: less its error, which is below that of a single sample.
+        let low = count(&reports, |(friction, _, carried)| friction.lower < 0.97 * carried);
+        println!("amplitudes {amplitudes:?}: {bounds} lower bounds, {above} above the truth, {low} too low");
+        assert_eq!(low, 0, "{amplitudes:?}");
+        assert!(bounds == reports.len() && said == bounds && is_rare(above, reports.len(), 0.05), "{amplitudes:?}");
     }
 }
 
-/// A spring and a slider in place of a contact of the same force and displacement of gross slip.
+/// A spring and a slider in place of a contact of the same force and displacement of gross slip, whatever is fixed.
 #[test]
 fn a_jenkins_element_has_no_microslip() {
-    let verdicts = reports(|seed| {
-        let mut drawn = Drawn::new(seed);
-        let (slip, slip_force) = (drawn.slip_displacement(), 400.0);
-        let mut loops = [0.7, 1.3, 3.0].map(|amplitude: f64| {
-            let mut last = [0.0; 2];
-            let at = |i: usize| {
-                let x = amplitude * slip * (TAU * (i as f64 + 0.3) / SAMPLES as f64).sin();
-                last = [x, (last[1] + slip_force / slip * (x - last[0])).clamp(-slip_force, slip_force)];
-                (last[0], last[1])
-            };
-            let (displacement, force) = (0..7 * SAMPLES / 2).map(at).unzip();
-            Measurement { displacement, force, ..Measurement::default() }
+    for which in 0..5 {
+        let reports = of_drawn_seeds(FITS, |seed| {
+            let mut drawn = Drawn::new(seed);
+            let (slip, slip_force) = (drawn.slip_displacement(), 400.0);
+            let mut loops = [0.7, 1.3, 3.0].map(|amplitude: f64| {
+                let mut last = [0.0; 2];
+                let at = |i: usize| {
+                    let x = amplitude * slip * (TAU * (i as f64 + 0.3) / SAMPLES as f64).sin();
+                    last = [x, (last[1] + slip_force / slip * (x - last[0])).clamp(-slip_force, slip_force)];
+                    (last[0], last[1])
+                };
+                let (displacement, force) = (0..7 * SAMPLES / 2).map(at).unzip();
+                Measurement { displacement, force, ..Measurement::default() }
+            });
+            loops.iter_mut().for_each(|one| drawn.disturb(one));
+            fit(&drawn.contact, &loops, &drawn.options(which)).unwrap()
         });
-        loops.iter_mut().for_each(|one| drawn.disturb(one));
-        fit(&drawn.contact, &loops, &Options::default()).unwrap().verdict
-    });
-    let has = |text: &str| count(&verdicts, |verdict| verdict.iter().any(|sentence| sentence.contains(text)));
-    let [seen, hidden] = [has("No microslip is seen"), has("hides the microslip")];
-    println!("Jenkins elements: {seen} without microslip, {hidden} hidden in the rig");
-    assert!(is_rare(verdicts.len() - seen, 0.1) && is_rare(hidden, 0.0), "{:?}", verdicts[0]);
+        // With both compliances fixed, a slider is another law.
+        let seen =
+            |report: &Report| says(report, "No microslip is seen") || (which == 3 && !report.explanation.explained);
+        let [seen, hidden, determined] = [
+            count(&reports, seen),
+            count(&reports, |report| says(report, "hides the microslip")),
+            count(&reports, |report| report.shape.unwrap().status == Status::Determined),
+        ];
+        println!(
+            "Jenkins elements, {which}: {seen} without microslip, {hidden} hidden in the rig, {determined} of a shape"
+        );
+        assert!(seen == reports.len() && hidden + determined == 0, "{which}: {:?}", reports[0].verdict);
+    }
 }

@@ -35,13 +35,14 @@ def fit(
     `force` and optionally `name`, `normal_force` (a number or n of them [N]) and `time`[n] [s]. `contact` has the
     parameters of `Contact` or `Contact.elliptic` by name; those that are fitted are start values.
 
-    `fixed` gives values to `friction_coefficient`, `series_compliance` [m/N] or `contact_compliance` (a factor on the displacements
-    of the law), which are fitted otherwise. `shape` is the fitted parameter of the shape: "flat_half_width", "edge_radius" or
-    "fixed".
+    `fixed` gives values to `friction_coefficient`, `series_compliance` [m/N], `contact_compliance` (a factor on the displacements
+    of the law) or `parallel_stiffness` [N/m], which are fitted otherwise. `shape` is the fitted parameter of the shape:
+    "flat_half_width", "edge_radius" or "fixed".
 
     Returns a report: `friction_coefficient`, `series_compliance`, `series_stiffening` (of several loads: the share of the series
-    stiffness that grows in proportion to the load), `contact_compliance`, `total_compliance` and `shape` with `value`, `lower`,
-    `upper` (95 % confidence) and `status`; `explanation`, with `explained`, whether the law explains the loops, and the `causes` if
+    stiffness that grows in proportion to the load), `contact_compliance`, `parallel_stiffness` (of a spring in parallel, seen only in
+    a long plateau of gross slip), `total_compliance` and `shape` with `value`, `lower`, `upper` (95 % confidence) and `status`;
+    `explanation`, with `explained`, whether the law explains the loops, and the `causes` if
     it does not; `law` and `spring_slider.misfit` with the misfits; the sentences `verdict` and `warnings`; `profile`,
     `contact_toml`, and the fitted `loops`. Raises `FitError`.
     """

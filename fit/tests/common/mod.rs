@@ -3,8 +3,70 @@
 use microslip::constant_load::masing::step;
 use microslip::constant_load::state::{state_init, state_length};
 use microslip::{Layer, Parameters};
-use microslip_fit::{Contact, DisplacementReference, Geometry, Material, Measurement, NormalForce};
+use microslip_fit::{Contact, DisplacementReference, Estimate, Geometry, Material, Measurement, NormalForce, Report};
 use std::f64::consts::TAU;
+use std::{env, fs, thread};
+
+/// Fits of each kind for the tables of the document: `make identification`.
+const ALL: usize = 200;
+
+/// A number from the environment.
+pub fn variable(name: &str) -> Option<usize> {
+    env::var(name).ok().map(|value| value.parse().expect("a number"))
+}
+
+/// The given number of results, or `MICROSLIP_FITS`, of the seeds from 0 on.
+pub fn of_seeds<T: Send>(number: usize, of_seed: impl Fn(u64) -> T + Sync) -> Vec<T> {
+    let number = variable("MICROSLIP_FITS").unwrap_or(number);
+    let part = |start: usize| (start..number).step_by(2).map(|seed| of_seed(seed as u64)).collect::<Vec<_>>();
+    thread::scope(|scope| {
+        let odd = scope.spawn(|| part(1));
+        let even = part(0);
+        even.into_iter().chain(odd.join().unwrap()).collect()
+    })
+}
+
+pub fn count<T>(results: &[T], is: impl Fn(&T) -> bool) -> usize {
+    results.iter().filter(|result| is(result)).count()
+}
+
+/// Friction coefficient, series, contact and total compliance, shape and parallel stiffness.
+pub fn estimates(report: &Report) -> [Estimate; 6] {
+    let Report { friction_coefficient, series_compliance, contact_compliance, .. } = *report;
+    let [total, shape] = [report.total_compliance, report.shape.unwrap()];
+    [friction_coefficient, series_compliance, contact_compliance, total, shape, report.parallel_stiffness]
+}
+
+/// Whether the verdict says this.
+pub fn says(report: &Report, text: &str) -> bool {
+    report.verdict.iter().any(|sentence| sentence.contains(text))
+}
+
+/// The rows of a table of the document, each with its number of fits. All fits write it; of fewer, the counts must be those of a part.
+pub fn check_table(name: &str, rows: &[(usize, String)]) {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/identification.md");
+    let text = fs::read_to_string(path).unwrap();
+    let ends = ["begin", "end"].map(|end| format!("<!-- {name}: {end} -->"));
+    let mut lines: Vec<_> = text.lines().collect();
+    let [begin, end] = ends.map(|end| lines.iter().position(|line| line.trim() == end).unwrap());
+    let (indent, table) = (lines[begin].split('<').next().unwrap(), begin + 3..end);
+    let is_part = |fits: usize, [few, all]: [&str; 2]| match [few, all].map(str::parse::<usize>) {
+        [Ok(few), Ok(all)] => few <= all && all - few <= ALL - fits,
+        _ => few == all,
+    };
+    if rows.iter().any(|(fits, _)| *fits < ALL) {
+        assert_eq!(rows.len(), table.len(), "{name}");
+        for ((fits, row), line) in rows.iter().zip(&lines[table]) {
+            let [few, all] = [row.as_str(), line.trim()].map(|row| row.split([' ', ',']));
+            assert!(few.clone().count() == all.clone().count(), "{row}: {line}");
+            assert!(few.zip(all).all(|(few, all)| is_part(*fits, [few, all])), "{row}: {line}");
+        }
+        return;
+    }
+    let rows: Vec<_> = rows.iter().map(|(_, row)| format!("{indent}{row}")).collect();
+    lines.splice(table, rows.iter().map(String::as_str));
+    fs::write(path, lines.join("\n") + "\n").unwrap();
+}
 
 pub const STEEL: Material = Material { young_modulus: 2e11, poisson_ratio: 0.3 };
 
