@@ -6,7 +6,7 @@
 
 static_assert(std::is_trivially_copyable<mslip_contact>::value, "contacts may be stored and sent");
 static_assert(std::is_standard_layout<mslip_contact>::value, "contacts are plain data");
-static_assert(sizeof(mslip_contact) == 2264 && sizeof(mslip_parameters) == 112, "the layout is fixed");
+static_assert(sizeof(mslip_contact) == 3032 && sizeof(mslip_parameters) == 112, "the layout is fixed");
 static_assert(std::is_trivially_copyable<mslip_element>::value, "elements may be stored and sent");
 static_assert(std::is_standard_layout<mslip_element>::value, "elements are plain data");
 

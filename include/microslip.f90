@@ -281,7 +281,7 @@ module microslip
     real(mslip_real) :: slip_displacement = 0  !! Displacement at the onset of gross slip on the monotonic curve [m].
     real(mslip_real) :: initial_stiffness = 0  !! Tangent stiffness at zero displacement [N/m].
     real(mslip_real) :: slip_energy = 0  !! Energy dissipated per cycle at incipient gross slip [J].
-    real(mslip_real) :: reserved(277) = 0  !! Internal tables.
+    real(mslip_real) :: reserved(373) = 0  !! Internal tables.
   end type mslip_contact
   type, bind(c), public :: mslip_element
     !! A friction contact element: the law under a normal force that varies, with separation. Initialised once and only

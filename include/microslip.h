@@ -297,7 +297,7 @@ typedef struct mslip_contact {
     // Energy dissipated per cycle at incipient gross slip [J].
     double slip_energy;
     // Internal tables.
-    double reserved[277];
+    double reserved[373];
 } mslip_contact;
 
 // A friction contact element: the law under a normal force that varies, with separation. Initialised once and only read afterwards;

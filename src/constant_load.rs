@@ -9,7 +9,6 @@ pub(crate) mod energy;
 pub mod equivalents;
 pub(crate) mod evaluator;
 pub(crate) mod fields;
-pub(crate) mod gross_slip_quadrature;
 pub mod harmonic_force;
 pub(crate) mod hysteresis_loop;
 pub(crate) mod interpolant;

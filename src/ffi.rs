@@ -94,7 +94,7 @@ pub struct mslip_contact {
     /// Energy dissipated per cycle at incipient gross slip \[J\].
     pub slip_energy: f64,
     /// Internal tables.
-    pub reserved: [f64; 277],
+    pub reserved: [f64; 373],
 }
 
 /// A friction contact element: the law under a normal force that varies, with separation. Initialised once and only read afterwards;

@@ -7,4 +7,3 @@ pub(crate) mod fp_class;
 pub(crate) mod polynomial;
 pub(crate) mod quadrature;
 pub(crate) mod roots;
-pub(crate) mod sn_midpoint;

@@ -1,42 +1,30 @@
 //! Complex stiffness `K = K' + iK''` of a cycle of prescribed displacement amplitude (section 3.4), and its derivatives.
 //!
-//! With M the monotonic curve and δ0 the amplitude, K is the ratio of force to displacement in rotating-vector form:
+//! With T the monotonic curve and δ0 the amplitude, K is the ratio of force to displacement in rotating-vector form:
 //!
 //! ```text
-//! K'  = (8/(π δ0)) ∫ sqrt(X (1-X)) dQ,      X = M(Q)/δ0, from Q = 0 to that at δ0, at most μN
-//! K'' = E/(π δ0²)
+//! K'  = (8/π) ∫ sqrt(t (1-t)) T'(δ0 t) dt,     0 <= t <= 1, up to gross slip,          K'' = E/(π δ0²)
 //! ```
 //!
-//! with E the dissipated energy. K' has no closed form. With the tangent stiffness k it is
+//! with E the dissipated energy. K' has no closed form. Up to 2/5 of the displacement of gross slip, or 11/20, T(δ) is one polynomial,
+//! and so is K': the integrals of the powers are known. Beyond, with displacement x and amplitude ξ over that of gross slip, `ρ = 1 - x`
+//! and `e = 1 - ξ`,
 //!
 //! ```text
-//! K' = (8/π) ∫ sqrt(t (1-t)) k(δ0 t) dt,     0 <= t <= 1, up to gross slip
+//! K' = (8/π) F/ξ²,     F = ∫ sqrt(x (ρ-e)) k dρ,     dF/dξ = ½ ∫ sqrt(x/(ρ-e)) k dρ     from max(e, 0) to 1.
 //! ```
 //!
-//! - Up to 2/5 of the displacement of gross slip, or 11/20, T(δ) is one polynomial, and so is K': the integrals of the powers are known.
-//! - Up to 0.999 of it: a midpoint rule in a variable that removes the singularity of k at gross slip (`sn_midpoint`).
-//! - From 1.05 of it: a quadrature rule that is the same for all amplitudes and is stored in the contact.
-//! - Between these: the tanh-sinh rule, which converges despite the square roots at both ends and other singularities close to them.
-//! - With a layer there, and for Λ near 0, for which the curve is singular close to zero displacement: the same over the closed forms,
-//!   in τ up to τ = 1/2 and in the size parameter beyond.
-//!
-//! For these amplitudes below gross slip
-//!
-//! ```text
-//! dK'/dδ0 = -(8/(π δ0)) ∫ k² X^(3/2) (1-X)^(1/2) dλ
-//! ```
-//!
-//! is an integral of one sign; in gross slip the upper limit is fixed, and the integral of K' is differentiated under the integral
-//! sign.
+//! The tangent stiffness k is singular at ρ = 0, like a power of `q = ρ^(1/3)`, the size of a stick zone under a flat, or a logarithm; the
+//! root at ρ = e, on either side. The distance of that is the scale s of `q = q0 + s (cosh u - 1)`, which moves all of these singularities
+//! to |Im u| >= π/4 and makes the root at q0 smooth; `u = u_end (1 - ζ²)` does the same for that at x = 0. For Λ near 0, k is nearly
+//! singular there, too: ζ is a hyperbolic sine then. Gauss's rule converges for all amplitudes.
 
-use crate::constant_load::contact::Contact;
+use crate::constant_load::contact::{Contact, NODES_IN_SLIP};
 use crate::constant_load::evaluator::BEYOND;
 use crate::error::Error;
 use crate::limits::MAX_DISPLACEMENT;
 use crate::numerics::fp_class::in_0_to;
-use crate::numerics::quadrature::TANH_SINH;
-use crate::numerics::sn_midpoint::{GAUSS, Quadrature, RULES, Rule};
-use crate::shape::stick_zone::{QuadraturePoint, StickZone, StickZones, integrate};
+use crate::numerics::quadrature::gauss_legendre;
 use crate::simd::dispatch;
 use core::array::from_fn;
 use core::f64::consts::PI;
@@ -49,23 +37,48 @@ pub struct ComplexStiffness<'a> {
     gross_slip: bool,
 }
 
-/// Fraction of the displacement of gross slip from which the rule stored in the contact is accurate.
-const GROSS_SLIP_RULE_FROM: f64 = 1.05;
+/// Nodes for `e >= 1e-4`, next to gross slip, and beyond it up to `e = -0.05`, from where the contact has weights. F has an error of
+/// 3e-15, dF/dξ of 5e-15; next to gross slip of 1e-13, and of 1e-12 for Λ near 0. The last number is that for all amplitudes of a curve
+/// without an interpolant: it has a knee, or is nearly singular.
+const FAR_BELOW: f64 = 1e-4;
+const NODES_FAR_BELOW: usize = 40;
+const NODES_BELOW: usize = 64;
+const NODES_BEYOND: usize = 96;
+const IN_SLIP: f64 = -0.05;
 
-/// Distance from gross slip, in displacements of gross slip, up to which there is an interpolant.
-const END_OF_INTERPOLANT: f64 = 1.0 / 1700.0;
+/// Smallest scale of the rule: the cube root of the rounding of ξ.
+const SMALLEST_SCALE: f64 = 1e-5;
 
-/// Nodes of rules in the time in which a table is made, and of K' next to gross slip.
-pub(crate) const NODES_OF_TABLE: usize = 1500;
-const NODES_NEAR_SLIP: usize = 1200;
+/// In gross slip, with `q = y²` and `y = 1 - ζ²`: ρ, x, and the weights of an integral over ρ.
+static RULE_IN_SLIP: [[f64; NODES_IN_SLIP]; 3] = {
+    let [zeta, mut weights] = gauss_legendre::<NODES_IN_SLIP>();
+    let (mut rho, mut x) = ([0.0; _], [0.0; _]);
+    let mut i = 0;
+    while i < NODES_IN_SLIP {
+        let square = zeta[i] * zeta[i];
+        let y = 1.0 - square;
+        rho[i] = (y * y * y) * (y * y * y);
+        x[i] = square * (2.0 - square) * (1.0 + y * y + (y * y) * (y * y));
+        weights[i] *= 12.0 * zeta[i] * (y * y * y) * (y * y);
+        i += 1;
+    }
+    [rho, x, weights]
+};
+
+/// F and dF/dξ from the terms of F and `ρ - e` at the nodes. The number of nodes is a multiple of four.
+#[inline(always)]
+fn sums<const N: usize>(terms: &[f64; N], rest: &[f64; N]) -> [f64; 2] {
+    let mut sums = [[0.0; 4]; 2];
+    for (terms, rest) in terms.as_chunks::<4>().0.iter().zip(rest.as_chunks::<4>().0) {
+        for k in 0..4 {
+            sums[0][k] += terms[k];
+            sums[1][k] += 0.5 * terms[k] / rest[k];
+        }
+    }
+    sums.map(|sum| (sum[0] + sum[2]) + (sum[1] + sum[3]))
+}
 
 impl Contact {
-    /// Tangent stiffness at the onset of gross slip over the initial one.
-    pub(crate) fn stiffness_at_slip(&self) -> f64 {
-        let zone = self.stick_zones().at_shift_remaining(0.0);
-        self.stick_zones().small_load().compliance / self.stick_zones().compliance(&zone)
-    }
-
     /// The complex stiffness at a displacement amplitude \[m\]; at 0 it is the initial stiffness.
     ///
     /// # Errors
@@ -75,18 +88,88 @@ impl Contact {
         let gross_slip = self.is_frictionless() || amplitude >= self.slip_displacement;
         Ok(ComplexStiffness { contact: self, amplitude, gross_slip })
     }
-}
 
-/// The sum of all terms by four partial sums; their number is a multiple of four.
-#[inline(always)]
-fn sum4(terms: &[f64]) -> f64 {
-    let mut sums = [0.0; 4];
-    for row in terms.as_chunks::<4>().0 {
-        for k in 0..4 {
-            sums[k] += row[k];
+    /// F and dF/dξ at ξ = 1 - e, in units of the initial stiffness.
+    pub(crate) fn cycle_integrals(&self, xi: f64, e: f64) -> [f64; 2] {
+        let contact = self;
+        dispatch!(Contact::cycle_integrals_kernel, contact: &Contact, xi: f64, e: f64 => [f64; 2])
+    }
+
+    #[inline(always)]
+    fn cycle_integrals_kernel(&self, xi: f64, e: f64) -> [f64; 2] {
+        if !self.has_weights_in_slip() || (e > IN_SLIP && e <= 0.0) {
+            self.integrals::<NODES_BEYOND, { NODES_BEYOND + BEYOND }>(xi, e)
+        } else if e >= FAR_BELOW {
+            self.integrals::<NODES_FAR_BELOW, { NODES_FAR_BELOW + BEYOND }>(xi, e)
+        } else if e > 0.0 {
+            self.integrals::<NODES_BELOW, { NODES_BELOW + BEYOND }>(xi, e)
+        } else {
+            let rest = RULE_IN_SLIP[0].map(|rho| rho - e);
+            sums(&from_fn(|i| self.weights_in_slip[i] * rest[i].sqrt()), &rest)
         }
     }
-    (sums[0] + sums[2]) + (sums[1] + sums[3])
+
+    /// F and dF/dξ by the rule of N nodes; L is the length of arrays of displacements.
+    #[inline(always)]
+    fn integrals<const N: usize, const L: usize>(&self, xi: f64, e: f64) -> [f64; 2] {
+        let (below, excess) = (e.max(0.0), (-e).max(0.0));
+        let q0 = below.cbrt();
+        let scale = e.abs().cbrt().clamp(SMALLEST_SCALE, 1.0);
+        // The largest x; u at x = 0.
+        let top = xi.min(1.0);
+        let end = 2.0 * (0.5 * top / (1.0 + q0 * (1.0 + q0)) / scale).sqrt().asinh();
+        let [mut zeta, mut weights] = const { gauss_legendre::<N>() };
+        // x is its product with ζ² at first.
+        let bend = (self.relative_distance_of_zero_compliance() / (3.0 * scale * end.sinh() * end)).sqrt();
+        if bend < 0.4 {
+            let stretch = (1.0 / bend).asinh();
+            for (zeta, weight) in zeta.iter_mut().zip(&mut weights) {
+                let argument = stretch * *zeta;
+                (*zeta, *weight) = (bend * argument.sinh(), *weight * bend * stretch * argument.cosh());
+            }
+        }
+        // exp(u) - 1.
+        let growth = zeta.map(|zeta| {
+            let u = end * (1.0 - zeta * zeta);
+            if end < 1.0 { u.exp_m1() } else { u.exp() - 1.0 }
+        });
+        let (mut x, mut rho, mut rest) = ([top; L], [0.0; N], [0.0; N]);
+        for i in 0..N {
+            let half = 0.5 * scale * growth[i] / (growth[i] + 1.0);
+            let (step, rate) = (half * growth[i], half * (growth[i] + 2.0) * (2.0 * end * zeta[i]));
+            let q = q0 + step;
+            // ρ less its smallest value.
+            let rise = step * (q * q + q * q0 + q0 * q0);
+            (x[i], rho[i], rest[i]) = ((top - rise).max(0.0), below + rise, rise + excess);
+            weights[i] *= (x[i] * rest[i]).sqrt() * (3.0 * q * q) * rate;
+        }
+        let stiffness = self.evaluator().relative_stiffnesses(&x, &rho);
+        sums(&from_fn(|i| weights[i] * stiffness[i]), &rest)
+    }
+
+    /// The curve, continued to negative displacements, has a point of zero compliance, to first order at this distance from 0, in
+    /// displacements of gross slip.
+    fn relative_distance_of_zero_compliance(&self) -> f64 {
+        let series = self.stick_zones().small_load();
+        series.compliance * series.compliance / (2.0 * series.initial_curvature() * self.stick_zones().slip_shift())
+    }
+
+    /// The weights of F in gross slip; 0 without an interpolant, or if Λ is so small that the rule does not converge.
+    pub(crate) fn weights_of_curve(&self) -> [f64; NODES_IN_SLIP] {
+        if self.has_no_interpolant() || self.relative_distance_of_zero_compliance() < 0.375 {
+            return [0.0; _];
+        }
+        let [rho, x, weights] = &RULE_IN_SLIP;
+        let mut padded = [1.0; NODES_IN_SLIP + BEYOND];
+        padded.iter_mut().zip(x).for_each(|(padded, x)| *padded = *x);
+        let stiffness = self.evaluator().relative_stiffnesses(&padded, rho);
+        from_fn(|i| weights[i] * x[i].sqrt() * stiffness[i])
+    }
+
+    #[inline(always)]
+    fn has_weights_in_slip(&self) -> bool {
+        self.weights_in_slip[0] > 0.0
+    }
 }
 
 pub(crate) fn check_amplitude(amplitude: f64) -> Result<(), Error> {
@@ -100,22 +183,8 @@ impl ComplexStiffness<'_> {
         self.contact.is_frictionless() || self.amplitude <= 1e-30 * self.contact.displacement_scale
     }
 
-    /// The stick zone at the reversals; `None` in gross slip.
-    fn stick_zone(&self) -> Option<StickZone> {
-        if self.gross_slip { None } else { Some(self.contact.stick_zone_at_displacement(self.amplitude)) }
-    }
-
-    /// δ0 in units of shift.
-    fn shift(&self) -> f64 {
-        self.amplitude * self.contact.per_displacement_scale
-    }
-
     fn amplitude_not_zero(&self) -> f64 {
         self.amplitude.max(f64::MIN_POSITIVE)
-    }
-
-    fn zones(&self) -> &dyn StickZones {
-        self.contact.stick_zones()
     }
 
     /// K' \[N/m\].
@@ -153,93 +222,24 @@ impl ComplexStiffness<'_> {
     }
 
     /// K' and its derivative.
-    #[inline(always)]
     pub(crate) fn real_with_derivative(&self) -> (f64, f64) {
-        let stiffness = self;
-        dispatch!(ComplexStiffness::real_kernel, stiffness: &ComplexStiffness => (f64, f64))
-    }
-
-    #[inline(always)]
-    fn real_kernel(&self) -> (f64, f64) {
         let (contact, amplitude) = (self.contact, self.amplitude_not_zero());
+        let initial = contact.initial_stiffness;
         if self.is_linear() {
-            return (contact.initial_stiffness, self.initial_slopes().0);
+            return (initial, self.initial_slopes().0);
         }
         let y = amplitude * contact.inner_scale;
         if y <= 1.0
             && let Some((real, slope)) = contact.polynomial_cycle(y)
         {
-            let initial = contact.initial_stiffness;
             return (initial * real, (initial * contact.inner_scale * slope).min(0.0));
         }
-        let fraction = amplitude * contact.per_slip_displacement();
-        if contact.quadrature() != Quadrature::General {
-            let rules = contact.quadrature().rules();
-            if let Some(rule) = rules.iter().find(|rule| fraction <= rule.largest) {
-                return self.real_by_rule(rule);
-            }
-            if fraction >= GROSS_SLIP_RULE_FROM {
-                return self.real_in_gross_slip();
-            }
-            // Closer to gross slip the square roots of both are singular at nearly the same place.
-            if !contact.is_layered() && (fraction == 1.0 || (fraction - 1.0).abs() > 1e-9) {
-                return self.real_by_interpolant();
-            }
-        }
-        self.real_by_tanh_sinh()
-    }
-
-    /// An estimate of the nodes at which the curve is evaluated for K'.
-    pub(crate) fn nodes(&self) -> usize {
-        let contact = self.contact;
-        if self.is_linear() || self.amplitude * contact.inner_scale <= 1.0 {
-            return 0;
-        }
-        let fraction = self.amplitude * contact.per_slip_displacement();
-        let rules = match contact.quadrature() {
-            Quadrature::General => return NODES_OF_TABLE,
-            Quadrature::Knee => contact.quadrature().rules(),
-            Quadrature::AllRules | Quadrature::LaterRules => &RULES,
-        };
-        match rules.iter().find(|rule| fraction <= rule.largest) {
-            Some(rule) => rule.nodes.len(),
-            None if fraction < GROSS_SLIP_RULE_FROM && contact.is_layered() => NODES_OF_TABLE,
-            None if fraction < GROSS_SLIP_RULE_FROM => NODES_NEAR_SLIP,
-            None => GAUSS.len() / 8,
-        }
-    }
-
-    /// Both by a rule adapted to the singularity at gross slip.
-    #[inline(always)]
-    fn real_by_rule(&self, rule: &Rule) -> (f64, f64) {
-        let (evaluator, amplitude) = (self.contact.evaluator(), self.amplitude_not_zero());
-        let (mut real, mut slope) = (0.0, 0.0);
-        for (t, weight, slope_weight) in rule.nodes {
-            let stiffness = evaluator.at(amplitude * t).stiffness;
-            real += weight * stiffness;
-            slope += slope_weight * stiffness;
-        }
-        (real, (slope / amplitude).min(0.0))
-    }
-
-    /// Both in gross slip, by the rule stored in the contact.
-    #[inline(always)]
-    fn real_in_gross_slip(&self) -> (f64, f64) {
-        let (contact, shift) = (self.contact, self.shift());
-        let per_shift = 1.0 / shift;
-        let [consumed, weights] = contact.gross_slip_quadrature();
-        // The terms of both integrals first, which the compiler vectorises, then their sums.
-        let (mut roots, mut quotients) = ([0.0; GAUSS.len()], [0.0; GAUSS.len()]);
-        for i in 0..GAUSS.len() {
-            let x = consumed[i] * per_shift;
-            let remaining = (1.0 - x).max(f64::MIN_POSITIVE);
-            roots[i] = weights[i] * (x * remaining).max(0.0).sqrt();
-            quotients[i] = roots[i] / remaining;
-        }
-        let (real, slope) = (sum4(&roots), sum4(&quotients));
-        let real = 8.0 / PI * real * per_shift;
-        let slope = (4.0 / PI * slope * per_shift - 2.0 * real) * per_shift;
-        (contact.stiffness_scale * real, (contact.stiffness_scale / contact.displacement_scale * slope).min(0.0))
+        let per_slip = contact.per_slip_displacement;
+        let xi = amplitude * per_slip;
+        let [integral, rate] = contact.cycle_integrals(xi, (contact.slip_displacement - amplitude) * per_slip);
+        // In this order for amplitudes whose square overflows.
+        let [real, slope] = [integral, rate - 2.0 * integral / xi].map(|value| 8.0 / PI * initial * (value / xi / xi));
+        (real, (slope * per_slip).min(0.0))
     }
 
     /// K'' and its derivative.
@@ -269,133 +269,7 @@ impl ComplexStiffness<'_> {
             let slope = 4.0 * contact.slip_force;
             (contact.slip_energy + slope * (self.amplitude - contact.slip_displacement), slope)
         } else {
-            contact.cycle_energy(self.amplitude)
-        }
-    }
-
-    /// Both next to gross slip: the tangent stiffness is that of the interpolant, and beyond its end that of the closed forms.
-    #[inline(never)]
-    fn real_by_interpolant(&self) -> (f64, f64) {
-        const NODES: usize = TANH_SINH.len();
-        const LENGTH: usize = (NODES + BEYOND).next_multiple_of(4);
-        let (contact, amplitude) = (self.contact, self.amplitude);
-        let top = amplitude.min(contact.slip_displacement);
-        // 1 - t at the end of the integral.
-        let excess = (amplitude - top) / amplitude;
-        let share = top / amplitude;
-        let (mut displacements, mut roots, mut forces, mut stiffnesses) =
-            ([top; LENGTH], [0.0; LENGTH], [0.0; LENGTH], [0.0; LENGTH]);
-        displacements.iter_mut().zip(&TANH_SINH).for_each(|(x, node)| *x = top * node.from_0);
-        let interpolated = if contact.is_elementary() {
-            NODES
-        } else {
-            let end = (1.0 - END_OF_INTERPOLANT) * contact.slip_displacement;
-            displacements.iter().take(NODES).take_while(|x| **x < end).count()
-        };
-        contact.evaluator().along::<true>(interpolated, &displacements, &mut roots, &mut forces, &mut stiffnesses);
-        if interpolated < NODES {
-            let (per_slip, slip_shift) = (contact.per_slip_displacement(), self.zones().slip_shift());
-            let (rest, part) = ((contact.slip_displacement - top) * per_slip, top * per_slip);
-            let compliance = self.zones().small_load().compliance;
-            let mut point_at = contact.layered_zones().flat.sequence();
-            for (stiffness, mirrored) in
-                stiffnesses.iter_mut().zip(TANH_SINH.iter().rev()).take(NODES).skip(interpolated)
-            {
-                let point = point_at(slip_shift * (rest + part * mirrored.from_0));
-                *stiffness = contact.initial_stiffness * (compliance / (compliance + point.compliance_increase));
-            }
-        }
-        let last = stiffnesses[NODES - 1];
-        // In gross slip the upper end is fixed; just beyond it the integrand of a constant stiffness is nearly singular there, and its
-        // integral is known. Otherwise by parts, for which the derivative of t^(3/2) (1-t)^(1/2) has the integral 0.
-        let (mut real, mut slope) = (0.0, 0.0);
-        if self.gross_slip {
-            slope = 0.5 * last * (share.sqrt().atan2(excess.sqrt()) - (share * excess).sqrt()) / share;
-        }
-        for ((node, mirrored), stiffness) in TANH_SINH.iter().zip(TANH_SINH.iter().rev()).zip(&stiffnesses) {
-            let (t, rest) = (share * node.from_0, excess + share * mirrored.from_0);
-            let weight = node.weight * (t * rest).sqrt();
-            real += weight * stiffness;
-            let change = stiffness - last;
-            slope += weight
-                * if self.gross_slip { 0.5 * change / rest - 2.0 * stiffness } else { (0.5 * t / rest - 1.5) * change };
-        }
-        let unit = 8.0 / PI * share;
-        (unit * real, (unit * slope / amplitude).min(0.0))
-    }
-
-    /// Both by the tanh-sinh rule over the closed forms.
-    #[inline(never)]
-    fn real_by_tanh_sinh(&self) -> (f64, f64) {
-        let (contact, shift) = (self.contact, self.shift());
-        let [real, slope] = match &self.stick_zone() {
-            None => {
-                let [roots, quotients] = self.integrate_sigma(None, |x, y, point| {
-                    let root = (x * y).sqrt() * point.dload_dsigma;
-                    [root, root / y]
-                });
-                [roots, (0.5 * quotients - 2.0 * roots) / shift]
-            }
-            Some(zone) if zone.load.consumed <= 0.5 => self.integrate_small_tau(zone, |x, y, point| {
-                let root = (x * y).sqrt();
-                [root, -root * x * point.curvature / (point.compliance * point.compliance)]
-            }),
-            zone => self.integrate_sigma(zone.as_ref(), |x, y, point| {
-                let root = (x * y).sqrt();
-                let slope = -root * x * point.dcompliance_dsigma / (point.compliance * point.compliance);
-                [root * point.dload_dsigma, slope]
-            }),
-        };
-        let (unit, slope) = (8.0 / PI / shift * contact.stiffness_scale, slope.min(0.0));
-        (unit * real, unit / contact.displacement_scale * slope)
-    }
-
-    /// `∫ f(X, 1-X, curve) dτ` from 0 to the τ of a stick zone, τ <= 1/2.
-    fn integrate_small_tau(&self, zone: &StickZone, f: impl Fn(f64, f64, &SmallLoadPoint) -> [f64; 2]) -> [f64; 2] {
-        let series = self.zones().small_load();
-        let (shift, top) = (self.shift(), zone.load.consumed);
-        let mut sums = [0.0; 2];
-        for node in &TANH_SINH {
-            let tau = top * node.from_0;
-            let values = series.evaluate(tau);
-            let x = ((series.compliance * tau + values.shift) / shift).min(1.0);
-            let point =
-                SmallLoadPoint { compliance: series.compliance + values.compliance, curvature: values.curvature };
-            let values = f(x, 1.0 - x, &point);
-            sums = from_fn(|k| sums[k] + node.weight * values[k]);
-        }
-        sums.map(|sum| sum * top)
-    }
-
-    /// `∫ f(X, 1-X, point) dσ` from the stick zone, or from the smallest one in gross slip, to b.
-    fn integrate_sigma(
-        &self,
-        zone: Option<&StickZone>,
-        f: impl Fn(f64, f64, &QuadraturePoint) -> [f64; 2],
-    ) -> [f64; 2] {
-        let (zones, shift) = (self.zones(), self.shift());
-        let (from, remaining) = match zone {
-            Some(zone) => (zones.size_parameter(zone), zone.shift.remaining),
-            None => (
-                0.0,
-                (self.contact.slip_displacement - self.amplitude)
-                    / self.contact.displacement_scale.max(f64::MIN_POSITIVE),
-            ),
-        };
-        let integrand = |point: &QuadraturePoint| {
-            let x = (point.shift.consumed / shift).clamp(0.0, 1.0);
-            let y = ((point.shift.remaining - remaining) / shift).max(f64::MIN_POSITIVE);
-            f(x, y, point)
-        };
-        // Just beyond gross slip 1-X nearly vanishes at σ = 0: it doubles at the stick zone whose remaining shift equals the excess of the
-        // amplitude, and the integral is split there.
-        let excess = (-remaining).min(zones.slip_shift() - zones.small_load().half_shift);
-        if excess > 0.0 {
-            let middle = zones.size_parameter(&zones.at_shift_remaining(excess));
-            let [one, other] = [[0.0, middle], [middle, 1.0]].map(|[from, to]| integrate(zones, from, to, integrand));
-            from_fn(|k| one[k] + other[k])
-        } else {
-            integrate(zones, from, 1.0, integrand)
+            contact.cycle_energy(contact.before_slip(self.amplitude))
         }
     }
 
@@ -404,19 +278,11 @@ impl ComplexStiffness<'_> {
         if self.contact.is_frictionless() {
             return (0.0, 0.0);
         }
-        let series = self.zones().small_load();
+        let series = self.contact.stick_zones().small_load();
         let slope = 0.5 * series.initial_curvature() / (series.compliance * series.compliance * series.compliance);
         let unit = self.contact.stiffness_scale / self.contact.displacement_scale.max(f64::MIN_POSITIVE);
         (-slope * unit, 4.0 / (3.0 * PI) * slope * unit)
     }
-}
-
-/// A point of the curve for τ <= 1/2.
-struct SmallLoadPoint {
-    /// Λ + λ.
-    compliance: f64,
-    /// h''.
-    curvature: f64,
 }
 
 #[cfg(test)]
@@ -533,7 +399,7 @@ mod tests {
                 let middle = if part > 1.0 { (1.0 - 2.0 / part).acos() / PI } else { 0.5 };
                 let (mut real, mut imaginary) = (0.0, 0.0);
                 for (from, to) in [(0.0, middle), (middle, 1.0)] {
-                    for node in &TANH_SINH {
+                    for node in TANH_SINH.iter() {
                         let phase: f64 = from + (to - from) * node.from_0;
                         let force = contact.hysteresis_loop(amplitude).unwrap().force_at((1.0, 0.5 * phase));
                         let part = 2.0 / amplitude * (to - from) * node.weight * force;

@@ -1,20 +1,22 @@
 //! A contact under a constant normal force: initialised once, then read-only. It contains the stick zones of its shape, and the scales
 //! that convert their nondimensional quantities into forces and displacements.
 
-use crate::constant_load::gross_slip_quadrature::{GrossSlipQuadrature, NO_QUADRATURE, gross_slip_quadrature};
 use crate::constant_load::interpolant::{ForceInterpolant, INNER_FRACTION, KNEE_FRACTION};
 use crate::error::Error;
 use crate::limits::check_displacement;
 use crate::limits::{exponent_of, in_range};
-use crate::numerics::sn_midpoint::Quadrature;
+use crate::numerics::chebyshev::{Interpolant, Polynomial, TERMS};
 use crate::parameters::{self, EllipticParameters, PARAMETERS, Pair, Parameters, Sensitivity, check_moduli};
 use crate::shape::rounded_flat::reference_slope;
-use crate::shape::stick_zone::StickZones;
 use crate::shape::stick_zone::ellipse::EllipseZones;
 use crate::shape::stick_zone::rounded_flat::RoundedFlatZones;
+use crate::shape::stick_zone::{Complement, StickZones};
 use crate::shape::{HertzEllipse, Layer, LayeredZones, RoundedFlat};
 use crate::tag::LAYOUT;
 use core::f64::consts::PI;
+
+/// Nodes of the rule of K' in gross slip.
+pub(crate) const NODES_IN_SLIP: usize = 56;
 
 /// An initialised contact: plain data of fixed size that may be copied, stored and sent.
 ///
@@ -52,10 +54,11 @@ pub struct Contact {
     /// before gross slip \[1/m\]; for an ellipse the inverse of `slip_displacement` in both.
     pub(crate) inner_scale: f64,
     pub(crate) outer_scale: f64,
-    /// The [`Quadrature`] of K'.
-    quadrature: u64,
+    /// The inverse of `slip_displacement`; 0 without friction.
+    pub(crate) per_slip_displacement: f64,
     interpolant: ForceInterpolant,
-    gross_slip_quadrature: GrossSlipQuadrature,
+    /// Weights of K' in gross slip; 0 if there are none.
+    pub(crate) weights_in_slip: [f64; NODES_IN_SLIP],
     zones: LayeredZones,
     /// mu N over each parameter; over b instead of a.
     pub(crate) sensitivity_scales: Sensitivity,
@@ -70,7 +73,7 @@ pub struct Contact {
 const TAG_ROUNDED_FLAT: u64 = (0x6d73_6c69_7001 << 16) | (LAYOUT << 8);
 const TAG_ELLIPTIC: u64 = TAG_ROUNDED_FLAT | 1;
 
-const _: () = assert!(size_of::<Contact>() == 2264);
+const _: () = assert!(size_of::<Contact>() == 3032);
 
 impl Contact {
     /// Initialises a flat with rounded edges, or a cylinder.
@@ -179,7 +182,7 @@ impl Contact {
         check_displacement(slip_displacement).map_err(|_| Error::OutOfRange)?;
         let (interpolant, inner) = self.interpolant_of_curve();
         let (inner, outer) = if self.is_elementary() { (1.0, 1.0) } else { (inner, 1.0 - inner) };
-        Ok(Contact {
+        let contact = Contact {
             slip_force,
             slip_force_rounding: self.friction_coefficient.mul_add(normal_force, -slip_force),
             displacement_scale,
@@ -187,10 +190,9 @@ impl Contact {
             slip_displacement,
             inner_scale: 1.0 / (inner * slip_displacement),
             outer_scale: 1.0 / (outer * slip_displacement),
+            per_slip_displacement: 1.0 / slip_displacement,
             initial_stiffness: self.stiffness_scale / zones.small_load().compliance,
             slip_energy,
-            quadrature: self.quadrature_of_curve() as u64,
-            gross_slip_quadrature: gross_slip_quadrature(zones),
             sensitivity_scales: [
                 self.friction_coefficient,
                 normal_force,
@@ -202,7 +204,8 @@ impl Contact {
             ],
             interpolant,
             ..self
-        })
+        };
+        Ok(Contact { weights_in_slip: contact.weights_of_curve(), ..contact })
     }
 
     /// The interpolant and the fraction of its first polynomial.
@@ -227,45 +230,25 @@ impl Contact {
         (if self.is_layered() { alone.without_layer() } else { alone }, INNER_FRACTION)
     }
 
-    /// The quadrature of K', from the stick zones. The curve, continued to negative displacements, has a point of zero compliance, to
-    /// first order at `-Λ²/(2 h'')`. A layer moves it away.
-    fn quadrature_of_curve(&self) -> Quadrature {
-        let zones = if self.is_layered() { self.zones.contact() } else { self.stick_zones() };
-        let series = zones.small_load();
-        let is_within = |fraction: f64| {
-            let distance = 2.0 * fraction * series.initial_curvature() * zones.slip_shift();
-            series.compliance * series.compliance < distance
-        };
-        match (is_within(0.75), self.has_knee(), is_within(1.5)) {
-            (true, ..) => Quadrature::General,
-            (false, true, _) => Quadrature::Knee,
-            (false, false, true) => Quadrature::LaterRules,
-            (false, false, false) => Quadrature::AllRules,
-        }
-    }
-
-    #[inline(always)]
-    pub(crate) fn quadrature(&self) -> Quadrature {
-        Quadrature::from(self.quadrature)
-    }
-
-    pub(crate) fn gross_slip_quadrature(&self) -> &GrossSlipQuadrature {
-        &self.gross_slip_quadrature
-    }
-
-    /// 1 over the displacement of gross slip; 0 without friction.
-    pub(crate) fn per_slip_displacement(&self) -> f64 {
-        if self.is_elementary() {
-            self.outer_scale
-        } else {
-            self.outer_scale * (self.inner_scale / (self.inner_scale + self.outer_scale).max(f64::MIN_POSITIVE))
-        }
-    }
-
     /// K' over the initial stiffness and its derivative with respect to y, in the range of the first polynomial.
     #[inline(always)]
     pub(crate) fn polynomial_cycle(&self, y: f64) -> Option<(f64, f64)> {
         if self.is_elementary() { None } else { self.interpolant.cycle(y) }
+    }
+
+    /// The secant stiffness over the initial one as a polynomial in the displacement over 2/5 of that of gross slip.
+    pub(crate) fn secant_polynomial(&self) -> Polynomial {
+        if !self.is_elementary() {
+            return *self.interpolant.secant();
+        }
+        // One less the tangent stiffness sqrt(1-x).
+        let decrease = Interpolant::<TERMS>::through(|z| {
+            let x = 0.5 * INNER_FRACTION * (1.0 + z);
+            x / (1.0 + (1.0 - x).sqrt())
+        });
+        let mut secant = decrease.mean_from_end().map(|row| row.map(|power| -power));
+        secant[0][0] = 1.0;
+        secant
     }
 
     /// Whether this memory was initialised by a library of this version.
@@ -322,6 +305,11 @@ impl Contact {
         self.slip_force <= 0.0
     }
 
+    /// A displacement up to that of gross slip, and the remaining one.
+    pub(crate) fn before_slip(&self, displacement: f64) -> Complement {
+        Complement { consumed: displacement, remaining: self.slip_displacement - displacement }
+    }
+
     /// Energy for a dissipation of 1 \[J\].
     pub(crate) fn energy_scale(&self) -> f64 {
         self.slip_force * self.displacement_scale
@@ -346,9 +334,9 @@ const EMPTY: Contact = Contact {
     slip_force_rounding: 0.0,
     inner_scale: 0.0,
     outer_scale: 0.0,
-    quadrature: Quadrature::General as u64,
+    per_slip_displacement: 0.0,
     interpolant: ForceInterpolant::NONE,
-    gross_slip_quadrature: NO_QUADRATURE,
+    weights_in_slip: [0.0; _],
     zones: LayeredZones::EMPTY,
     sensitivity_scales: [0.0; _],
     reference_slope: 0.0,

@@ -78,18 +78,20 @@ impl Contact {
 
     /// The stick zone at a displacement from 0 to that at the onset of gross slip.
     pub(crate) fn stick_zone_at_displacement(&self, displacement: f64) -> StickZone {
-        let unit = self.displacement_scale.max(f64::MIN_POSITIVE);
         // A minimum may be evaluated for a point that is known by something else, and raise an exception.
         let displacement = if le(displacement, self.slip_displacement) { displacement } else { self.slip_displacement };
-        self.stick_zones().at_shift(Complement {
-            consumed: displacement / unit,
-            remaining: (self.slip_displacement - displacement) / unit,
-        })
+        self.stick_zone_before_slip(self.before_slip(displacement))
+    }
+
+    pub(crate) fn stick_zone_before_slip(&self, displacement: Complement) -> StickZone {
+        let unit = self.displacement_scale.max(f64::MIN_POSITIVE);
+        let Complement { consumed, remaining } = displacement;
+        self.stick_zones().at_shift(Complement { consumed: consumed / unit, remaining: remaining / unit })
     }
 
     /// The same; with a layer that of the load which the interpolant gives, if there is one.
     fn stick_zone_of_curve(&self, displacement: f64) -> StickZone {
-        let load = if self.is_layered() { self.load_at(displacement) } else { None };
+        let load = if self.is_layered() { self.load_at(self.before_slip(displacement)) } else { None };
         match load {
             Some((load, _)) => self.stick_zones().at_load(load),
             None => self.stick_zone_at_displacement(displacement),

@@ -27,7 +27,7 @@ impl Contact {
     /// Energy \[J\] dissipated per cycle with a displacement amplitude up to that of gross slip, and its derivative with respect to the
     /// amplitude \[N\].
     #[inline(always)]
-    pub(crate) fn cycle_energy(&self, amplitude: f64) -> (f64, f64) {
+    pub(crate) fn cycle_energy(&self, amplitude: Complement) -> (f64, f64) {
         if self.is_layered() {
             return self.cycle_energy_with_layer(amplitude);
         }
@@ -48,7 +48,7 @@ impl Contact {
     }
 
     #[inline(never)]
-    fn cycle_energy_with_layer(&self, amplitude: f64) -> (f64, f64) {
+    fn cycle_energy_with_layer(&self, amplitude: Complement) -> (f64, f64) {
         match self.load_at(amplitude) {
             Some(point) => self.cycle_energy_at(self.layered_zones(), point),
             None => self.cycle_energy_of_zone(amplitude),
@@ -57,7 +57,7 @@ impl Contact {
 
     /// The same at a load and the stiffness there.
     #[inline(always)]
-    fn cycle_energy_at(&self, zones: &impl StickZones, (load, stiffness): (Complement, f64)) -> (f64, f64) {
+    fn cycle_energy_at(&self, zones: &(impl StickZones + ?Sized), (load, stiffness): (Complement, f64)) -> (f64, f64) {
         let (dissipation, slope) = if load.consumed <= 0.5 {
             zones.small_load().dissipation_with_derivative(load.consumed)
         } else {
@@ -67,17 +67,16 @@ impl Contact {
         (self.energy_scale() * dissipation, self.displacement_scale * slope * stiffness)
     }
 
-    fn cycle_energy_of_zone(&self, amplitude: f64) -> (f64, f64) {
-        let (zones, zone) = (self.stick_zones(), self.stick_zone_at_displacement(amplitude));
-        let slope = self.slip_force * zones.d_dissipation(&zone) / zones.compliance(&zone);
-        (self.energy_of(&zone), slope)
+    fn cycle_energy_of_zone(&self, amplitude: Complement) -> (f64, f64) {
+        let (zones, zone) = (self.stick_zones(), self.stick_zone_before_slip(amplitude));
+        self.cycle_energy_at(zones, (zone.load, self.stiffness_of(&zone)))
     }
 
     /// The load at a displacement up to that of gross slip and the stiffness, if there is an interpolant.
     #[inline(always)]
-    pub(crate) fn load_at(&self, displacement: f64) -> Option<(Complement, f64)> {
+    pub(crate) fn load_at(&self, displacement: Complement) -> Option<(Complement, f64)> {
         match self.evaluator().load_at(displacement) {
-            None if self.is_layered() => self.load_with_knee(displacement),
+            None if self.is_layered() => self.load_with_knee(displacement.consumed),
             load => load,
         }
     }

@@ -39,7 +39,7 @@ impl<'a> Dissipation<'a> {
             self.contact.slip_energy
         } else {
             let interpolated = self.contact.inner_cycle_energy(amplitude);
-            interpolated.unwrap_or_else(|| self.contact.cycle_energy(amplitude).0)
+            interpolated.unwrap_or_else(|| self.contact.cycle_energy(self.contact.before_slip(amplitude)).0)
         }
     }
 

@@ -5,7 +5,7 @@
 
 use crate::constant_load::contact::Contact;
 use crate::constant_load::curve::sign_of;
-use crate::constant_load::interpolant::{ForceInterpolant, INNER_FRACTION, Interval, root_of};
+use crate::constant_load::interpolant::{END_OF_PIECES, ForceInterpolant, INNER_FRACTION, Interval, root_of};
 use crate::shape::stick_zone::ellipse::EllipseZones;
 use crate::shape::stick_zone::{Complement, StickZones};
 use crate::simd::dispatch;
@@ -119,6 +119,19 @@ impl Contact {
 }
 
 impl Contact {
+    pub(crate) fn has_no_interpolant(&self) -> bool {
+        !self.is_elementary() && !self.interpolant().is_converged()
+    }
+
+    /// Stiffnesses at displacements and remaining ones over that of gross slip, from the stick zones.
+    #[inline(never)]
+    fn solved_stiffnesses(&self, x: &[f64], rho: &[f64], stiffnesses: &mut [f64]) {
+        let (zones, slip) = (self.stick_zones(), self.stick_zones().slip_shift());
+        for ((stiffness, x), rho) in stiffnesses.iter_mut().zip(x).zip(rho) {
+            *stiffness = self.stiffness_of(&zones.at_shift(Complement { consumed: x * slip, remaining: rho * slip }));
+        }
+    }
+
     /// The load at a displacement and the stiffness, of a contact whose layer bends the curve strongly, beyond half of mu N: Newton's method
     /// in the logarithm of the remaining shift of the contact without its layer, which has an interpolant.
     pub(crate) fn load_with_knee(&self, displacement: f64) -> Option<(Complement, f64)> {
@@ -295,6 +308,28 @@ impl CurveEvaluator<'_> {
         }
     }
 
+    /// Stiffnesses over the initial one in an integral, at N rising x and remaining ρ = 1 - x over the displacement of gross slip; there are
+    /// [`BEYOND`] more values of x. Beyond the polynomials of the force they follow from the last ones; without an interpolant the stick
+    /// zones are found.
+    #[inline(always)]
+    pub fn relative_stiffnesses<const L: usize, const N: usize>(&self, x: &[f64; L], rho: &[f64; N]) -> [f64; L] {
+        let (mut roots, mut forces, mut stiffnesses) = ([0.0; L], [0.0; L], [0.0; L]);
+        if self.contact.has_no_interpolant() {
+            self.contact.solved_stiffnesses(x, rho, &mut stiffnesses);
+        } else {
+            let to_outer = self.slip_displacement * self.outer_scale;
+            let ends = |rho: &f64| rho * to_outer < END_OF_PIECES;
+            let count = if self.elementary { N } else { rho.iter().position(ends).unwrap_or(N) };
+            let displacement = x.map(|x| x * self.slip_displacement);
+            self.along::<true>(count, &displacement, &mut roots, &mut forces, &mut stiffnesses);
+            for (stiffness, rho) in stiffnesses.iter_mut().zip(rho).skip(count) {
+                *stiffness = self.outer_stiffness * self.interpolant.last_slope(rho * to_outer);
+            }
+        }
+        let per_initial = 1.0 / self.initial_stiffness;
+        stiffnesses.map(|stiffness| per_initial * stiffness)
+    }
+
     #[inline(always)]
     fn four_inner<const STIFFNESS: bool>(&self, displacement: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
         let mut y = [0.0; 4];
@@ -336,18 +371,19 @@ impl CurveEvaluator<'_> {
     /// The load at a displacement up to that of gross slip, with an accurate complement, and the stiffness; `None` for an ellipse, and
     /// if there is no interpolant at this displacement.
     #[inline(always)]
-    pub fn load_at(&self, displacement: f64) -> Option<(Complement, f64)> {
+    pub fn load_at(&self, displacement: Complement) -> Option<(Complement, f64)> {
         if self.elementary {
             return None;
         }
-        let y = displacement * self.inner_scale;
+        let y = displacement.consumed * self.inner_scale;
         if y <= 1.0 {
             let (secant, tangent) = self.interpolant.secant_and_tangent(y)?;
-            let consumed = self.initial_stiffness * displacement / self.slip_force.max(f64::MIN_POSITIVE) * secant;
+            let consumed =
+                self.initial_stiffness * displacement.consumed / self.slip_force.max(f64::MIN_POSITIVE) * secant;
             Some((Complement { consumed, remaining: 1.0 - consumed }, self.initial_stiffness * tangent))
         } else {
-            let distance = self.slip_displacement - displacement;
-            let (remaining, slope) = self.interpolant.complement_and_slope(distance * self.outer_scale)?;
+            let (remaining, slope) =
+                self.interpolant.complement_and_slope(displacement.remaining * self.outer_scale)?;
             Some((Complement { consumed: 1.0 - remaining, remaining }, self.outer_stiffness * slope))
         }
     }

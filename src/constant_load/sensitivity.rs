@@ -73,7 +73,7 @@ impl Contact {
     /// The load at a displacement, and the derivatives over the scales and the compliance Λ + λ of the contact alone under this load.
     fn shares_of_contact(&self, displacement: f64) -> (Complement, Sensitivity, f64) {
         if self.is_elementary() {
-            let per_slip = self.per_slip_displacement();
+            let per_slip = self.per_slip_displacement;
             let size = ((self.slip_displacement - displacement) * per_slip).max(0.0).sqrt();
             let consumed = displacement * per_slip / (1.0 + size);
             let load = Complement { consumed: consumed * (1.0 + size * (1.0 + size)), remaining: size * size * size };
@@ -94,7 +94,7 @@ impl Contact {
     #[inline(always)]
     fn load_and_increase(&self, displacement: f64) -> (Complement, f64) {
         let full_stick = self.stick_zones().small_load().compliance;
-        match self.load_at(displacement) {
+        match self.load_at(self.before_slip(displacement)) {
             Some((load, stiffness)) => (load, self.stiffness_scale / stiffness - full_stick),
             None => {
                 let zone = self.stick_zone_at_displacement(displacement);

@@ -1,21 +1,13 @@
 //! Table of the complex stiffness over the displacement amplitude: a few polynomials, for all amplitudes.
 //!
-//! In units of the initial stiffness and of the displacement of gross slip, with amplitude ξ, displacement x, `ρ = 1 - x` and the
-//! tangent stiffness k,
+//! In units of the initial stiffness and of the displacement of gross slip, with amplitude ξ, `e = 1 - ξ`, and F, E those of a cycle,
 //!
 //! ```text
-//! K'  = (8/(π ξ²)) ∫ sqrt(ρ - e) φ dρ,     e = 1 - ξ,     φ = sqrt(1 - ρ) k,     from max(e, 0) to 1
-//! K'' = E/(π ξ²),                          E = 4 ∫ (ξ - 2x) k dx
+//! K'  = (8/(π ξ²)) (F(1) - e G(e))        G = (1/e) ∫ dF/dξ de'      from 0 to e
+//! K'' = (1/(π ξ²)) (E(1) - e R(e))        R = (1/e) ∫ dE/dξ de'
 //! ```
 //!
-//! Both are singular at gross slip: a power 3/2 of |e| times a series in e^(2/3) (flat) or in 1/ln e (cylinder). With
-//!
-//! ```text
-//! K'  = (8/π) (I - e G(e))/ξ²              I = ∫ sqrt(ρ) φ dρ
-//! G   = ∫ φ/(sqrt(ρ) + sqrt(ρ - e)) dρ + (1/e) ∫ sqrt(ρ) φ dρ      beyond e, and up to e if e > 0
-//! E   = E_s - e R(e)                       R = 4 [C(e) (1 + e)/e - (2/e) ∫ ρ (1-k) dρ - C(1)],     C = ∫ (1-k) dρ     up to e
-//! ```
-//!
+//! Both are singular at gross slip: a power 3/2 of |e| times a series in e^(2/3) (flat) or in 1/ln e (cylinder). In this form
 //! no digit is lost next to gross slip, and one polynomial in `u = (|e|/0.6)^(1/8)` represents G or R on each dyadic interval of u,
 //! down to the rounding of ξ:
 //!
@@ -23,31 +15,36 @@
 //! - 2/5 < ξ <= 1: G and R in u; 1 < ξ <= 1.6: G in u, with |e| and its sign;
 //! - beyond: `K' ξ^(3/2)` as a polynomial in 1/ξ. E is linear beyond 1.
 //!
-//! All are linear in k. Its values at Chebyshev points of the same intervals give all coefficients by constant matrices (`operators`).
-
-mod operators;
+//! dF/dξ and dE/dξ, those of a single call, are interpolated first.
 
 use crate::constant_load::contact::Contact;
-use crate::constant_load::interpolant::CYCLE_WEIGHTS;
-use crate::numerics::chebyshev::{Interpolant, MORE_AROUND_MIDDLE, MORE_FROM_END, Polynomial, TERMS};
+use crate::constant_load::interpolant::{CYCLE_WEIGHTS, INNER_FRACTION};
+use crate::constant_load::interpolant::{ENERGY_WEIGHTS, Place, eighth_root, weighted};
+use crate::numerics::chebyshev::{Interpolant, MORE_FROM_END, Polynomial, powers};
 use crate::numerics::polynomial::{Rows, rows, value_and_slope};
+use crate::numerics::quadrature::{MAX_GAUSS_BLOCKS, gauss_nodes};
 use crate::shape::stick_zone::Complement;
-use crate::simd::{dispatch, plus};
+use crate::simd::dispatch;
 use crate::tag::Kind;
 use core::array::from_fn;
 use core::f64::consts::PI;
-use operators::{FAR_TERMS, FIRST, Functionals, INNER_TAYLOR, OPERATORS, Operators, POINTS, TAYLOR, TOP};
 
-/// Dyadic intervals of u: the last ends below the distance of any other amplitude from that of gross slip. The stiffness is needed on
-/// one more.
+/// Dyadic intervals of u: the last ends below the distance of any other amplitude from that of gross slip.
 const PIECES: usize = 7;
-/// Rows of G below and beyond gross slip on all pieces but the first, on which it is nearly constant.
+/// Interpolation points.
+const POINTS: usize = 32;
+/// Rows of G below and beyond gross slip and of R on all pieces but the first, which is the closest to singularities beyond zero
+/// displacement.
 const ROWS_BELOW: usize = 5;
 const ROWS_ABOVE: usize = 4;
+const ROWS_OF_ENERGY: usize = 6;
+/// Largest e of the first piece.
+const TOP: f64 = 1.0 - INNER_FRACTION;
 /// Λ from which the polynomials are accurate: a singularity at a displacement of about -Λ² approaches the first ones.
 const SMALLEST_COMPLIANCE: f64 = 0.9;
-/// Smallest ξ of the last polynomial.
+/// Smallest ξ of the last polynomial, and its terms: the derivative of those that are left out is n² times as large.
 const FAR: f64 = 1.0 + TOP;
+const FAR_TERMS: usize = 24;
 /// The first polynomial is used somewhat beyond its interval, where its error has hardly grown: at the end of the first piece, the
 /// derivative is least accurate.
 const OVERLAP: f64 = 0.02;
@@ -60,12 +57,11 @@ pub(crate) struct StiffnessTable {
     tag: f64,
     /// The shape: Λ and the shift of gross slip.
     shape: [f64; 2],
-    /// (8/π) I and (8/π) G(0).
+    /// (8/π) F(1) and (8/π) G(0).
     moment: f64,
     slope_at_slip: f64,
-    /// E_s/π, R(0)/π and 4 T(1)/π.
+    /// E(1)/π and 4 T(1)/π.
     slip_energy: f64,
-    energy_slope_at_slip: f64,
     gross_slip_rate: f64,
     /// K' and K'' over y = ξ/(2/5).
     inner: [Polynomial; 2],
@@ -75,7 +71,7 @@ pub(crate) struct StiffnessTable {
     below: Pieces<ROWS_BELOW>,
     above: Pieces<ROWS_ABOVE>,
     /// R/π.
-    energy: Pieces<{ POINTS / 4 }>,
+    energy: Pieces<ROWS_OF_ENERGY>,
 }
 
 /// Length of a table in doubles.
@@ -90,12 +86,36 @@ const FEW_ROWS: usize = 6;
 struct Pieces<const R: usize> {
     /// Rows of the first polynomial that are not 0.
     rows_of_first: f64,
-    first: Rows<{ FIRST / 4 }>,
+    first: Rows<{ POINTS / 4 }>,
     others: [Rows<R>; PIECES - 1],
 }
 
 impl<const R: usize> Pieces<R> {
     const NONE: Pieces<R> = Pieces { rows_of_first: 0.0, first: [[0.0; 4]; _], others: [[[0.0; 4]; R]; PIECES - 1] };
+
+    /// The mean over (0, d) of a function of a distance d up to TOP, which is interpolated on some pieces first.
+    #[inline(never)]
+    fn mean_of<const MORE: usize>(rate: impl Fn(f64) -> f64) -> Pieces<R> {
+        let rates: [Rows<{ POINTS / 4 }>; MORE] = from_fn(|piece| {
+            powers(Interpolant::<POINTS>::through(|z| rate(TOP * Place { piece, z }.distance())).terms())
+        });
+        let mean = |piece: usize| {
+            // ∫ 8 y⁷ f(d y⁸) dy from 0 to 1.
+            Interpolant::<POINTS>::through(|z| {
+                let term = |(y, weight): (&f64, &f64)| {
+                    let (square, place) = (y * y, Place::of(Place { piece, z }.root() * y, MORE));
+                    let value = rates.get(place.piece).map_or(0.0, |rows| value_and_slope(rows, place.z).0);
+                    8.0 * weight * y * square * square * square * value
+                };
+                gauss_nodes(MAX_GAUSS_BLOCKS).map(term).sum()
+            })
+        };
+        let mut pieces = Pieces { first: powers(mean(0).terms()), ..Pieces::NONE };
+        let used = pieces.first.iter().rposition(|row| row.iter().any(|power| *power != 0.0));
+        pieces.rows_of_first = used.map_or(0.0, |last| (last + 1) as f64);
+        pieces.others.iter_mut().zip(1..).for_each(|(rows, piece)| *rows = powers(mean(piece).terms()));
+        pieces
+    }
 
     #[inline(always)]
     fn value_and_slope(&self, place: &Place) -> (f64, f64) {
@@ -106,36 +126,6 @@ impl<const R: usize> Pieces<R> {
                 _ => value_and_slope(&self.first, place.z),
             },
         }
-    }
-
-    #[inline(always)]
-    fn set_first(&mut self, factor: f64, series: &[f64; FIRST]) {
-        self.first = powers(&series.map(|term| factor * term));
-        let used = self.first.iter().rposition(|row| row.iter().any(|power| *power != 0.0));
-        self.rows_of_first = used.map_or(0.0, |last| (last + 1) as f64);
-    }
-}
-
-/// Piece and argument of a distance |e| from gross slip.
-struct Place {
-    piece: usize,
-    z: f64,
-}
-
-impl Place {
-    /// The place of `u = (|e|/0.6)^(1/8)`; `None` at gross slip itself.
-    #[inline(always)]
-    fn of(u: f64) -> Option<Place> {
-        let exponent = (u.to_bits() >> 52).min(1022);
-        let piece = (1022 - exponent) as usize;
-        let scale = f64::from_bits((2047 - 2 - exponent) << 52);
-        (piece < PIECES).then_some(Place { piece, z: 4.0 * (scale * u) - 3.0 })
-    }
-
-    /// `d(|e| f)/d|e|` of a function f of z with that value and slope.
-    #[inline(always)]
-    fn product_slope(&self, (value, slope): (f64, f64)) -> f64 {
-        value + 0.125 * (self.z + 3.0) * slope
     }
 }
 
@@ -163,7 +153,6 @@ impl StiffnessTable {
         moment: 0.0,
         slope_at_slip: 0.0,
         slip_energy: 0.0,
-        energy_slope_at_slip: 0.0,
         gross_slip_rate: 0.0,
         inner: [[[0.0; 4]; 5]; 2],
         far: [[0.0; 4]; FAR_TERMS / 4],
@@ -177,11 +166,33 @@ impl StiffnessTable {
     pub fn init(&mut self, contact: &Contact) {
         *self = StiffnessTable::EMPTY;
         self.shape = shape_of(contact);
-        let mut curve = Curve::EMPTY;
-        if curve.init(contact) {
+        let [compliance, _] = self.shape;
+        if !contact.is_frictionless() && compliance >= SMALLEST_COMPLIANCE && !contact.has_knee() {
             self.tag = Kind::StiffnessTable.tag(1);
-            self.fill(contact, &curve);
+            self.fill(contact);
         }
+    }
+
+    fn fill(&mut self, contact: &Contact) {
+        let (slip, initial) = (contact.slip_displacement, contact.initial_stiffness);
+        let integrals = |e: f64| contact.cycle_integrals(1.0 - e, e).map(|integral| 8.0 / PI * integral);
+        let amplitude = |e: f64| Complement { consumed: slip * (1.0 - e), remaining: slip * e };
+        let energy_rate = |e: f64| contact.cycle_energy(amplitude(e)).1 / (PI * initial * slip);
+        let secant = contact.secant_polynomial();
+        self.inner = [weighted(&secant, &CYCLE_WEIGHTS), weighted(&secant, &ENERGY_WEIGHTS)];
+        self.inner[1].as_flattened_mut().iter_mut().for_each(|power| *power /= PI);
+        [self.moment, self.slope_at_slip] = integrals(0.0);
+        self.slip_energy = contact.slip_energy / (PI * initial * slip * slip);
+        self.gross_slip_rate = 4.0 / PI * contact.slip_force / (initial * slip);
+        let far = Interpolant::<FAR_TERMS>::through(|z| {
+            let xi = 2.0 * FAR / (1.0 + z);
+            integrals(1.0 - xi)[0] / xi.sqrt()
+        });
+        self.far = rows(&far.powers_of(&MORE_FROM_END));
+        self.below = Pieces::mean_of::<PIECES>(|e| integrals(e)[1]);
+        // Beyond the last piece, this rate changes like the root of the distance, that of the energy of a cylinder like 1/ln.
+        self.above = Pieces::mean_of::<{ PIECES + 1 }>(|e| integrals(-e)[1]);
+        self.energy = Pieces::mean_of::<{ PIECES + 4 }>(energy_rate);
     }
 
     /// Whether the first double is that of a table, with polynomials or without.
@@ -208,10 +219,10 @@ impl StiffnessTable {
         contact: &Contact,
         amplitude: &[f64; N],
     ) -> [[ValueAndSlope; 2]; N] {
-        let (unit, per_slip) = (contact.initial_stiffness, contact.per_slip_displacement());
+        let (unit, per_slip) = (contact.initial_stiffness, contact.per_slip_displacement);
         let e = amplitude.map(|amplitude| (contact.slip_displacement - amplitude) * per_slip);
         // Roots of several take the time of one.
-        let u = e.map(|e| (e.abs() * (1.0 / TOP)).sqrt().sqrt().sqrt());
+        let u = e.map(|e| eighth_root(e.abs() * (1.0 / TOP)));
         from_fn(|i| {
             let values = self.at_fraction::<REAL, IMAGINARY>(amplitude[i] * per_slip, e[i], u[i]);
             values.map(|(value, slope)| (unit * value, unit * per_slip * slope))
@@ -272,392 +283,43 @@ impl StiffnessTable {
             let [real, imaginary] = &self.inner;
             [part(REAL, real), part(IMAGINARY, imaginary)]
         } else {
-            let (per_xi, place) = (1.0 / xi, Place::of(u));
-            let real = if REAL { self.outer_real(xi, per_xi, e, place.as_ref()) } else { (0.0, 0.0) };
-            [real, if IMAGINARY { self.outer_imaginary(per_xi, e, place.as_ref()) } else { (0.0, 0.0) }]
+            let (per_xi, place) = (1.0 / xi, Place::of(u, PIECES));
+            let real = if REAL { self.outer_real(xi, per_xi, e, &place) } else { (0.0, 0.0) };
+            [real, if IMAGINARY { self.outer_imaginary(per_xi, e, &place) } else { (0.0, 0.0) }]
         }
     }
 
     /// K' beyond the first polynomial.
     #[inline(always)]
-    fn outer_real(&self, xi: f64, per_xi: f64, e: f64, place: Option<&Place>) -> ValueAndSlope {
+    fn outer_real(&self, xi: f64, per_xi: f64, e: f64, place: &Place) -> ValueAndSlope {
         if xi > FAR {
             let (value, slope) = value_and_slope(&self.far, FAR * per_xi);
             let factor = per_xi * per_xi.sqrt();
             return (factor * value, -factor * per_xi * (1.5 * value + FAR * per_xi * slope));
         }
-        let (value, rate) = match place {
-            Some(place) => {
-                let g = if e > 0.0 { self.below.value_and_slope(place) } else { self.above.value_and_slope(place) };
-                (g.0, place.product_slope(g))
-            }
-            None => (self.slope_at_slip, self.slope_at_slip),
-        };
+        let g = if e > 0.0 { self.below.value_and_slope(place) } else { self.above.value_and_slope(place) };
+        let (value, rate) = if e == 0.0 { (0.0, self.slope_at_slip) } else { (g.0, place.product_slope(g)) };
         let real = (self.moment - e * value) * per_xi * per_xi;
         (real, (rate * per_xi - 2.0 * real) * per_xi)
     }
 
     /// K'' beyond the first polynomial.
     #[inline(always)]
-    fn outer_imaginary(&self, per_xi: f64, e: f64, place: Option<&Place>) -> ValueAndSlope {
-        let (value, rate) = match place {
-            _ if e <= 0.0 => (self.gross_slip_rate, self.gross_slip_rate),
-            Some(place) => {
-                let r = self.energy.value_and_slope(place);
-                (r.0, place.product_slope(r))
-            }
-            None => (self.energy_slope_at_slip, self.energy_slope_at_slip),
+    fn outer_imaginary(&self, per_xi: f64, e: f64, place: &Place) -> ValueAndSlope {
+        let (value, rate) = if e > 0.0 {
+            let r = self.energy.value_and_slope(place);
+            (r.0, place.product_slope(r))
+        } else {
+            (self.gross_slip_rate, self.gross_slip_rate)
         };
         let imaginary = (self.slip_energy - e * value) * per_xi * per_xi;
         (imaginary, (rate * per_xi - 2.0 * imaginary) * per_xi)
     }
 }
 
-/// Powers of z of the first terms of a Chebyshev series, without those at its end that are rounding errors: their derivatives would
-/// be n² times as large.
-fn powers<const N: usize, const R: usize>(series: &[f64; N]) -> Rows<R> {
-    let size = series.iter().fold(0.0, |size: f64, term| size.max(term.abs()));
-    let used = series.iter().rposition(|term| term.abs() > f64::EPSILON * size).map_or(0, |last| last + 1);
-    let mut sums = [0.0; FIRST];
-    let used = series.get(..used.min(4 * R)).unwrap_or(&[]);
-    apply_columns(&mut sums, 1.0, MORE_AROUND_MIDDLE.as_flattened(), used, FIRST);
-    let mut result = [[0.0; 4]; R];
-    result.iter_mut().zip(sums.as_chunks().0).for_each(|(row, sum)| *row = *sum);
-    result
-}
-
-/// Adds the first terms of a constant series times a factor.
-#[inline(never)]
-fn add(series: &mut [f64], factor: f64, term: &[f64]) {
-    series.iter_mut().zip(term).for_each(|(sum, term)| *sum += factor * term);
-}
-
-/// Adds an operator applied to inputs, times a factor.
-fn apply<const M: usize, const N: usize>(series: &mut [f64], factor: f64, operator: &[[f64; N]; M], inputs: &[f64; M]) {
-    apply_columns(series, factor, operator.as_flattened(), inputs, N);
-}
-
-/// One function for operators of all sizes; the rows of all are multiples of four.
-#[inline(always)]
-fn apply_columns(series: &mut [f64], factor: f64, operator: &[f64], inputs: &[f64], rows: usize) {
-    dispatch!(columns_kernel, series: &mut [f64], factor: f64, operator: &[f64], inputs: &[f64], rows: usize => ());
-}
-
-#[inline(always)]
-fn columns_kernel(series: &mut [f64], factor: f64, operator: &[f64], inputs: &[f64], rows: usize) {
-    let (strips, rest) = series.as_chunks_mut::<4>().0.as_chunks_mut::<4>();
-    let done = 4 * strips.len();
-    for (strip, sums) in strips.iter_mut().enumerate() {
-        add_columns(sums, 4 * strip, factor, operator, inputs, rows);
-    }
-    for (block, sums) in rest.as_chunks_mut::<1>().0.iter_mut().enumerate() {
-        add_columns(sums, done + block, factor, operator, inputs, rows);
-    }
-}
-
-/// Blocks of four rows, which stay in registers.
-#[inline(always)]
-fn add_columns<const BLOCKS: usize>(
-    sums: &mut [[f64; 4]; BLOCKS],
-    first: usize,
-    factor: f64,
-    operator: &[f64],
-    inputs: &[f64],
-    rows: usize,
-) {
-    let mut strip = *sums;
-    for (column, input) in operator.chunks_exact(rows.max(1)).zip(inputs) {
-        let scale = factor * input;
-        if let Some(terms) = column.as_chunks::<4>().0.get(first..).and_then(<[_]>::first_chunk::<BLOCKS>) {
-            for block in 0..BLOCKS {
-                strip[block] = plus(strip[block], scale, terms[block]);
-            }
-        }
-    }
-    *sums = strip;
-}
-
-/// Products of the rows of a matrix with the values.
-#[inline(always)]
-fn dots(matrix: &[f64], values: &[f64], products: &mut [f64]) {
-    dispatch!(dots_kernel, matrix: &[f64], values: &[f64], products: &mut [f64] => ());
-}
-
-#[inline(always)]
-fn dots_kernel(matrix: &[f64], values: &[f64], products: &mut [f64]) {
-    for (product, row) in products.iter_mut().zip(matrix.chunks_exact(values.len().max(1))) {
-        *product = dot(row, values);
-    }
-}
-
-#[inline(always)]
-fn dot(weights: &[f64], values: &[f64]) -> f64 {
-    let mut sums = [0.0; 4];
-    for (weights, values) in weights.as_chunks::<4>().0.iter().zip(values.as_chunks::<4>().0) {
-        for lane in 0..4 {
-            sums[lane] += weights[lane] * values[lane];
-        }
-    }
-    (sums[0] + sums[2]) + (sums[1] + sums[3])
-}
-
-/// What a table needs of a piece of the curve, with `ρ = scale s`.
-struct Input<const N: usize> {
-    scale: f64,
-    root: f64,
-    /// φ (on the first piece k) and 1 - k at the points.
-    phi: [f64; N],
-    decrease: [f64; N],
-}
-
-/// The curve in units of the initial stiffness and of the displacement of gross slip.
-struct Curve {
-    /// Secant stiffness over y: coefficients of its powers.
-    secant: [f64; TERMS],
-    first: Input<FIRST>,
-    others: [Input<POINTS>; PIECES],
-}
-
 fn shape_of(contact: &Contact) -> [f64; 2] {
     let zones = contact.stick_zones();
     [zones.small_load().compliance, zones.slip_shift()]
-}
-
-impl Curve {
-    const EMPTY: Curve = Curve { secant: [0.0; TERMS], first: Input::EMPTY, others: [Input::EMPTY; PIECES] };
-
-    /// `false` without friction, for small Λ, and with a layer whose N_c is small.
-    #[inline(never)]
-    fn init(&mut self, contact: &Contact) -> bool {
-        let [compliance, slip_shift] = shape_of(contact);
-        if contact.is_frictionless() || compliance < SMALLEST_COMPLIANCE || contact.has_knee() {
-            return false;
-        }
-        let series = contact.stick_zones().small_load();
-        let layered = contact.layered_zones();
-        let (mut with_layer, mut without) = (layered.sequence(), layered.flat.sequence());
-        let mut sequence =
-            |remaining: f64| if contact.is_layered() { with_layer(remaining) } else { without(remaining) };
-        // 1 - k where x and ρ are given.
-        let mut decrease_at = |consumed: f64, remaining: f64| {
-            if contact.is_elementary() {
-                return consumed / (1.0 + remaining.sqrt());
-            }
-            let shift = Complement { consumed: slip_shift * consumed, remaining: slip_shift * remaining };
-            let increase = if shift.consumed <= series.half_shift {
-                series.at_shift(shift).compliance_increase
-            } else {
-                sequence(shift.remaining).compliance_increase
-            };
-            increase / (compliance + increase)
-        };
-        let decrease = Interpolant::<TERMS>::through(|z| {
-            let x = 0.5 * (1.0 + z) * (1.0 - TOP);
-            decrease_at(x, 1.0 - x)
-        });
-        self.secant.iter_mut().zip(decrease.mean_from_end().as_flattened()).for_each(|(to, from)| *to = -from);
-        if let Some(first) = self.secant.first_mut() {
-            *first = 1.0;
-        }
-        let mut scale = TOP;
-        self.first.init(scale, &mut decrease_at);
-        for other in &mut self.others {
-            scale *= 1.0 / 256.0;
-            other.init(scale, &mut decrease_at);
-        }
-        true
-    }
-}
-
-impl<const N: usize> Input<N> {
-    const EMPTY: Input<N> = Input { scale: 0.0, root: 0.0, phi: [0.0; N], decrease: [0.0; N] };
-
-    fn init(&mut self, scale: f64, decrease_at: &mut impl FnMut(f64, f64) -> f64) {
-        (self.scale, self.root) = (scale, scale.sqrt());
-        let points = const { &Interpolant::<N>::POINTS };
-        for ((phi, decrease), z) in self.phi.iter_mut().zip(&mut self.decrease).zip(points) {
-            let v = 0.25 * (3.0 + z);
-            let square = v * v;
-            let rho = scale * ((square * square) * (square * square));
-            *decrease = decrease_at(1.0 - rho, rho);
-            *phi = if scale < TOP { (1.0 - rho).sqrt() } else { 1.0 } * (1.0 - *decrease);
-        }
-    }
-
-    fn moments(&self, functionals: &Functionals<N>) -> Moments {
-        let Input { scale, root, phi, decrease } = self;
-        let mut moments = Moments { root: 0.0, roots: [0.0; _], powers: [[0.0; _]; 2] };
-        let [mut per_scale, mut power] = [*root, 1.0];
-        dots(functionals.root_moments.as_flattened(), phi, &mut moments.roots);
-        for product in &mut moments.roots {
-            *product *= per_scale;
-            per_scale /= scale;
-        }
-        let [of_phi, of_decrease] = &mut moments.powers;
-        dots(functionals.moments.as_flattened(), phi, of_phi);
-        dots(functionals.moments.as_flattened(), decrease, of_decrease);
-        for (of_phi, of_decrease) in of_phi.iter_mut().zip(of_decrease) {
-            power *= scale;
-            *of_phi *= power;
-            *of_decrease *= power;
-        }
-        moments.root = scale * root * dot(&functionals.root_moment, phi);
-        moments
-    }
-}
-
-/// Integrals over a piece, of φ or for the last of φ and 1 - k.
-#[derive(Clone, Copy)]
-struct Moments {
-    /// Times `sqrt(ρ)` and `ρ^(-1/2-k)`, and both times `ρ^k`.
-    root: f64,
-    roots: [f64; TAYLOR],
-    powers: [[f64; INNER_TAYLOR]; 2],
-}
-
-/// `|binomial(1/2, k + 1)|`: coefficients of `1/(sqrt(s) + sqrt(s - e))` in `e^k s^(-1/2-k)`.
-const DIFFERENCES: [f64; TAYLOR] = {
-    let mut table = [0.5; TAYLOR];
-    let mut k = 1;
-    while k < TAYLOR {
-        table[k] = table[k - 1] * (k as f64 - 0.5) / (k as f64 + 1.0);
-        k += 1;
-    }
-    table
-};
-
-impl StiffnessTable {
-    fn fill(&mut self, contact: &Contact, curve: &Curve) {
-        let Curve { secant, first, others } = curve;
-        let n = from_fn::<f64, TERMS, _>(|n| n as f64);
-        let mut tangent = *secant;
-        tangent.iter_mut().zip(n).for_each(|(power, n)| *power *= n + 1.0);
-        let mut inner = [*secant; 2];
-        inner[0].iter_mut().zip(CYCLE_WEIGHTS.as_flattened()).for_each(|(power, weight)| *power *= weight);
-        inner[1].iter_mut().zip(n).for_each(|(power, n)| *power *= -4.0 / PI * n / (n + 2.0));
-        self.inner = inner.each_ref().map(rows);
-
-        // Those of the first piece, of the others, and of what remains, where the stiffness is constant.
-        let mut moments = [first.moments(&OPERATORS.of_first); PIECES + 2];
-        moments
-            .iter_mut()
-            .skip(1)
-            .zip(others)
-            .for_each(|(moments, other)| *moments = other.moments(&OPERATORS.of_others));
-        {
-            let [.., rest] = &mut moments;
-            let [.., Input { scale, phi: [.., phi], decrease: [.., decrease], .. }] = others;
-            let size = scale * (1.0 / 256.0);
-            *rest = Moments { root: 0.0, roots: [0.0; _], powers: [[0.0; _]; 2] };
-            rest.roots[0] = 2.0 * size.sqrt() * phi;
-            (rest.powers[0][0], rest.powers[1][0]) = (size * phi, size * decrease);
-        }
-        // From the smallest piece on.
-        let sum = |from: usize, of: &dyn Fn(&Moments) -> f64| moments.iter().skip(from).rev().map(of).sum::<f64>();
-        let mut outer = [0.0; TAYLOR];
-        dots(OPERATORS.outer_root_moments.as_flattened(), &tangent, &mut outer);
-        self.moment = 8.0 / PI * (dot(&OPERATORS.outer_root_moment, &tangent) + sum(0, &|of| of.root));
-        self.slope_at_slip = 4.0 / PI * (outer[0] + sum(0, &|of| of.roots[0]));
-        let decrease = sum(0, &|of| of.powers[1][0]) - (1.0 - TOP) * secant.iter().skip(1).sum::<f64>();
-        let slip_force = self.shape[0] / self.shape[1];
-        self.slip_energy = contact.slip_energy / contact.slip_force / contact.slip_displacement * slip_force / PI;
-        self.energy_slope_at_slip = 4.0 / PI * (1.0 - contact.stiffness_at_slip() - decrease);
-        self.gross_slip_rate = 4.0 / PI * slip_force;
-
-        let mut far = [0.0; FAR_TERMS];
-        apply(&mut far, 1.0, &OPERATORS.far, &tangent);
-        apply(&mut far, first.scale, &OPERATORS.far_first, &first.phi);
-        let [second, ..] = others;
-        apply(&mut far, second.scale, &OPERATORS.far_second, &second.phi);
-        for (k, series) in OPERATORS.far_roots.iter().enumerate() {
-            add(&mut far, sum(2, &|of| of.powers[0][k]), series);
-        }
-        let mut far_powers = [0.0; FAR_TERMS];
-        apply(&mut far_powers, 8.0 / PI, &MORE_FROM_END, &far);
-        self.far = rows(&far_powers);
-
-        let closer_than = |j: usize| moments.get(j + 1..).unwrap_or(&[]);
-        let (mut below, mut above, energy) =
-            own_terms::<FIRST, FIRST>(first, second, &OPERATORS.to_first, closer_than(0), decrease);
-        apply(&mut below, 1.0, &OPERATORS.outer_below, &tangent);
-        apply(&mut above, 1.0, &OPERATORS.outer_above, &tangent);
-        self.below.set_first(8.0 / PI, &below);
-        self.above.set_first(8.0 / PI, &above);
-        self.energy.set_first(4.0 / PI, &energy);
-
-        // Coefficients of e^k of all beyond the next piece.
-        let mut distant = outer;
-        let mut next: Option<&Input<POINTS>> = None;
-        let targets = self.below.others.iter_mut().zip(&mut self.above.others).zip(&mut self.energy.others);
-        for (j, (own, before), ((below_rows, above_rows), energy_rows)) in
-            others.windows(2).zip(targets).enumerate().filter_map(|(i, (pair, targets))| match pair {
-                [own, before] => Some((i + 1, (own, before), targets)),
-                _ => None,
-            })
-        {
-            let (mut below, mut above, energy) =
-                own_terms::<POINTS, { 4 * ROWS_ABOVE }>(own, before, &OPERATORS.to_others, closer_than(j), decrease);
-            match next {
-                None => {
-                    apply(&mut below, first.root, &OPERATORS.of_first.below_next, &first.phi);
-                    apply(&mut above, first.root, &OPERATORS.of_first.above_next, &first.phi);
-                }
-                Some(next) => {
-                    apply(&mut below, next.root, &OPERATORS.of_others.below_next, &next.phi);
-                    apply(&mut above, next.root, &OPERATORS.of_others.above_next, &next.phi);
-                    if let Some(farther) = moments.get(j - 2) {
-                        add(&mut distant, 1.0, &farther.roots);
-                    }
-                }
-            }
-            let mut power = 1.0;
-            for ((k, series), (difference, sum)) in
-                OPERATORS.powers.iter().enumerate().zip(DIFFERENCES.iter().zip(&distant))
-            {
-                add(&mut below, difference * power * sum, series);
-                add(&mut above, if k % 2 == 0 { difference * power * sum } else { -difference * power * sum }, series);
-                power *= own.scale;
-            }
-            *below_rows = powers(&below.map(|term| 8.0 / PI * term));
-            *above_rows = powers(&above.map(|term| 8.0 / PI * term));
-            *energy_rows = powers(&energy.map(|term| 4.0 / PI * term));
-            next = Some(own);
-        }
-    }
-}
-
-/// Series of G below and beyond gross slip and of R/4 on a piece: what the piece itself and all closer to gross slip give, and all of
-/// R/4.
-fn own_terms<const N: usize, const M: usize>(
-    own: &Input<N>,
-    before: &Input<POINTS>,
-    operators: &Operators<N>,
-    closer: &[Moments],
-    total_decrease: f64,
-) -> ([f64; N], [f64; M], [f64; N]) {
-    let sum = |from: usize, of: &dyn Fn(&Moments) -> f64| closer.iter().skip(from).rev().map(of).sum::<f64>();
-    let per_scale = 1.0 / own.scale;
-    let (mut below, mut above, mut energy) = ([0.0; N], [0.0; M], [0.0; N]);
-    apply(&mut below, own.root, &operators.below, &own.phi);
-    add(&mut below, per_scale * sum(0, &|of| of.root), &operators.inverse);
-
-    apply(&mut above, own.root, &operators.above, &own.phi);
-    apply(&mut above, before.root, &operators.above_before, &before.phi);
-    add(&mut above, -per_scale * sum(1, &|of| of.root), &operators.inverse);
-    let mut binomial = 1.0 / own.root;
-    for (k, series) in operators.inverse_roots.iter().enumerate() {
-        add(&mut above, binomial * sum(1, &|of| of.powers[0][k]), series);
-        binomial *= (0.5 - k as f64) / (k as f64 + 1.0) * per_scale;
-    }
-
-    apply(&mut energy, 1.0, &operators.mean, &own.decrease);
-    apply(&mut energy, own.scale, &operators.energy, &own.decrease);
-    let [zeroth, first] = [0, 1].map(|k| sum(0, &|of| of.powers[1][k]));
-    add(&mut energy, per_scale * (zeroth - 2.0 * first), &operators.inverse);
-    if let Some(constant) = energy.first_mut() {
-        *constant += zeroth - total_decrease;
-    }
-    (below, above, energy)
 }
 
 #[cfg(test)]
@@ -672,7 +334,6 @@ mod tests {
         table
     }
 
-    /// Against the rules and the quadrature over the curve, whose derivative is off by up to 2e-12 just beyond gross slip.
     #[test]
     fn table_agrees_with_quadrature_at_all_amplitudes() {
         let short = cylinder(2.5, 0.0, CENTRE_POINT).unwrap();
@@ -692,8 +353,7 @@ mod tests {
                 assert!((imaginary - exact_imaginary).abs() < 1e-13 * exact_imaginary, "{fraction}");
                 let (slope, d_slope) =
                     (amplitude * (d_real - exact_d_real), amplitude * (d_imaginary - exact_d_imaginary));
-                let just_beyond = (1.0..1.0 + 1e-9).contains(&fraction);
-                assert!(slope.abs() < if just_beyond { 2e-12 } else { 3e-13 } * unit, "{fraction} {}", slope / unit);
+                assert!(slope.abs() < 3e-13 * unit, "{fraction} {}", slope / unit);
                 assert!(d_slope.abs() < 2e-13 * unit, "{fraction} {}", d_slope / unit);
             }
         }

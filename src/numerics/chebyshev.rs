@@ -46,7 +46,7 @@ pub(crate) const fn monic_powers<const N: usize, const M: usize>(shift: f64, sca
 /// Expansion about the middle of (-1, 1), in powers of z.
 static AROUND_MIDDLE: [[f64; TERMS]; TERMS] = powers_in(0.0, 1.0);
 /// The same of 32 terms.
-pub(crate) static MORE_AROUND_MIDDLE: [[f64; 32]; 32] = powers_in(0.0, 1.0);
+static MORE_AROUND_MIDDLE: [[f64; 32]; 32] = powers_in(0.0, 1.0);
 /// Expansion about the lower end, in powers of y = (1+z)/2 from 0 to 1.
 static FROM_END: [[f64; TERMS]; TERMS] = powers_in(-1.0, 2.0);
 pub(crate) static MORE_FROM_END: [[f64; 24]; 24] = powers_in(-1.0, 2.0);
@@ -166,9 +166,14 @@ impl<const N: usize> Interpolant<N> {
         self.0.first().copied().unwrap_or(0.0)
     }
 
+    /// The coefficients of T_0, T_1, ...
+    pub fn terms(&self) -> &[f64; N] {
+        &self.0
+    }
+
     /// Conversion to powers of the variable of `table`.
-    fn powers(&self, table: &[[f64; TERMS]; TERMS]) -> [f64; TERMS] {
-        let mut powers = [0.0; TERMS];
+    pub fn powers_of<const M: usize>(&self, table: &[[f64; M]; M]) -> [f64; M] {
+        let mut powers = [0.0; M];
         for (coefficient, row) in self.0.iter().zip(table) {
             powers.iter_mut().zip(row).for_each(|(sum, power)| *sum += coefficient * power);
         }
@@ -198,12 +203,12 @@ impl<const N: usize> Interpolant<N> {
 
     /// Coefficients of the powers of z.
     pub fn powers_from_middle(&self) -> Polynomial {
-        rows(&self.powers(&AROUND_MIDDLE))
+        rows(&self.powers_of(&AROUND_MIDDLE))
     }
 
     /// Coefficients of the powers of y = (1+z)/2.
     pub fn powers_from_end(&self) -> [f64; TERMS] {
-        self.powers(&FROM_END)
+        self.powers_of(&FROM_END)
     }
 
     /// Mean over (0, y), as a polynomial in y = (1+z)/2.
@@ -214,6 +219,18 @@ impl<const N: usize> Interpolant<N> {
         }
         rows(&powers)
     }
+}
+
+/// Powers of z of the first terms of a Chebyshev series, without those at its end that are rounding errors: their derivatives would
+/// be n² times as large.
+pub(crate) fn powers<const R: usize>(series: &[f64]) -> Rows<R> {
+    let size = series.iter().fold(0.0, |size: f64, term| size.max(term.abs()));
+    let used = series.iter().rposition(|term| term.abs() > f64::EPSILON * size).map_or(0, |last| last + 1);
+    let mut result = [[0.0; 4]; R];
+    for (term, row) in series.iter().zip(&MORE_AROUND_MIDDLE).take(used.min(4 * R)) {
+        result.as_flattened_mut().iter_mut().zip(row).for_each(|(power, factor)| *power += term * factor);
+    }
+    result
 }
 
 #[cfg(test)]

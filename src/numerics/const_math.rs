@@ -1,6 +1,6 @@
 //! Elementary functions for tables that are computed at compile time.
 
-use core::f64::consts::{FRAC_PI_2, LN_2};
+use core::f64::consts::FRAC_PI_2;
 
 /// `cos(π/2 m/quarter)`: Taylor series on the first octant, symmetry elsewhere.
 pub(crate) const fn cosine(m: usize, quarter: usize) -> f64 {
@@ -24,24 +24,6 @@ pub(crate) const fn cosine(m: usize, quarter: usize) -> f64 {
     if first == 0 { sum } else { angle * sum }
 }
 
-/// `exp(x)`: Taylor series after reduction of the argument by multiples of ln 2.
-pub(crate) const fn exp(x: f64) -> f64 {
-    let exponent = (x / LN_2) as i32;
-    let reduced = x - exponent as f64 * LN_2;
-    let mut sum = 1.0;
-    let mut n = 24;
-    while n > 0 {
-        sum = 1.0 + sum * reduced / n as f64;
-        n -= 1;
-    }
-    let mut k = 0;
-    while k < exponent.abs() {
-        sum *= if exponent > 0 { 2.0 } else { 0.5 };
-        k += 1;
-    }
-    sum
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -54,15 +36,6 @@ mod tests {
                 // The argument of `exact` is rounded: at most 2.25 periods.
                 assert!((cosine(m, quarter) - exact).abs() < 3e-15, "{m} {quarter}");
             }
-        }
-    }
-
-    #[test]
-    fn exp_agrees_with_the_standard_library() {
-        for k in 0..=64 {
-            let x = -40.0 + 0.7 * f64::from(k);
-            // One unit of rounding per power of two.
-            assert!((exp(x) / x.exp() - 1.0).abs() < 64.0 * f64::EPSILON, "{x}");
         }
     }
 }

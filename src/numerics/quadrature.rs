@@ -1,37 +1,49 @@
-//! Quadrature rules on (0, 1): Gauss-Legendre for smooth integrands, tanh-sinh for endpoint singularities. All weights are positive:
-//! a positive integrand is summed without cancellation.
+//! Gauss-Legendre rules on (0, 1). All weights are positive: a positive integrand is summed without cancellation.
 
-use super::const_math::{cosine, exp};
-use core::f64::consts::PI;
+use super::const_math::cosine;
 
 /// Blocks of four nodes in the largest [`gauss_rule`].
 pub(crate) const MAX_GAUSS_BLOCKS: usize = 8;
+
+/// Node i of n of the Gauss-Legendre rule on (0, 1), and its weight.
+const fn gauss_node(n: usize, i: usize) -> (f64, f64) {
+    // Newton's method for a root of P_n from Tricomi's estimate -cos(π (i + 3/4)/(n + 1/2)), P_n by recurrence.
+    let mut x = -cosine(4 * i + 3, 2 * n + 1);
+    let (mut rounds, mut weight) = (0, 0.0);
+    while rounds < 6 {
+        let (mut before, mut p, mut k) = (1.0, x, 2);
+        while k <= n {
+            let next = ((2 * k - 1) as f64 * x * p - (k - 1) as f64 * before) / k as f64;
+            (before, p) = (p, next);
+            k += 1;
+        }
+        let slope = n as f64 * (before - x * p) / (1.0 - x * x);
+        x -= p / slope;
+        weight = 1.0 / ((1.0 - x * x) * slope * slope);
+        rounds += 1;
+    }
+    (0.5 * (1.0 + x), weight)
+}
+
+/// Nodes and weights of the Gauss-Legendre rule of N nodes on (0, 1).
+pub(crate) const fn gauss_legendre<const N: usize>() -> [[f64; N]; 2] {
+    let mut rule = [[0.0; N]; 2];
+    let mut i = 0;
+    while i < N {
+        (rule[0][i], rule[1][i]) = gauss_node(N, i);
+        i += 1;
+    }
+    rule
+}
 
 /// Gauss-Legendre rules with 4, 8, 12, ... nodes, concatenated.
 static GAUSS_RULES: [[[f64; 4]; 2]; MAX_GAUSS_BLOCKS * (MAX_GAUSS_BLOCKS + 1) / 2] = {
     let mut table = [[[0.0; 4]; 2]; _];
     let (mut blocks, mut start) = (1, 0);
     while blocks <= MAX_GAUSS_BLOCKS {
-        let n = 4 * blocks;
         let mut i = 0;
-        while i < n {
-            // Newton's method for a root of P_n from Tricomi's estimate -cos(π (i + 3/4)/(n + 1/2)), P_n by recurrence.
-            let mut x = -cosine(4 * i + 3, 2 * n + 1);
-            let (mut rounds, mut weight) = (0, 0.0);
-            while rounds < 6 {
-                let (mut before, mut p, mut k) = (1.0, x, 2);
-                while k <= n {
-                    let next = ((2 * k - 1) as f64 * x * p - (k - 1) as f64 * before) / k as f64;
-                    (before, p) = (p, next);
-                    k += 1;
-                }
-                let slope = n as f64 * (before - x * p) / (1.0 - x * x);
-                x -= p / slope;
-                weight = 1.0 / ((1.0 - x * x) * slope * slope);
-                rounds += 1;
-            }
-            table[start + i / 4][0][i % 4] = 0.5 * (1.0 + x);
-            table[start + i / 4][1][i % 4] = weight;
+        while i < 4 * blocks {
+            (table[start + i / 4][0][i % 4], table[start + i / 4][1][i % 4]) = gauss_node(4 * blocks, i);
             i += 1;
         }
         start += blocks;
@@ -58,38 +70,8 @@ pub(crate) fn gauss_nodes(blocks: usize) -> impl Iterator<Item = (&'static f64, 
     gauss_rule(blocks).iter().flat_map(|[nodes, weights]| nodes.iter().zip(weights))
 }
 
-/// A node of the tanh-sinh rule: its distance from 0, with small relative error also near 0, and its weight.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Node {
-    pub from_0: f64,
-    pub weight: f64,
-}
-
-/// Step h of the trapezoidal rule under the tanh-sinh map.
-///
-/// A logarithm or a root at an end has a negligible error of `exp(-π²/h)`. The step is determined by branch points close to an end:
-/// that of ln c at w = ±ia for a nearly cylindrical contact, and that of 1-X near gross slip. Compared with h = 1/64, the complex
-/// stiffness has an error of 2e-15 for h = 1/16; its derivative, the more sensitive, of 4e-13 K/amplitude for h = 1/20.
-const STEP: f64 = 1.0 / 20.0;
-/// Nodes on each side of 1/2; the last has a distance of `exp(-π sinh 3.2)` = 2e-17 from its end.
-const HALF_NODES: usize = 64;
-
-/// Tanh-sinh rule: nodes `1/(1 + exp(-π sinh t))`, t a multiple of [`STEP`].
-pub(crate) static TANH_SINH: [Node; 2 * HALF_NODES + 1] = {
-    let mut table = [Node { from_0: 0.5, weight: 0.0 }; 2 * HALF_NODES + 1];
-    let mut k = 0;
-    while k <= HALF_NODES {
-        let t = k as f64 * STEP;
-        let (up, down) = (exp(t), exp(-t));
-        let near = exp(-PI * 0.5 * (up - down));
-        let (far_end, near_end) = (1.0 / (1.0 + near), near / (1.0 + near));
-        let weight = STEP * PI * 0.5 * (up + down) * far_end * near_end;
-        table[HALF_NODES + k] = Node { from_0: far_end, weight };
-        table[HALF_NODES - k] = Node { from_0: near_end, weight };
-        k += 1;
-    }
-    table
-};
+#[cfg(test)]
+pub(crate) use tests::TANH_SINH;
 
 /// `∫ f` over (0, length) by 16-point Gauss-Legendre.
 pub(crate) fn gauss(length: f64, mut f: impl FnMut(f64) -> f64) -> f64 {
@@ -99,6 +81,26 @@ pub(crate) fn gauss(length: f64, mut f: impl FnMut(f64) -> f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use core::f64::consts::PI;
+    use std::sync::LazyLock;
+    use std::vec::Vec;
+
+    /// A node of the tanh-sinh rule: its distance from 0, with small relative error also near 0, and its weight.
+    pub(crate) struct Node {
+        pub from_0: f64,
+        pub weight: f64,
+    }
+
+    /// Tanh-sinh rule on (0, 1), for endpoint singularities: nodes `1/(1 + exp(-π sinh t))`, t in steps of 1/20 up to a distance of
+    /// `exp(-π sinh 3.2)` = 2e-17 from the ends. A logarithm or a root at an end has a negligible error of `exp(-π²/h)`.
+    pub(crate) static TANH_SINH: LazyLock<Vec<Node>> = LazyLock::new(|| {
+        let node = |k: i32| {
+            let t = 0.05 * f64::from(k);
+            let [far, near] = [-t, t].map(|t| 1.0 / (1.0 + (PI * t.sinh()).exp()));
+            Node { from_0: far, weight: 0.05 * PI * t.cosh() * far * near }
+        };
+        (-64..=64).map(node).collect()
+    });
 
     #[test]
     fn gauss_rules_are_exact_for_polynomials() {

@@ -18,7 +18,7 @@ use crate::parameters;
 use crate::shape::stick_zone::ellipse::EllipseZones;
 use crate::shape::stick_zone::rounded_flat::RoundedFlatZones;
 use crate::shape::stick_zone::small_load::{RETAINED_TERMS, SmallLoadSeries};
-use crate::shape::stick_zone::{Complement, CurvePoint, QuadraturePoint, StickZone, StickZones, SurfacePoint};
+use crate::shape::stick_zone::{Complement, CurvePoint, StickZone, StickZones, SurfacePoint};
 use crate::shape::{ORDER, Relation, Reversed, Series, Shape, TINY};
 
 /// The layer of a contact, in absolute terms.
@@ -458,15 +458,6 @@ impl StickZones for LayeredZones {
         self.contact().dissipation_beyond_half(&self.in_contact(zone)) + self.layer.dissipation(zone.load)
     }
 
-    fn d_dissipation(&self, zone: &StickZone) -> f64 {
-        let tau = zone.load.consumed;
-        if tau <= 0.5 {
-            self.small_load.d_dissipation(tau)
-        } else {
-            self.cycle(zone.load.remaining, zone.compliance_increase).1
-        }
-    }
-
     fn cycle(&self, remaining: f64, compliance_increase: f64) -> (f64, f64) {
         let load = Complement { consumed: 1.0 - remaining, remaining };
         let increase = compliance_increase - self.layer.increase(load);
@@ -480,32 +471,6 @@ impl StickZones for LayeredZones {
 
     fn size_parameter(&self, zone: &StickZone) -> f64 {
         self.contact().size_parameter(&self.in_contact(zone))
-    }
-
-    fn quadrature_point(&self, size_parameter: f64) -> QuadraturePoint {
-        let point = self.contact().quadrature_point(size_parameter);
-        let (load, compliance) = (point.load, self.layer.compliance);
-        QuadraturePoint {
-            load,
-            shift: Complement {
-                consumed: point.shift.consumed + compliance * self.layer.consumed(load),
-                remaining: point.shift.remaining + compliance * self.layer.remaining(load.remaining),
-            },
-            compliance: point.compliance + self.layer.compliance_at(load),
-            dload_dsigma: point.dload_dsigma,
-            dcompliance_dsigma: point.dcompliance_dsigma + self.layer.curvature(load) * point.dload_dsigma,
-        }
-    }
-
-    /// The nearer one of the branch point of the contact and that of the layer, where the load is -N_c.
-    fn log_branch_distance(&self) -> f64 {
-        let of_contact = self.contact().log_branch_distance();
-        if self.layer.softest >= 0.3 {
-            return of_contact;
-        }
-        let ratio = self.layer.softest / self.layer.stiffening;
-        let inverse = 1.0 / self.contact().size_parameter(&self.contact().at_load_remaining(ratio)).max(1e-5);
-        of_contact.max((inverse + (inverse * inverse + 1.0).sqrt()).ln())
     }
 
     fn pressure(&self, point: &SurfacePoint) -> f64 {

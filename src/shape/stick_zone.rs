@@ -23,8 +23,6 @@ pub(crate) mod ellipse;
 pub(crate) mod rounded_flat;
 pub(crate) mod small_load;
 
-use crate::numerics::quadrature::TANH_SINH;
-use core::array::from_fn;
 use small_load::SmallLoadSeries;
 
 /// A complementary pair of amounts, `consumed + remaining`. Neither is computed from the other if it is the smaller.
@@ -45,19 +43,6 @@ pub(crate) struct StickZone {
     pub compliance_increase: f64,
     /// Size parameter σ if the zone was found by it; otherwise it follows from λ.
     pub size_parameter: Option<f64>,
-}
-
-/// Integrands at a stick zone of given size parameter σ.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct QuadraturePoint {
-    pub load: Complement,
-    pub shift: Complement,
-    /// Λ + λ.
-    pub compliance: f64,
-    /// -dτ/dσ.
-    pub dload_dsigma: f64,
-    /// -dλ/dσ.
-    pub dcompliance_dsigma: f64,
 }
 
 /// A point along the width. The differences are computed from the dimensional lengths: for a nearly flat contact the rounding error of
@@ -109,12 +94,6 @@ pub(crate) trait StickZones {
     /// Size parameter σ, from 0 for the smallest zone to 1 for b.
     fn size_parameter(&self, zone: &StickZone) -> f64;
 
-    /// The integrands at a size parameter.
-    fn quadrature_point(&self, size_parameter: f64) -> QuadraturePoint;
-
-    /// `ln(2 σ_b/d)`, with d the distance of the nearest branch point from σ = 0.
-    fn log_branch_distance(&self) -> f64;
-
     /// Pressure in units of N/(bL) or, for an ellipse, of N over the product of the semi-axes.
     fn pressure(&self, point: &SurfacePoint) -> f64;
 
@@ -150,34 +129,8 @@ pub(crate) trait StickZones {
         if tau <= 0.5 { self.small_load().dissipation(tau) } else { self.dissipation_beyond_half(zone) }
     }
 
-    /// Derivative of the dissipation with respect to τ: `4 (τ λ - h)`.
-    fn d_dissipation(&self, zone: &StickZone) -> f64 {
-        let tau = zone.load.consumed;
-        if tau <= 0.5 {
-            self.small_load().d_dissipation(tau)
-        } else {
-            4.0 * (tau * self.compliance(zone) - zone.shift.consumed)
-        }
-    }
-
     /// dx/dτ = Λ + λ.
     fn compliance(&self, zone: &StickZone) -> f64 {
         self.small_load().compliance + zone.compliance_increase
     }
-}
-
-/// `∫ f dσ` between two size parameters, for f with at worst a square root at each end. No node lies beyond `to`, even with rounding
-/// upward: the compliance of a size above b could vanish.
-pub(crate) fn integrate(
-    zones: &dyn StickZones,
-    from: f64,
-    to: f64,
-    f: impl Fn(&QuadraturePoint) -> [f64; 2],
-) -> [f64; 2] {
-    let (length, mut sums) = (to - from, [0.0; 2]);
-    for node in &TANH_SINH {
-        let values = f(&zones.quadrature_point((from + length * node.from_0).min(to)));
-        sums = from_fn(|k| sums[k] + node.weight * values[k]);
-    }
-    sums.map(|sum| length * sum)
 }

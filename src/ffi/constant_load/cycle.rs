@@ -1,6 +1,6 @@
 //! Cyclic loading: hysteresis loops, energy, complex stiffness, and equivalent spring-slider elements.
 
-use crate::constant_load::complex_stiffness::{NODES_OF_TABLE, check_amplitude};
+use crate::constant_load::complex_stiffness::check_amplitude;
 use crate::constant_load::contact::Contact;
 use crate::constant_load::equivalents;
 use crate::constant_load::stiffness_table::{StiffnessOutputs, StiffnessTable, TABLE_LENGTH};
@@ -73,13 +73,10 @@ pub unsafe extern "C" fn mslip_complex_stiffness(
     dk_imag: *mut f64,
 ) -> i32 {
     call(|| {
-        let (contact, amplitude, outputs) =
+        let (contact, amplitude, mut outputs) =
             (pointers::contact(contact)?, input(amplitude, n)?, outputs([k_real, k_imag, dk_real, dk_imag], n)?);
         amplitude.iter().try_for_each(|&amplitude| check_amplitude(amplitude))?;
-        if outputs.iter().all(Option::is_none) {
-            return Ok(());
-        }
-        write_untabulated(contact, amplitude, outputs)
+        (0..).zip(amplitude).try_for_each(|(i, &one)| write_complex_stiffness(contact, one, i, &mut outputs))
     })
 }
 
@@ -122,7 +119,7 @@ pub unsafe extern "C" fn mslip_complex_stiffness_tabulated(
     dk_imag: *mut f64,
 ) -> i32 {
     call(|| {
-        let (contact, table, amplitude, outputs) = (
+        let (contact, table, amplitude, mut outputs) = (
             pointers::contact(contact)?,
             pointers::stiffness_table(table)?,
             input(amplitude, n)?,
@@ -136,30 +133,8 @@ pub unsafe extern "C" fn mslip_complex_stiffness_tabulated(
             table.write(contact, amplitude, outputs);
             return Ok(());
         }
-        write_untabulated(contact, amplitude, outputs)
+        (0..).zip(amplitude).try_for_each(|(i, &one)| write_complex_stiffness(contact, one, i, &mut outputs))
     })
-}
-
-/// Without a table of the caller; K' with one on the stack if that is cheaper. K'' is cheap without, and so its bits do not depend on
-/// whether K' is requested.
-fn write_untabulated(contact: &Contact, amplitude: &[f64], mut outputs: StiffnessOutputs) -> Result<(), Error> {
-    let real = outputs[0].is_some() || outputs[2].is_some();
-    let mut nodes = 0;
-    for &one in amplitude {
-        nodes += contact.complex_stiffness(one)?.nodes();
-        if real && nodes > NODES_OF_TABLE {
-            let mut table = StiffnessTable::EMPTY;
-            table.init(contact);
-            if table.has_polynomials() {
-                table.write(contact, amplitude, [outputs[0].take(), None, outputs[2].take(), None]);
-            }
-            break;
-        }
-    }
-    for (i, &amplitude) in amplitude.iter().enumerate() {
-        write_complex_stiffness(contact, amplitude, i, &mut outputs)?;
-    }
-    Ok(())
 }
 
 /// Writes the requested outputs of `mslip_complex_stiffness`, in its order.

@@ -9,7 +9,7 @@
 
 use crate::shape::rounded_punch::TINY;
 use crate::shape::stick_zone::small_load::{SmallLoadSeries, TERMS, economized};
-use crate::shape::stick_zone::{Complement, CurvePoint, QuadraturePoint, StickZone, StickZones, SurfacePoint};
+use crate::shape::stick_zone::{Complement, CurvePoint, StickZone, StickZones, SurfacePoint};
 use core::f64::consts::PI;
 
 /// The stick zones of every elliptical contact.
@@ -98,24 +98,6 @@ impl StickZones for EllipseZones {
 
     fn size_parameter(&self, zone: &StickZone) -> f64 {
         self.size(zone)
-    }
-
-    fn quadrature_point(&self, size: f64) -> QuadraturePoint {
-        let remaining = SLIP_SHIFT * size * size;
-        let inverse = 1.0 / size.max(1e-100);
-        let load = size * size * size;
-        QuadraturePoint {
-            load: Complement { consumed: 1.0 - load, remaining: load },
-            shift: Complement { consumed: SLIP_SHIFT - remaining, remaining },
-            compliance: inverse,
-            dload_dsigma: 3.0 * size * size,
-            dcompliance_dsigma: inverse * inverse,
-        }
-    }
-
-    /// No branch point: nearly uniform spacing.
-    fn log_branch_distance(&self) -> f64 {
-        1.0
     }
 
     fn pressure(&self, point: &SurfacePoint) -> f64 {

@@ -15,7 +15,7 @@
 use crate::numerics::chebyshev::{Interpolant, Tangent};
 use crate::shape::rounded_punch::{InversePower, RoundedPunch, TINY};
 use crate::shape::stick_zone::small_load::{RETAINED_TERMS, SmallLoadSeries};
-use crate::shape::stick_zone::{Complement, CurvePoint, QuadraturePoint, StickZone, StickZones, SurfacePoint};
+use crate::shape::stick_zone::{Complement, CurvePoint, StickZone, StickZones, SurfacePoint};
 use crate::shape::tractions;
 use core::f64::consts::PI;
 
@@ -276,27 +276,6 @@ impl StickZones for RoundedFlatZones {
         zone.size_parameter.unwrap_or_else(|| {
             (1.0 + (-2.0 * zone.compliance_increase).exp_m1() / (self.w * self.w).max(TINY)).max(0.0).sqrt()
         })
-    }
-
-    fn quadrature_point(&self, sigma: f64) -> QuadraturePoint {
-        let w = self.w * sigma;
-        let punch = RoundedPunch::new(self.flat, w);
-        let zone = self.zone(&punch);
-        let c2 = punch.half_width * punch.half_width;
-        QuadraturePoint {
-            load: zone.load,
-            shift: zone.shift,
-            compliance: self.compliance(&zone),
-            dload_dsigma: self.w * 4.0 * w * punch.psi / self.load,
-            dcompliance_dsigma: self.w * w / c2.max(TINY),
-        }
-    }
-
-    /// `arsinh(w_b/a)`: c vanishes at w = ± i a. A flat below 1e-5 b makes no difference in double precision; far from the branch point
-    /// the spacing is uniform.
-    fn log_branch_distance(&self) -> f64 {
-        let ratio = (self.w / self.flat.max(1e-5)).max(0.5);
-        (ratio + (ratio * ratio + 1.0).sqrt()).ln()
     }
 
     fn pressure(&self, point: &SurfacePoint) -> f64 {
