@@ -893,6 +893,15 @@ contains
     text = text_of(c_status_text(status))
   end function mslip_status_text
 
+  pure function length_of(text) result(length)
+    ! 0 without a text. It stands before its use: otherwise gfortran takes its interface for an implicit one.
+    type(c_ptr), intent(in) :: text
+    integer(c_size_t) :: length
+
+    length = 0
+    if (c_associated(text)) length = c_strlen(text)
+  end function length_of
+
   function mslip_parameters_warning(parameters, i) result(text)
     !! Warning i >= 1 of parameters that are valid but implausible: another unit, an exchanged pair, a contact for which the
     !! model is inaccurate. Empty if there are no more. Lengths are in m and moduli in Pa, or in mm and MPa if both moduli are at
@@ -2402,15 +2411,6 @@ contains
 
   ! ---------------------------------------------------------------------------------------------------------------------
   ! Conversion between Fortran and C
-
-  pure function length_of(text) result(length)
-    ! 0 without a text.
-    type(c_ptr), intent(in) :: text
-    integer(c_size_t) :: length
-
-    length = 0
-    if (c_associated(text)) length = c_strlen(text)
-  end function length_of
 
   function text_of(text) result(copy)
     ! A C string as Fortran text. Its length is not deferred: with -fno-automatic gfortran 12 returns such a text empty.

@@ -94,3 +94,56 @@ impl EllipticParameters {
         [(self.check().is_ok() && !le(self.normal_force, force())).then_some(SMALL_RADIUS)]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::vec::Vec;
+
+    const STEEL: Material = Material { young_modulus: 2e11, poisson_ratio: 0.3 };
+
+    fn texts(warnings: impl Iterator<Item = &'static CStr>) -> Vec<&'static CStr> {
+        warnings.collect()
+    }
+
+    #[test]
+    fn each_implausible_value_has_one_warning() {
+        let plausible = Parameters {
+            flat_half_width: 1e-3,
+            edge_radius: 5e-3,
+            length: 2e-2,
+            normal_force: 800.0,
+            friction_coefficient: 0.5,
+            material: [STEEL; 2],
+            ..Parameters::default()
+        };
+        let aluminium_in_mpa = [Material { young_modulus: 7e4, poisson_ratio: 0.3 }; 2];
+        let mut cases = [(plausible, None); 9];
+        (cases[1].0.edge_radius, cases[1].1) = (5e-4, Some(EXCHANGED));
+        (cases[2].0.friction_coefficient, cases[2].1) = (45.0, Some(FRICTION.1));
+        (cases[3].0.length, cases[3].1) = (3e-3, Some(SHORT));
+        (cases[4].0.flat_half_width, cases[4].0.normal_force, cases[4].1) = (0.0, 4e6, Some(WIDE_EDGES));
+        (cases[5].0.material[1].young_modulus, cases[5].1) = (2e5, Some(MODULUS.1));
+        (cases[6].0.material, cases[6].1) = (aluminium_in_mpa, Some(RADIUS.1));
+        (cases[6].0.length, cases[6].0.edge_radius) = (20.0, 5e-3);
+        (cases[7].0.length, cases[7].1) = (20.0, Some(LENGTH.1));
+        // An invalid value has its error.
+        cases[8].0.normal_force = f64::NAN;
+        for (parameters, expected) in cases {
+            assert_eq!(texts(parameters.warnings(None)), Vec::from_iter(expected), "{parameters:?}");
+        }
+        assert_eq!(texts(plausible.warnings(Some(1e3)))[0], RADIUS.1);
+        let sphere = EllipticParameters {
+            semi_axis_x: 1e-4,
+            semi_axis_y: 1e-4,
+            normal_force: 10.0,
+            friction_coefficient: 0.5,
+            material: [STEEL; 2],
+            ..EllipticParameters::default()
+        };
+        assert!(texts(sphere.warnings(None)).is_empty());
+        let loaded = EllipticParameters { normal_force: 1e3, ..sphere };
+        assert_eq!(texts(loaded.warnings(None)), [SMALL_RADIUS]);
+        assert_eq!(texts(EllipticParameters { semi_axis_x: 0.2, ..sphere }.warnings(None)), [SEMI_AXIS_X.1]);
+    }
+}

@@ -331,6 +331,13 @@ fn default_parameters() {
         mslip_elliptic_parameters_default(e.start.cast());
         assert_eq!(mslip_contact_init(p.start.cast(), contact.start.cast()), MSLIP_BAD_FLAT_HALF_WIDTH);
         assert_eq!(mslip_contact_init_elliptic(e.start.cast(), contact.start.cast()), MSLIP_BAD_SEMI_AXIS_X);
+        let implausible = Memory::of(&[microslip::Parameters { friction_coefficient: 45.0, ..FLAT }]);
+        for (p, i, starts) in [(implausible.start, 0, true), (implausible.start, 1, false), (p.start, 0, false)] {
+            let text = mslip_parameters_warning(p.cast(), i);
+            assert_eq!(!text.is_null() && CStr::from_ptr(text).to_bytes().starts_with(b"friction_coefficient"), starts);
+        }
+        mslip_parameters_warning(p.misaligned().cast(), 0);
+        assert!(mslip_elliptic_parameters_warning(null_mut(), -1).is_null());
     }
 }
 

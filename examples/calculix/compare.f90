@@ -53,7 +53,7 @@ contains
     read (unit, *) c
     close (unit)
     p = mslip_parameters(flat_half_width=c(1), edge_radius=c(2), length=c(3), normal_force=c(4), friction_coefficient=c(5), &
-      material=[mslip_material(c(6), c(7)), mslip_material(c(8), c(9))])
+      material=[mslip_material(c(6), c(7)), mslip_material(c(8), c(9))], displacement_reference=MSLIP_CENTRE_POINT)
   end function parameters_of
 
   subroutine initialise_contact()

@@ -62,6 +62,7 @@ contains
 
     law%components = count_components(element, kind_and_count, constants)
     call mslip_parameters_default(p)
+    p%displacement_reference = MSLIP_CENTRE_POINT  ! as in results/
     p%flat_half_width = constants(1)
     p%edge_radius = constants(2)
     p%length = constants(3)

@@ -89,25 +89,22 @@ impl Contact {
         let Parameters { edge_radius, length, normal_force, friction_coefficient, .. } = *parameters;
         check_moduli(&parameters.material)?;
         let composite_modulus = Pair::new(&parameters.material).composite_modulus;
-        let tag = TAG_ROUNDED_FLAT;
-        let open = Contact { composite_modulus, tag, ..EMPTY }.with_slip_forces(normal_force, friction_coefficient);
+        let mut contact = Contact { composite_modulus, tag: TAG_ROUNDED_FLAT, ..EMPTY };
+        contact.set_slip_forces(normal_force, friction_coefficient);
         if normal_force == 0.0 {
-            return Ok(open);
+            return Ok(contact);
         }
         let shape = RoundedFlat::new(parameters)?;
         let half_width = shape.half_width();
         in_range(&[normal_force], &[length, half_width])?;
-        let geometry = Contact {
-            half_width,
-            flat_half_width,
-            pressure_scale: normal_force / length / half_width,
-            stiffness_scale: 0.5 * PI * composite_modulus * length,
-            zones: LayeredZones::of_flat(RoundedFlatZones::new(shape.punch(), shape.reference_compliance())),
-            reference_slope: reference_slope(parameters, half_width),
-            ..open
-        };
-        let geometry = geometry.with_layer(&parameters.layer, normal_force)?;
-        geometry.with_friction(normal_force, [half_width, edge_radius, length, composite_modulus])
+        (contact.half_width, contact.flat_half_width) = (half_width, flat_half_width);
+        contact.pressure_scale = normal_force / length / half_width;
+        contact.stiffness_scale = 0.5 * PI * composite_modulus * length;
+        contact.zones = LayeredZones::of_flat(RoundedFlatZones::new(shape.punch(), shape.reference_compliance()));
+        contact.reference_slope = reference_slope(parameters, half_width);
+        contact.set_layer(&parameters.layer, normal_force)?;
+        contact.set_friction(normal_force, [half_width, edge_radius, length, composite_modulus])?;
+        Ok(contact)
     }
 
     /// Initialises an elliptical Hertz contact; a sphere if both semi-axes are equal.
@@ -120,45 +117,45 @@ impl Contact {
             *parameters;
         check_moduli(material)?;
         let composite_modulus = Pair::new(material).composite_modulus;
-        let tag = TAG_ELLIPTIC;
-        let open = Contact { composite_modulus, tag, ..EMPTY }.with_slip_forces(normal_force, friction_coefficient);
+        let mut contact = Contact { composite_modulus, tag: TAG_ELLIPTIC, ..EMPTY };
+        contact.set_slip_forces(normal_force, friction_coefficient);
         if normal_force == 0.0 {
-            return Ok(open);
+            return Ok(contact);
         }
-        let geometry = Contact {
-            half_width: semi_axis_x,
-            stiffness_scale: 1.0 / HertzEllipse::new(parameters)?.initial_compliance(),
-            pressure_scale: normal_force / semi_axis_x / semi_axis_y,
-            ..open
-        };
-        let geometry = geometry.with_layer(&parameters.layer, normal_force)?;
+        contact.half_width = semi_axis_x;
+        contact.stiffness_scale = 1.0 / HertzEllipse::new(parameters)?.initial_compliance();
+        contact.pressure_scale = normal_force / semi_axis_x / semi_axis_y;
+        contact.set_layer(&parameters.layer, normal_force)?;
         // The radius of the sphere with this semi-axis. Nothing depends on the other two lengths.
         in_range(&[semi_axis_x, semi_axis_x, semi_axis_x, composite_modulus], &[normal_force])?;
         let radius = 4.0 / 3.0 * (semi_axis_x * (semi_axis_x * (semi_axis_x * composite_modulus / normal_force)));
-        geometry.with_friction(normal_force, [semi_axis_x, radius, semi_axis_x, composite_modulus])
+        contact.set_friction(normal_force, [semi_axis_x, radius, semi_axis_x, composite_modulus])?;
+        Ok(contact)
     }
 
     /// The derivatives of mu N.
-    fn with_slip_forces(self, normal_force: f64, friction_coefficient: f64) -> Contact {
-        let sensitivity_scales = [friction_coefficient, normal_force, 0.0, 0.0, 0.0, 0.0, 0.0];
-        Contact { friction_coefficient, sensitivity_scales, ..self }
+    fn set_slip_forces(&mut self, normal_force: f64, friction_coefficient: f64) {
+        self.friction_coefficient = friction_coefficient;
+        self.sensitivity_scales = [friction_coefficient, normal_force, 0.0, 0.0, 0.0, 0.0, 0.0];
     }
 
-    /// With the layer of parameters that were checked in series.
-    fn with_layer(mut self, layer: &parameters::Layer, normal_force: f64) -> Result<Contact, Error> {
+    /// The layer of parameters that were checked in series.
+    fn set_layer(&mut self, layer: &parameters::Layer, normal_force: f64) -> Result<(), Error> {
         let (layer, under_load) = Layer::new(layer, normal_force)?;
         let of_contact = self.stick_zones().small_load().compliance;
         self.zones.set_layer(&layer.relative(normal_force, self.stiffness_scale, of_contact)?, self.is_elementary());
         // For a friction force of 1, by the compliance under the reference load.
         self.sensitivity_scales[PARAMETERS - 1] = under_load * self.stiffness_scale;
-        let tag = if self.zones.has_layer() { TAG_ROUNDED_FLAT } else { self.tag };
-        Ok(Contact { tag, ..self })
+        if self.zones.has_layer() {
+            self.tag = TAG_ROUNDED_FLAT;
+        }
+        Ok(())
     }
 
     /// The tangential law, from geometry and stiffness; `parameters` are b, R, L and E*.
-    fn with_friction(self, normal_force: f64, parameters: [f64; 4]) -> Result<Contact, Error> {
+    fn set_friction(&mut self, normal_force: f64, parameters: [f64; 4]) -> Result<(), Error> {
         if self.friction_coefficient == 0.0 {
-            return Ok(self);
+            return Ok(());
         }
         in_range(&[self.friction_coefficient], &[])?;
         in_range(&[self.friction_coefficient, normal_force], &[])?;
@@ -180,32 +177,22 @@ impl Contact {
         // Calls accept no larger displacement, so that gross slip would never be reached.
         let slip_displacement = displacement_scale * zones.slip_shift();
         check_displacement(slip_displacement).map_err(|_| Error::OutOfRange)?;
-        let (interpolant, inner) = self.interpolant_of_curve();
+        let initial_stiffness = self.stiffness_scale / zones.small_load().compliance;
+        self.slip_force = slip_force;
+        self.slip_force_rounding = self.friction_coefficient.mul_add(normal_force, -slip_force);
+        (self.displacement_scale, self.per_displacement_scale) = (displacement_scale, 1.0 / displacement_scale);
+        (self.slip_displacement, self.per_slip_displacement) = (slip_displacement, 1.0 / slip_displacement);
+        (self.initial_stiffness, self.slip_energy) = (initial_stiffness, slip_energy);
+        let by_compliance = slip_force * self.sensitivity_scales[PARAMETERS - 1];
+        self.sensitivity_scales =
+            [self.friction_coefficient, normal_force, by_size, by_radius, by_length, by_modulus, by_compliance];
+        let inner;
+        (self.interpolant, inner) = self.interpolant_of_curve();
         let (inner, outer) = if self.is_elementary() { (1.0, 1.0) } else { (inner, 1.0 - inner) };
-        let contact = Contact {
-            slip_force,
-            slip_force_rounding: self.friction_coefficient.mul_add(normal_force, -slip_force),
-            displacement_scale,
-            per_displacement_scale: 1.0 / displacement_scale,
-            slip_displacement,
-            inner_scale: 1.0 / (inner * slip_displacement),
-            outer_scale: 1.0 / (outer * slip_displacement),
-            per_slip_displacement: 1.0 / slip_displacement,
-            initial_stiffness: self.stiffness_scale / zones.small_load().compliance,
-            slip_energy,
-            sensitivity_scales: [
-                self.friction_coefficient,
-                normal_force,
-                by_size,
-                by_radius,
-                by_length,
-                by_modulus,
-                slip_force * self.sensitivity_scales[PARAMETERS - 1],
-            ],
-            interpolant,
-            ..self
-        };
-        Ok(Contact { weights_in_slip: contact.weights_of_curve(), ..contact })
+        self.inner_scale = 1.0 / (inner * slip_displacement);
+        self.outer_scale = 1.0 / (outer * slip_displacement);
+        self.weights_in_slip = self.weights_of_curve();
+        Ok(())
     }
 
     /// The interpolant and the fraction of its first polynomial.

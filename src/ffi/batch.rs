@@ -59,6 +59,9 @@ impl Law for Contact {
 
     #[inline(always)]
     fn check_step(_: &Contact, tag: f64, state_length: usize, displacement: &f64) -> Result<(), Error> {
+        if state_length < Self::STATE_LENGTH {
+            return Err(Error::StateTooShort);
+        }
         state::check_tag(tag, state_length)?;
         check_displacement(*displacement)
     }
@@ -90,7 +93,9 @@ impl<L: ElementLaw> Law for L {
 
     #[inline(always)]
     fn check_step(element: &Element, tag: f64, state_length: usize, displacement: &L::Vector) -> Result<(), Error> {
-        L::check_tag(tag, state_length).map_err(|error| L::state_error(error, tag))?;
+        let is_short = state_length < L::STATE_LENGTH;
+        let checked = if is_short { Err(Error::StateTooShort) } else { L::check_tag(tag, state_length) };
+        checked.map_err(|error| L::state_error(error, tag))?;
         <L as ElementLaw>::check_step(element, displacement)
     }
 
@@ -201,17 +206,15 @@ unsafe fn update<L: Law>(
     if items.n > 0 && states_old.is_null() {
         return Err(Error::NullPointer);
     }
-    if items.n > 0 && state_length < L::STATE_LENGTH {
-        return Err(Error::StateTooShort);
-    }
     {
         // SAFETY: by the function's contract; the reference ends before the new states, which may be the same memory, are written.
         let states = unsafe { input(states_old, length) }?;
         items.check::<L>(|i, law| {
             prefetch::<1>(states_old.wrapping_add((i + CHECKED_AHEAD) * state_length));
-            let (tag, displacement) = (states.get(i * state_length), displacement.get(i));
-            let (tag, displacement) = tag.zip(displacement).ok_or(Error::BadArraySize)?;
-            L::check_step(law, *tag, state_length, displacement)
+            let displacement = displacement.get(i).ok_or(Error::BadArraySize)?;
+            // A state of no length has no tag.
+            let tag = states.get(i * state_length).copied().unwrap_or(0.0);
+            L::check_step(law, tag, state_length, displacement)
         })?;
     }
     let [force, tangent, dissipated] = outputs;

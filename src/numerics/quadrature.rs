@@ -110,6 +110,11 @@ mod tests {
                 assert!((sum * f64::from(degree + 1) - 1.0).abs() < 4e-15, "{blocks} {degree} {sum}");
             }
         }
+        // At run time as at compile time.
+        let [nodes, weights] = gauss_legendre::<32>();
+        assert!(
+            gauss_nodes(MAX_GAUSS_BLOCKS).map(|(node, weight)| (*node, *weight)).eq(nodes.into_iter().zip(weights))
+        );
         assert!((gauss(2.0, |x| x.powi(31)) / (2f64.powi(32) / 32.0) - 1.0).abs() < 4e-15);
     }
 

@@ -262,6 +262,7 @@ static void make_function(struct sequence *s, const function *f, int rule)
     call.harmonics = HARMONICS;
     call.samples = SAMPLES;
     call.directions = 1;
+    call.normal_input = MSLIP_INPUT_APPROACH;
     call.rule = rule;
     call.state_length = of_element ? mslip_element_state_length(1, PIECES) : mslip_state_length(REVERSALS);
     call.table_length = mslip_stiffness_table_length();

@@ -80,8 +80,9 @@ end
 function response()
     [~, expected] = table(fullfile(root(), 'fortran_examples', 'expected', 'two_dof.csv'));
     contact = struct('type', 'microslip', 'object', microslip('contact', parameters()), 'force_direction', [0; 1]);
-    % A normal force of 150 N that does not depend on the displacement: the same law, by the element.
-    element = struct('type', 'microslip', 'object', microslip('element', parameters(), 1, 1), ...
+    % A normal force of 150 N that does not depend on the displacement: the same law, by the element, whose normal input is
+    % MSLIP_INPUT_NORMAL_FORCE, 17.
+    element = struct('type', 'microslip', 'object', microslip('element', parameters(), 1, 17), ...
                      'force_direction', [0, 0; 1, 0], 'offset', [0, 150]);
     check('forced response of two_dof.nml', difference(two_dof({contact}), expected), 1e-11);
     check('forced response, by an element under the same load', difference(two_dof({element}), expected), 1e-11);
@@ -129,10 +130,10 @@ end
 function gradients()
     H = 3;
     rng = @(seed, m) sin(seed*(1:m).'.^2);
-    q = microslip('element', parameters(), 1, 0);
+    q = microslip('element', parameters(), 1, 16);
     press = microslip('approach', q, 150);
     varying = struct('type', 'microslip', 'object', q, 'force_direction', [1, 0.3; -0.2, 1], 'offset', [0, press]);
-    plane = struct('type', 'microslip', 'object', microslip('element', parameters(), 2, 0), ...
+    plane = struct('type', 'microslip', 'object', microslip('element', parameters(), 2, 16), ...
                    'force_direction', [1, 0, 0.2; 0, 1, 0.3], 'offset', [0, 0, press]);
     contact = struct('type', 'microslip', 'object', microslip('contact', parameters()), 'force_direction', [1; -1]);
     x = 5e-7*rng(1.1, 2*(2*H + 1));

@@ -582,11 +582,10 @@ impl Memory {
                 .or(Some(MSLIP_OK));
         }
         let directions = call.place(Choice).map_or(units.directions, |place| prepared.slots[place].get());
-        let is_short = state.values.len() < self.least_state(directions);
         if call.one_direction && units.directions == 2 {
             Some(MSLIP_NOT_AVAILABLE)
         } else if self.of_elements && call.has(State) && matches!(directions, 1 | 2) && directions != state.directions {
-            Some(if is_short { MSLIP_STATE_TOO_SHORT } else { MSLIP_BAD_DIRECTIONS })
+            Some(if state.values.is_empty() { MSLIP_STATE_TOO_SHORT } else { MSLIP_BAD_DIRECTIONS })
         } else if call.has(Element)
             && call.has(Workspace)
             && directions != self.workspaces[step.workspace as usize % 2].directions
