@@ -111,8 +111,10 @@ class Contact(_Law):
     their results are. `parameters` are the arguments, each an attribute too. Implausible ones give a `PlausibilityWarning`, which
     supposes m and Pa, or mm and MPa.
 
-    `normal_compliance` and `tangential_compliance` [m/N] are those of a layer in series with the contact under `reference_load` [N],
-    at which they were measured (0: `normal_force`). Its stiffness grows in proportion to N + `stiffening_load` [N]; 0: it is constant.
+    `normal_compliance` and `tangential_compliance` [m/N] are those of a layer in series with the contact under `reference_load`
+    [N],
+    at which they were measured (0: `normal_force`). Its stiffness grows in proportion to N + `stiffening_load` [N]; 0: it is
+    constant.
     """
 
     _type = "mslip_contact"

@@ -40,8 +40,8 @@ def fit(
     "flat_half_width", "edge_radius" or "fixed".
 
     Returns a report: `friction_coefficient`, `series_compliance`, `series_stiffening` (of several loads: the share of the series
-    stiffness that grows in proportion to the load), `contact_compliance`, `parallel_stiffness` (of a spring in parallel, seen only in
-    a long plateau of gross slip), `total_compliance` and `shape` with `value`, `lower`, `upper` (95 % confidence) and `status`;
+    stiffness that grows in proportion to the load), `contact_compliance`, `parallel_stiffness` (of a spring in parallel, seen only
+    in a long plateau of gross slip), `total_compliance` and `shape` with `value`, `lower`, `upper` (95 % confidence) and `status`;
     `explanation`, with `explained`, whether the law explains the loops, and the `causes` if
     it does not; `law` and `spring_slider.misfit` with the misfits; the sentences `verdict` and `warnings`; `profile`,
     `contact_toml`, and the fitted `loops`. Raises `FitError`.

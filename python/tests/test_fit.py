@@ -151,7 +151,11 @@ def test_three_measured_loops_to_a_forced_response(tmp_path):
     contact, which has a layer with a stiffness that grows with the load.
     """
     random = np.random.default_rng(7)
-    layer = {"tangential_compliance": 0.3 / contact.initial_stiffness, "stiffening_load": 200.0, "reference_load": TRUTH["normal_force"]}
+    layer = {
+        "tangential_compliance": 0.3 / contact.initial_stiffness,
+        "stiffening_load": 200.0,
+        "reference_load": TRUTH["normal_force"],
+    }
     truth = microslip.Contact(**TRUTH | layer)
     t = 2 * np.pi * np.arange(160) / 80
     measured = []
