@@ -259,10 +259,10 @@ pub(crate) fn check_moduli(material: &[Material; 2]) -> Result<(), Error> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(crate) mod tests {
     use super::*;
 
-    fn steel() -> Parameters {
+    pub(crate) fn steel() -> Parameters {
         let material = Material { young_modulus: 2e11, poisson_ratio: 0.3 };
         Parameters {
             flat_half_width: 1e-4,

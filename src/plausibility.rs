@@ -98,52 +98,51 @@ impl EllipticParameters {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::vec::Vec;
-
-    const STEEL: Material = Material { young_modulus: 2e11, poisson_ratio: 0.3 };
-
-    fn texts(warnings: impl Iterator<Item = &'static CStr>) -> Vec<&'static CStr> {
-        warnings.collect()
-    }
+    use crate::parameters::tests::steel;
 
     #[test]
     fn each_implausible_value_has_one_warning() {
-        let plausible = Parameters {
-            flat_half_width: 1e-3,
-            edge_radius: 5e-3,
-            length: 2e-2,
-            normal_force: 800.0,
-            friction_coefficient: 0.5,
-            material: [STEEL; 2],
-            ..Parameters::default()
-        };
-        let aluminium_in_mpa = [Material { young_modulus: 7e4, poisson_ratio: 0.3 }; 2];
-        let mut cases = [(plausible, None); 9];
-        (cases[1].0.edge_radius, cases[1].1) = (5e-4, Some(EXCHANGED));
-        (cases[2].0.friction_coefficient, cases[2].1) = (45.0, Some(FRICTION.1));
-        (cases[3].0.length, cases[3].1) = (3e-3, Some(SHORT));
-        (cases[4].0.flat_half_width, cases[4].0.normal_force, cases[4].1) = (0.0, 4e6, Some(WIDE_EDGES));
-        (cases[5].0.material[1].young_modulus, cases[5].1) = (2e5, Some(MODULUS.1));
-        (cases[6].0.material, cases[6].1) = (aluminium_in_mpa, Some(RADIUS.1));
-        (cases[6].0.length, cases[6].0.edge_radius) = (20.0, 5e-3);
-        (cases[7].0.length, cases[7].1) = (20.0, Some(LENGTH.1));
-        // An invalid value has its error.
-        cases[8].0.normal_force = f64::NAN;
-        for (parameters, expected) in cases {
-            assert_eq!(texts(parameters.warnings(None)), Vec::from_iter(expected), "{parameters:?}");
+        let (plausible, [body, _]) = (steel(), steel().material);
+        let in_mpa = Material { young_modulus: 2e5, ..body };
+        for (parameters, expected) in [
+            (plausible, None),
+            (Parameters { edge_radius: 5e-5, ..plausible }, Some(EXCHANGED)),
+            (Parameters { friction_coefficient: 45.0, ..plausible }, Some(FRICTION.1)),
+            (Parameters { length: 4e-4, ..plausible }, Some(SHORT)),
+            (Parameters { length: 0.1, normal_force: 1e7, ..plausible }, Some(WIDE_EDGES)),
+            (Parameters { material: [body, in_mpa], ..plausible }, Some(MODULUS.1)),
+            (
+                Parameters {
+                    material: [in_mpa; 2],
+                    flat_half_width: 0.1,
+                    edge_radius: 10.0,
+                    length: 10.0,
+                    ..plausible
+                },
+                None,
+            ),
+            (Parameters { length: 10.0, ..plausible }, Some(LENGTH.1)),
+            // An invalid value has its error.
+            (Parameters { normal_force: f64::NAN, ..plausible }, None),
+        ] {
+            assert!(parameters.warnings(None).eq(expected), "{parameters:?}");
         }
-        assert_eq!(texts(plausible.warnings(Some(1e3)))[0], RADIUS.1);
+        // 0.01 mm and 2e11 MPa.
+        assert!(plausible.warnings(Some(1e3)).eq([LENGTH.1, MODULUS.1]));
         let sphere = EllipticParameters {
             semi_axis_x: 1e-4,
             semi_axis_y: 1e-4,
             normal_force: 10.0,
             friction_coefficient: 0.5,
-            material: [STEEL; 2],
+            material: [body; 2],
             ..EllipticParameters::default()
         };
-        assert!(texts(sphere.warnings(None)).is_empty());
-        let loaded = EllipticParameters { normal_force: 1e3, ..sphere };
-        assert_eq!(texts(loaded.warnings(None)), [SMALL_RADIUS]);
-        assert_eq!(texts(EllipticParameters { semi_axis_x: 0.2, ..sphere }.warnings(None)), [SEMI_AXIS_X.1]);
+        for (parameters, expected) in [
+            (sphere, None),
+            (EllipticParameters { normal_force: 1e3, ..sphere }, Some(SMALL_RADIUS)),
+            (EllipticParameters { semi_axis_x: 0.2, ..sphere }, Some(SEMI_AXIS_X.1)),
+        ] {
+            assert!(parameters.warnings(None).eq(expected), "{parameters:?}");
+        }
     }
 }

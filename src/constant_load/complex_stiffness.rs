@@ -37,11 +37,11 @@ pub struct ComplexStiffness<'a> {
     gross_slip: bool,
 }
 
-/// Nodes for `e >= 1e-4`, next to gross slip, and beyond it up to `e = -0.05`, from where the contact has weights. F has an error of
+/// Nodes for `e >= 0.02`, next to gross slip, and beyond it up to `e = -0.05`, from where the contact has weights. F has an error of
 /// 3e-15, dF/dξ of 5e-15; next to gross slip of 1e-13, and of 1e-12 for Λ near 0. The last number is that for all amplitudes of a curve
 /// without an interpolant: it has a knee, or is nearly singular.
-const FAR_BELOW: f64 = 1e-4;
-const NODES_FAR_BELOW: usize = 40;
+const FAR_BELOW: f64 = 0.02;
+const NODES_FAR_BELOW: usize = 24;
 const NODES_BELOW: usize = 64;
 const NODES_BEYOND: usize = 96;
 const IN_SLIP: f64 = -0.05;
@@ -122,10 +122,10 @@ impl Contact {
         // x is its product with ζ² at first.
         let bend = (self.relative_distance_of_zero_compliance() / (3.0 * scale * end.sinh() * end)).sqrt();
         if bend < 0.4 {
-            let stretch = (1.0 / bend).asinh();
+            let largest = (1.0 / bend).asinh();
             for (zeta, weight) in zeta.iter_mut().zip(&mut weights) {
-                let argument = stretch * *zeta;
-                (*zeta, *weight) = (bend * argument.sinh(), *weight * bend * stretch * argument.cosh());
+                let argument = largest * *zeta;
+                (*zeta, *weight) = (bend * argument.sinh(), *weight * bend * largest * argument.cosh());
             }
         }
         // exp(u) - 1.
