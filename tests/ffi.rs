@@ -215,7 +215,8 @@ fn invalid_length(call: &Call, arguments: &mut Arguments, place: usize) {
     if let (Length, Some(array)) = (argument.kind, array) {
         for length in [0, 1, valid - 1] {
             arguments.slots[place] = Slot::Size(length);
-            let words = vec![0x7777_7777_7777_7777; length];
+            let states = if call.has(Index) { N } else { 1 };
+            let words = vec![0x7777_7777_7777_7777; states * length];
             rejected_with(call, arguments, array, &words, argument.status);
         }
         // NULL of no length is NULL.
