@@ -8,26 +8,16 @@
 //! ```
 
 use super::rows::{OuterProducts, row_blocks};
-use super::workspace::{Blocks, Parts, Size, padded};
+use super::workspace::{Blocks, Parts, Size};
 use crate::error::Error;
 use crate::simd::{dispatch, plus};
-
-/// Doubles for the pairs of the orders from -H to 2H.
-fn pairs_length(harmonics: usize) -> usize {
-    2 * (3 * harmonics + 2)
-}
-
-/// Doubles of an [`Assembly`].
-pub(crate) fn memory_length(harmonics: usize) -> usize {
-    padded(4 * harmonics + 1) + 2 * padded(pairs_length(harmonics)) + 4 * row_blocks(harmonics) * (2 * harmonics + 2)
-}
 
 #[derive(Debug)]
 pub(crate) struct Assembly<'a> {
     size: Size,
     /// Fourier sums of the weights up to the order 2H.
     pub sums: &'a mut [f64],
-    /// Z and W over the number of samples.
+    /// Z and W of the orders from -H to 2H, over the number of samples.
     pairs: [&'a mut [f64]; 2],
     /// Columns of the outer products.
     products: &'a mut Blocks,
@@ -38,7 +28,7 @@ impl<'a> Assembly<'a> {
     /// `BadWorkspace` if fewer doubles remain.
     pub fn take(parts: &mut Parts<'a>, size: Size) -> Result<Assembly<'a>, Error> {
         let sums = parts.take(4 * size.harmonics + 1)?;
-        let mut pairs = || parts.take(pairs_length(size.harmonics));
+        let mut pairs = || parts.take(2 * (3 * size.harmonics + 2));
         let pairs = [pairs()?, pairs()?];
         let products = parts.take_blocks(row_blocks(size.harmonics) * (2 * size.harmonics + 2))?;
         Ok(Assembly { size, sums, pairs, products })

@@ -57,17 +57,19 @@ pub(crate) trait WorkspaceLayout: Sized {
     /// Upper bound on the number of rows over all orders up to 2H.
     fn max_rows(&self) -> usize;
 
-    /// Number of doubles in the tables.
-    fn tables_length(&self) -> usize;
+    /// Number of doubles in tables that are filled before the other parts are taken.
+    fn tables_length(&self) -> usize {
+        0
+    }
 
     /// Number of doubles in the workspace, including the header.
     fn length(&self) -> usize;
 
-    /// Fills the tables.
+    /// Fills the tables of a workspace whose memory behind the header is all zeros.
     ///
     /// # Errors
     /// Those of [`Parts::take`].
-    fn fill_tables(&self, tables: &mut Parts) -> Result<(), Error>;
+    fn fill_tables(&self, parts: &mut Parts) -> Result<(), Error>;
 
     /// # Errors
     /// `BadHarmonics` unless 1 <= H <= 2^24, `BadSamples` unless 2H < samples <= 2^24, `BadPeriods` for more than 65536 periods.
@@ -103,8 +105,7 @@ pub(crate) trait WorkspaceLayout: Sized {
         let memory = workspace.get_mut(..layout.length()).ok_or(Error::WorkspaceTooShort)?;
         memory.fill(0.0);
         let (header, buffers) = memory.split_first_chunk_mut::<HEADER>().ok_or(Error::WorkspaceTooShort)?;
-        let tables = buffers.get_mut(..layout.tables_length()).ok_or(Error::WorkspaceTooShort)?;
-        layout.fill_tables(&mut Parts(tables))?;
+        layout.fill_tables(&mut Parts::of(buffers))?;
         let Size { harmonics, samples, periods } = layout.size();
         *header = [Self::KIND.tag(harmonics), Kind::Samples.tag(samples), Kind::Periods.tag(periods), 0.0];
         Ok(())
@@ -124,13 +125,12 @@ pub(crate) trait WorkspaceLayout: Sized {
     /// Layout of an initialised workspace, and the memory behind its header.
     ///
     /// # Errors
-    /// `BadWorkspace` if uninitialised or too short.
+    /// `BadWorkspace` if uninitialised.
     #[inline(always)]
     fn open(workspace: &mut [f64]) -> Result<(Self, Parts<'_>), Error> {
         let (header, buffers) = workspace.split_first_chunk_mut::<HEADER>().ok_or(Error::BadWorkspace)?;
         let layout = Self::read(header.first_chunk().ok_or(Error::BadWorkspace)?)?;
-        let used = layout.length().saturating_sub(HEADER);
-        Ok((layout, Parts(buffers.get_mut(..used).ok_or(Error::BadWorkspace)?)))
+        Ok((layout, Parts::of(buffers)))
     }
 }
 
@@ -139,25 +139,47 @@ pub(crate) fn padded(length: usize) -> usize {
     (length + 3) & !3
 }
 
-/// Splits [`padded`] parts off the front of a slice.
-pub(crate) struct Parts<'a>(&'a mut [f64]);
+/// Divides the memory of a workspace into [`padded`] parts, or counts their doubles: both follow from the same calls of `take`.
+pub(crate) enum Parts<'a> {
+    /// Memory that remains.
+    Taking(&'a mut [f64]),
+    /// Doubles so far; all parts are empty.
+    Counting(usize),
+}
 
 impl<'a> Parts<'a> {
     pub fn of(memory: &'a mut [f64]) -> Parts<'a> {
-        Parts(memory)
+        Parts::Taking(memory)
+    }
+
+    /// Number of doubles in the parts that a function takes.
+    pub fn count<T>(take: impl FnOnce(&mut Parts<'a>) -> Result<T, Error>) -> usize {
+        let mut parts = Parts::Counting(0);
+        let taken = take(&mut parts);
+        if let (Parts::Counting(doubles), Ok(_)) = (parts, taken) { doubles } else { 0 }
     }
 
     /// # Errors
     /// `BadWorkspace` if fewer doubles remain.
+    #[inline(always)]
     pub fn take(&mut self, length: usize) -> Result<&'a mut [f64], Error> {
-        let parts = core::mem::take(&mut self.0).split_at_mut_checked(padded(length));
-        let (front, back) = parts.ok_or(Error::BadWorkspace)?;
-        self.0 = back;
-        front.get_mut(..length).ok_or(Error::BadWorkspace)
+        match self {
+            Parts::Taking(memory) => {
+                let parts = core::mem::take(memory).split_at_mut_checked(padded(length));
+                let (front, back) = parts.ok_or(Error::BadWorkspace)?;
+                *memory = back;
+                front.get_mut(..length).ok_or(Error::BadWorkspace)
+            }
+            Parts::Counting(doubles) => {
+                *doubles += padded(length);
+                Ok(&mut [])
+            }
+        }
     }
 
     /// # Errors
     /// Those of [`Parts::take`].
+    #[inline(always)]
     pub fn take_blocks(&mut self, blocks: usize) -> Result<&'a mut Blocks, Error> {
         Ok(self.take(4 * blocks)?.as_chunks_mut().0)
     }

@@ -26,11 +26,11 @@ use crate::constant_load::memory::{Point, Reversal};
 use crate::constant_load::steady_state::SteadyState;
 use crate::error::Error;
 use crate::fourier::normalise;
-use crate::fourier::workspace::{HEADER, Parts, Size, WorkspaceLayout, padded};
+use crate::fourier::workspace::{HEADER, Parts, Size, WorkspaceLayout};
 use crate::tag::Kind;
 use core::f64::consts::PI;
 
-/// Lengths of the parts of a workspace.
+/// Size of a workspace.
 pub(super) struct Layout(Size);
 
 impl Layout {
@@ -62,19 +62,13 @@ impl WorkspaceLayout for Layout {
         self.grid() + self.reversals() + PANEL
     }
 
-    fn tables_length(&self) -> usize {
-        padded(self.grid() / 2 * self.0.coefficients())
-    }
-
     fn length(&self) -> usize {
-        let (n, grid, reversals) = (self.0.coefficients(), self.grid(), self.reversals());
-        let stack = padded(3 * reversals) + padded(2 * n * reversals);
-        let sums = 3 * padded(n) + 2 * padded(2 * n - 1);
-        HEADER + self.tables_length() + padded(grid) + padded(2 * grid) + stack + 4 * self.0.harmonics * PANEL + sums
+        HEADER + Parts::count(|parts| Workspace::take(self, parts))
     }
 
-    fn fill_tables(&self, tables: &mut Parts) -> Result<(), Error> {
-        fill_columns(tables.take(self.grid() / 2 * self.0.coefficients())?, self.grid(), self.grid() / 2);
+    fn fill_tables(&self, parts: &mut Parts) -> Result<(), Error> {
+        let Workspace { buffers, .. } = Workspace::take(self, parts)?;
+        fill_columns(buffers.columns, self.grid(), self.grid() / 2);
         Ok(())
     }
 }
@@ -91,7 +85,7 @@ pub(super) struct Workspace<'a> {
 #[derive(Debug)]
 struct Buffers<'a> {
     /// Columns 1, cos t, sin t, cos 2t, ... over the first half of the grid.
-    columns: &'a [f64],
+    columns: &'a mut [f64],
     /// The rate of the displacement on the grid.
     rate: &'a mut [f64],
     /// Instant and displacement of each reversal of the motion.
@@ -112,6 +106,11 @@ impl<'a> Workspace<'a> {
     #[inline(always)]
     pub fn new(workspace: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
         let (layout, mut parts) = Layout::open(workspace)?;
+        Workspace::take(&layout, &mut parts)
+    }
+
+    #[inline(always)]
+    fn take(layout: &Layout, parts: &mut Parts<'a>) -> Result<Workspace<'a>, Error> {
         let (grid, n) = (layout.grid(), layout.0.coefficients());
         let buffers = Buffers {
             columns: parts.take(grid / 2 * n)?,

@@ -13,23 +13,16 @@ use crate::constant_load::evaluator::BEYOND;
 use crate::constant_load::memory::{Branch, Point, Reversal};
 use crate::constant_load::steady_state::SteadyState;
 use crate::error::Error;
-use crate::fourier::folded::{self, FoldedFourier, sample_length};
-use crate::fourier::rows::{OuterProducts, Rows, fill_rows, outer_products_length, row_blocks, rows_length};
-use crate::fourier::sampled_jacobian::{self, Assembly};
+use crate::fourier::folded::{FoldedFourier, sample_length};
+use crate::fourier::rows::{OuterProducts, Rows, row_blocks};
+use crate::fourier::sampled_jacobian::Assembly;
 use crate::fourier::workspace::{HEADER, Parts, Size, WorkspaceLayout, padded};
 use crate::fourier::{angle, normalise};
 use crate::simd::dispatch;
 use crate::tag::Kind;
 
-/// Lengths of the parts of a workspace.
+/// Size of a workspace.
 pub(super) struct Layout(Size);
-
-impl Layout {
-    /// Capacity for reversals and branches: one per sample, and one more.
-    fn reversals(&self) -> usize {
-        self.0.samples + 1
-    }
-}
 
 impl WorkspaceLayout for Layout {
     const KIND: Kind = Kind::UniformSampling;
@@ -46,30 +39,14 @@ impl WorkspaceLayout for Layout {
         2 * self.0.samples + 16
     }
 
-    fn tables_length(&self) -> usize {
-        let Size { harmonics, samples, .. } = self.0;
-        folded::table_length(samples, 2 * harmonics) + rows_length(harmonics, samples)
-    }
-
     fn length(&self) -> usize {
-        let (Size { harmonics, samples, .. }, reversals) = (self.0, self.reversals());
-        let terms = padded(BRANCH * reversals) + padded(ENTRY * reversals) + 8 * row_blocks(harmonics) * reversals;
-        HEADER
-            + self.tables_length()
-            + folded::scratch_length(samples, 2 * harmonics)
-            + sample_length(samples)
-            + 5 * path_length(samples)
-            + padded(3 * reversals)
-            + terms
-            + outer_products_length::<1>(harmonics, reversals)
-            + sampled_jacobian::memory_length(harmonics)
+        HEADER + Parts::count(|parts| Workspace::take(self.0, parts))
     }
 
-    fn fill_tables(&self, tables: &mut Parts) -> Result<(), Error> {
-        let Size { harmonics, samples, .. } = self.0;
-        let table = tables.take(folded::table_length(samples, 2 * harmonics))?;
-        folded::fill_table(table, samples, 2 * harmonics);
-        fill_rows(tables.take(rows_length(harmonics, samples))?, harmonics, samples);
+    fn fill_tables(&self, parts: &mut Parts) -> Result<(), Error> {
+        let mut workspace = Workspace::take(self.0, parts)?;
+        workspace.fourier.fill();
+        workspace.terms.rows.fill();
         Ok(())
     }
 }
@@ -95,11 +72,16 @@ impl<'a> Workspace<'a> {
     /// `BadWorkspace` if uninitialised or too short.
     pub fn new(workspace: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
         let (layout, mut parts) = Layout::open(workspace)?;
-        let (size, capacity) = (layout.0, layout.reversals());
+        Workspace::take(layout.0, &mut parts)
+    }
+
+    #[inline(always)]
+    fn take(size: Size, parts: &mut Parts<'a>) -> Result<Workspace<'a>, Error> {
         let Size { harmonics, samples: count, .. } = size;
-        let mut fourier = FoldedFourier::take(&mut parts, count, 2 * harmonics)?;
-        let rows = Rows::take(&mut parts, harmonics, count)?;
-        fourier.take_scratch(&mut parts)?;
+        // One reversal and one branch per sample, and one more.
+        let capacity = count + 1;
+        let fourier = FoldedFourier::take(parts, count, 2 * harmonics)?;
+        let rows = Rows::take(parts, harmonics, count)?;
         let period = parts.take(sample_length(count))?;
         let mut array = || parts.take(path_length(count));
         let ([displacement, force, stiffness], scratch) = ([array()?, array()?, array()?], [array()?, array()?]);
@@ -107,8 +89,8 @@ impl<'a> Workspace<'a> {
         let reversals = parts.take(3 * capacity)?.as_chunks_mut().0;
         let entries = parts.take(ENTRY * capacity)?.as_chunks_mut().0;
         let sums = parts.take_blocks(2 * row_blocks(harmonics) * capacity)?;
-        let outer = OuterProducts::take(&mut parts, harmonics, capacity)?;
-        let assembly = Assembly::take(&mut parts, size)?;
+        let outer = OuterProducts::take(parts, harmonics, capacity)?;
+        let assembly = Assembly::take(parts, size)?;
         let path = Path { displacement, force, stiffness, scratch, branches };
         let terms = ReversalTerms { rows, entries, sums, outer };
         Ok(Workspace { size, fourier, reversals, period, path, terms, assembly })
