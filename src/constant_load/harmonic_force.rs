@@ -15,9 +15,7 @@
 //!
 //! by the coefficients of the displacement, with k the tangent stiffness; `dT_r` is stored when the reversal is passed.
 
-mod columns;
 mod event_driven;
-mod jacobian;
 mod motion;
 mod reversal_terms;
 mod segments;

@@ -125,6 +125,36 @@ impl<'a> FoldedFourier<'a> {
         continue_periodically(values, samples);
     }
 
+    /// Sums of a function whose samples from `first` on are evaluated, in an array of two periods. Under half-wave symmetry these are
+    /// half a period of samples, after which the function keeps (+1) or changes (-1) its sign.
+    #[inline(always)]
+    pub fn sum_from(&mut self, first: usize, half_wave: Option<f64>, values: &mut [f64], sums: &mut [f64]) {
+        let fourier = self;
+        dispatch!(
+            FoldedFourier::sum_from_kernel,
+            fourier: &mut FoldedFourier,
+            first: usize,
+            half_wave: Option<f64>,
+            values: &mut [f64],
+            sums: &mut [f64] => ()
+        );
+    }
+
+    #[inline(always)]
+    fn sum_from_kernel(&mut self, first: usize, half_wave: Option<f64>, values: &mut [f64], sums: &mut [f64]) {
+        let samples = self.samples;
+        if let Some(sign) = half_wave
+            && let Some(period) = values.get_mut(first..first + samples)
+            && let Some((half, other)) = period.split_at_mut_checked(samples / 2)
+        {
+            other.iter_mut().zip(half).for_each(|(other, value)| *other = sign * *value);
+        }
+        if let Some((period, next)) = values.split_at_mut_checked(samples) {
+            period.iter_mut().zip(next).take(first).for_each(|(value, next)| *value = *next);
+        }
+        self.sum_kernel(values.get_mut(..sample_length(samples)).unwrap_or(&mut []), sums);
+    }
+
     /// Sums of the samples times 1, cos t, sin t, cos 2t, ..., one for each of `sums`. Continues the values periodically.
     #[inline(always)]
     pub fn sum(&mut self, values: &mut [f64], sums: &mut [f64]) {
@@ -209,8 +239,9 @@ impl<'a> FoldedFourier<'a> {
 /// Fills the values beyond the period.
 #[inline(always)]
 pub(crate) fn continue_periodically(values: &mut [f64], samples: usize) {
-    if let Some((period, beyond)) = values.split_at_mut_checked(samples) {
-        beyond.iter_mut().zip(period.iter().cycle()).for_each(|(value, continued)| *value = *continued);
+    let (period, beyond) = values.split_at_mut_checked(samples).unwrap_or((&mut [], &mut []));
+    for beyond in beyond.chunks_mut(samples.max(1)) {
+        beyond.iter_mut().zip(period.iter()).for_each(|(value, continued)| *value = *continued);
     }
 }
 
@@ -335,5 +366,15 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn samples_of_odd_orders_are_exactly_half_wave_symmetric() {
+        let mut memory = vec![0.0; Parts::count(|parts| FoldedFourier::take(parts, 22, 6))];
+        let mut fourier = FoldedFourier::take(&mut Parts::of(&mut memory), 22, 6).unwrap();
+        fourier.fill();
+        let mut values = vec![0.0; sample_length(22)];
+        fourier.synthesise(&[0.0, 0.3, 0.7, 0.0, 0.0, -0.2, 0.1, 0.0, 0.0, 0.35, -0.23], &mut values);
+        assert!((0..11).all(|n| values[n] == -values[n + 11]));
     }
 }

@@ -191,12 +191,6 @@ impl<'a, const D: usize> OuterProducts<'a, D> {
         Ok(OuterProducts { row_blocks: row_blocks(harmonics), capacity, count: 0, y, phi })
     }
 
-    /// Whether there are no terms.
-    #[inline(always)]
-    pub fn is_empty(&self) -> bool {
-        self.count == 0
-    }
-
     /// Number of strips of N blocks.
     #[inline(always)]
     pub fn strips<const N: usize>(&self) -> usize {

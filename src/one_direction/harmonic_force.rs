@@ -138,7 +138,7 @@ impl<'a> Workspace<'a> {
         let pieces = parts.take(PIECE * capacity)?.as_chunks_mut().0;
         let stored = parts.take_blocks(2 * row_blocks(harmonics) * capacity)?;
         let outer = OuterProducts::take(parts, harmonics, count)?;
-        let assembly = Assembly::take(parts, size)?;
+        let assembly = Assembly::take(parts, harmonics, 1.0 / count as f64)?;
         let sensitivity = Sensitivity { rows, pieces, stored, places, outer, own };
         Ok(Workspace { size, fourier, samples, path, forces, sensitivity, assembly })
     }
@@ -357,7 +357,8 @@ impl Workspace<'_> {
                 }
                 fourier.sum(own, assembly.sums);
                 let symmetry = if motion.half_wave { Some(sign) } else { None };
-                assembly.write(&sensitivity.outer, index, symmetry, columns, 2 * coefficients);
+                assembly.set_products(&sensitivity.outer, index);
+                assembly.write(symmetry, columns, 2 * coefficients);
             } else {
                 columns.fill(0.0);
             }

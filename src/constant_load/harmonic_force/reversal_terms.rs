@@ -26,7 +26,6 @@ pub(super) struct Branches<'a> {
 /// Consecutive samples on a branch.
 #[derive(Debug, Clone, Copy)]
 struct Branch {
-    /// Counted from the farthest sample.
     first: usize,
     count: usize,
     /// Number of reversals on the stack.
@@ -52,8 +51,8 @@ impl<'a> Branches<'a> {
     }
 
     #[inline(always)]
-    fn iter(&self) -> impl Iterator<Item = Branch> {
-        let mut first = 1;
+    fn iter(&self, farthest: usize) -> impl Iterator<Item = Branch> {
+        let mut first = farthest + 1;
         self.encoded.iter().take(self.used).map(move |word| {
             let word = word.to_bits();
             let branch = Branch { first, count: word as u32 as usize, depth: (word >> 32) as usize };
@@ -75,7 +74,7 @@ pub(super) struct ReversalTerms<'a> {
 }
 
 impl ReversalTerms<'_> {
-    /// Gathers the terms along the branches, from the farthest sample on, at which `stiffness` starts.
+    /// Gathers the terms along the branches after the farthest sample, with the stiffness at the samples of two periods.
     #[inline(always)]
     pub fn gather(&mut self, branches: &Branches, farthest: usize, stiffness: &[f64]) {
         with_strips!(self.rows.blocks(), self.gather_strips(branches, farthest, stiffness));
@@ -99,8 +98,8 @@ impl ReversalTerms<'_> {
         let sums = sums.as_chunks_mut::<N>().0.as_chunks_mut().0;
         for strip in 0..outer.strips::<N>() {
             let (rows, terms) = (rows.strips::<N>(strip), outer.terms(strip));
-            let mut stack = Stack { rows, farthest, entries, sums, depth: 0, terms };
-            for branch in branches.iter() {
+            let mut stack = Stack { rows, entries, sums, depth: 0, terms };
+            for branch in branches.iter(farthest) {
                 stack.pop(branch.depth);
                 if branch.depth > stack.depth {
                     let before = branch.first - 1;
@@ -116,7 +115,6 @@ impl ReversalTerms<'_> {
 /// The stack of reversals with their sums, in strips of N blocks.
 struct Stack<'s, const N: usize> {
     rows: RowStrips<'s, N>,
-    farthest: usize,
     entries: &'s mut [[f64; ENTRY]],
     sums: &'s mut [[Strip<N>; 2]],
     depth: usize,
@@ -124,15 +122,15 @@ struct Stack<'s, const N: usize> {
 }
 
 impl<const N: usize> Stack<'_, N> {
-    /// The sample of the period.
+    /// The sample of the first period.
     #[inline(always)]
-    fn sample(&self, from_farthest: usize) -> usize {
-        (self.farthest + from_farthest) % self.rows.phi.len().max(1)
+    fn in_period(&self, sample: usize) -> usize {
+        sample.checked_sub(self.rows.phi.len()).unwrap_or(sample)
     }
 
     #[inline(always)]
     fn push(&mut self, sample: usize, stiffness: f64) {
-        let sample = self.sample(sample);
+        let sample = self.in_period(sample);
         if let (Some(entry), Some(sums)) = (self.entries.get_mut(self.depth), self.sums.get_mut(self.depth)) {
             (*entry, *sums) = ([sample as f64, stiffness], [[[0.0; 4]; N]; 2]);
             self.depth += 1;
@@ -164,7 +162,7 @@ impl<const N: usize> Stack<'_, N> {
     #[inline(always)]
     fn add(&mut self, branch: &Branch, stiffness: &[f64]) {
         let Branch { first, count, .. } = *branch;
-        let (from, to) = (self.sample(first), self.sample(first + count));
+        let (from, to) = (self.in_period(first), self.in_period(first + count));
         let Some([covered, y]) = self.depth.checked_sub(1).and_then(|top| self.sums.get_mut(top)) else { return };
         add_scaled(covered, 1.0, &self.rows.sum_between(from, to, count));
         let (rows, weights) = (self.rows.phi, stiffness.get(first..first + count).unwrap_or(&[]));

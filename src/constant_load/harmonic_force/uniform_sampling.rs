@@ -4,20 +4,20 @@
 //! transformed back. The error is O(samples⁻²). The Jacobian is exact for the discrete sums: `Σ k φ ⊗ φ` follows from Fourier sums of
 //! the stiffness, and `sampled_terms` adds the terms of the reversals.
 
-use super::motion::fill_phi;
 use super::reversal_terms::{BRANCH, Branches, ENTRY, ReversalTerms};
-use super::sensitivity::{self, ReversalSensitivities};
+use super::sensitivity::ReversalSensitivities;
 use super::{HarmonicOutput, Requested};
 use crate::constant_load::contact::Contact;
 use crate::constant_load::evaluator::BEYOND;
 use crate::constant_load::memory::{Branch, Point, Reversal};
 use crate::constant_load::steady_state::SteadyState;
 use crate::error::Error;
-use crate::fourier::folded::{FoldedFourier, sample_length};
+use crate::fourier::folded::FoldedFourier;
+use crate::fourier::normalise;
 use crate::fourier::rows::{OuterProducts, Rows, row_blocks};
 use crate::fourier::sampled_jacobian::Assembly;
-use crate::fourier::workspace::{HEADER, Parts, Size, WorkspaceLayout, padded};
-use crate::fourier::{angle, normalise};
+use crate::fourier::workspace::{HEADER, Parts, Size, WorkspaceLayout};
+use crate::parameters::{PARAMETERS, Sensitivity};
 use crate::simd::dispatch;
 use crate::tag::Kind;
 
@@ -58,11 +58,11 @@ pub(super) struct Workspace<'a> {
     fourier: FoldedFourier<'a>,
     /// The stack of reversals of the law.
     reversals: &'a mut [Reversal],
-    /// Displacements, then forces or stiffnesses, at the samples of a period.
-    period: &'a mut [f64],
     path: Path<'a>,
     terms: ReversalTerms<'a>,
     assembly: Assembly<'a>,
+    /// Derivatives with respect to the parameters at the samples of a path, from the one after the farthest on.
+    derivatives: &'a mut [Sensitivity],
 }
 
 impl<'a> Workspace<'a> {
@@ -82,18 +82,19 @@ impl<'a> Workspace<'a> {
         let capacity = count + 1;
         let fourier = FoldedFourier::take(parts, count, 2 * harmonics)?;
         let rows = Rows::take(parts, harmonics, count)?;
-        let period = parts.take(sample_length(count))?;
-        let mut array = || parts.take(path_length(count));
-        let ([displacement, force, stiffness], scratch) = ([array()?, array()?, array()?], [array()?, array()?]);
+        let mut array = |length: usize| parts.take(length + 1 + BEYOND);
+        let [displacement, force, stiffness] = [array(2 * count)?, array(2 * count)?, array(2 * count)?];
+        let scratch = [array(count)?, array(count)?];
         let branches = Branches::new(parts.take(BRANCH * capacity)?);
         let reversals = parts.take(3 * capacity)?.as_chunks_mut().0;
         let entries = parts.take(ENTRY * capacity)?.as_chunks_mut().0;
         let sums = parts.take_blocks(2 * row_blocks(harmonics) * capacity)?;
         let outer = OuterProducts::take(parts, harmonics, capacity)?;
-        let assembly = Assembly::take(parts, size)?;
+        let assembly = Assembly::take(parts, harmonics, 1.0 / count as f64)?;
+        let derivatives = parts.take(PARAMETERS * count)?.as_chunks_mut().0;
         let path = Path { displacement, force, stiffness, scratch, branches };
         let terms = ReversalTerms { rows, entries, sums, outer };
-        Ok(Workspace { size, fourier, reversals, period, path, terms, assembly })
+        Ok(Workspace { size, fourier, reversals, path, terms, assembly, derivatives })
     }
 
     /// 2H + 1.
@@ -109,27 +110,25 @@ pub(super) fn harmonic_force(
     displacement: &[f64],
     output: HarmonicOutput,
 ) {
-    let Workspace { size, fourier, reversals, period, path, terms, assembly } = workspace;
+    let Workspace { size, fourier, reversals, path, terms, assembly, .. } = workspace;
     let HarmonicOutput { force, jacobian, dissipated, .. } = output;
-    let order = sample(size.samples, fourier, period, path, displacement);
-    let Order { count, farthest, half_wave_symmetric } = order;
-    let length = order.length();
+    let Part { farthest, length, half_wave } = sample(size.samples, fourier, displacement, path.displacement);
+    let symmetry = |sign: f64| half_wave.then_some(sign);
     let mut law = SteadyState::new(contact, reversals, dissipated.is_some());
     let requested = Requested { force: force.is_some() || jacobian.is_some(), stiffness: jacobian.is_some() };
-    path.advance(&mut law, length, requested);
+    path.advance(&mut law, farthest, length, requested);
     if let (Some(dissipated), Some(energy)) = (dissipated, law.dissipated()) {
-        *dissipated = if half_wave_symmetric { 2.0 * energy } else { energy };
+        *dissipated = if half_wave { 2.0 * energy } else { energy };
     }
     if let Some(force) = force {
-        order.sum(fourier, path.force, -1.0, period, force);
-        normalise(force, 1.0 / count as f64);
+        fourier.sum_from(farthest + 1, symmetry(-1.0), path.force, force);
+        normalise(force, 1.0 / size.samples as f64);
     }
     if let Some(jacobian) = jacobian {
         terms.gather(&path.branches, farthest, path.stiffness);
-        order.sum(fourier, path.stiffness, 1.0, period, assembly.sums);
-        let length = size.coefficients().max(1);
-        let symmetry = if half_wave_symmetric { Some(1.0) } else { None };
-        assembly.write(&terms.outer, 0, symmetry, jacobian, length);
+        fourier.sum_from(farthest + 1, symmetry(1.0), path.stiffness, assembly.sums);
+        assembly.set_products(&terms.outer, 0);
+        assembly.write(symmetry(1.0), jacobian, size.coefficients());
     }
 }
 
@@ -140,112 +139,63 @@ pub(super) fn harmonic_sensitivity(
     displacement: &[f64],
     sensitivity: &mut [f64],
 ) {
-    let Workspace { size, fourier, reversals, period, path, terms, .. } = workspace;
-    let order = sample(size.samples, fourier, period, path, displacement);
+    let Workspace { size, fourier, reversals, path, terms, derivatives, .. } = workspace;
+    let Part { farthest, length, half_wave } = sample(size.samples, fourier, displacement, path.displacement);
     let mut law = SteadyState::new(contact, reversals, false);
     let mut stack = ReversalSensitivities::new(terms.sums.as_flattened_mut());
-    let (mut from, row) = (at(path.displacement, 0), path.force.get_mut(..size.coefficients()).unwrap_or(&mut []));
+    let mut from = at(path.displacement, farthest);
     law.begin(from);
     let mut now = law.sensitivity(from);
-    sensitivity.fill(0.0);
-    for (n, &displacement) in path.displacement.iter().enumerate().take(order.length() + 1).skip(1) {
+    let samples = path.displacement.get(farthest + 1..=farthest + length).unwrap_or(&[]);
+    for (&displacement, place) in samples.iter().zip(derivatives.iter_mut()) {
         if displacement != from {
             if law.advance(Point { displacement: from, force: 0.0 }, displacement) {
                 stack.store(&law, now);
             }
             (now, from) = (stack.at(&law, displacement), displacement);
         }
-        fill_phi(row, angle(1, order.farthest + n, order.count));
-        sensitivity::add(sensitivity, 1.0, row, now);
+        *place = now;
     }
-    sensitivity::complete(sensitivity, 1.0 / order.length() as f64, order.half_wave_symmetric);
+    for (parameter, column) in sensitivity.chunks_exact_mut(size.coefficients()).enumerate() {
+        let values = path.force.iter_mut().skip(farthest + 1);
+        values.zip(derivatives.iter()).for_each(|(value, derivatives)| *value = derivatives[parameter]);
+        fourier.sum_from(farthest + 1, half_wave.then_some(-1.0), path.force, column);
+        normalise(column, 1.0 / size.samples as f64);
+    }
 }
 
-/// Samples a displacement, from the farthest sample on.
+/// The part of a period that is evaluated: the samples after the farthest one.
+#[derive(Debug, Clone, Copy)]
+struct Part {
+    farthest: usize,
+    length: usize,
+    /// Half a period is enough.
+    half_wave: bool,
+}
+
+/// Samples a displacement along two periods.
 #[inline(always)]
-fn sample(count: usize, fourier: &FoldedFourier, period: &mut [f64], path: &mut Path, displacement: &[f64]) -> Order {
+fn sample(count: usize, fourier: &FoldedFourier, displacement: &[f64], samples: &mut [f64]) -> Part {
     dispatch!(
         sample_kernel,
         count: usize,
         fourier: &FoldedFourier,
-        period: &mut [f64],
-        path: &mut Path,
-        displacement: &[f64] => Order
+        displacement: &[f64],
+        samples: &mut [f64] => Part
     )
 }
 
 #[inline(always)]
-fn sample_kernel(
-    count: usize,
-    fourier: &FoldedFourier,
-    period: &mut [f64],
-    path: &mut Path,
-    displacement: &[f64],
-) -> Order {
-    fourier.synthesis_kernel(displacement, period);
+fn sample_kernel(count: usize, fourier: &FoldedFourier, displacement: &[f64], samples: &mut [f64]) -> Part {
+    fourier.synthesis_kernel(displacement, samples);
     let even_order = |c: usize| c.div_ceil(2).is_multiple_of(2);
     let only_odd_orders = displacement.iter().enumerate().all(|(c, value)| !even_order(c) || *value == 0.0);
-    let mut order = Order { count, farthest: 0, half_wave_symmetric: count.is_multiple_of(2) && only_odd_orders };
-    order.farthest = farthest(period, order.length());
-    rotate(period.get(..count).unwrap_or(&[]), order.farthest, path.displacement);
-    if let Some(end) = path.displacement.get_mut(count) {
-        *end = at(period, order.farthest);
-    }
-    order
+    let half_wave = count.is_multiple_of(2) && only_odd_orders;
+    let length = if half_wave { count / 2 } else { count };
+    Part { farthest: farthest(samples, length), length, half_wave }
 }
 
-/// Order of the samples on a path.
-#[derive(Debug, Clone, Copy)]
-struct Order {
-    count: usize,
-    farthest: usize,
-    half_wave_symmetric: bool,
-}
-
-impl Order {
-    /// Samples to be evaluated.
-    #[inline(always)]
-    fn length(&self) -> usize {
-        if self.half_wave_symmetric { self.count / 2 } else { self.count }
-    }
-
-    /// Fourier sums of the values of a path, which ends at the farthest sample; they are copied to the samples of the period. Under
-    /// half-wave symmetry the path is first completed by values of the given sign.
-    #[inline(always)]
-    fn sum(&self, fourier: &mut FoldedFourier, path: &mut [f64], sign: f64, period: &mut [f64], sums: &mut [f64]) {
-        let order = self;
-        dispatch!(
-            Order::sum_kernel,
-            order: &Order,
-            fourier: &mut FoldedFourier,
-            path: &mut [f64],
-            sign: f64,
-            period: &mut [f64],
-            sums: &mut [f64] => ()
-        );
-    }
-
-    #[inline(always)]
-    fn sum_kernel(
-        &self,
-        fourier: &mut FoldedFourier,
-        path: &mut [f64],
-        sign: f64,
-        period: &mut [f64],
-        sums: &mut [f64],
-    ) {
-        let values = path.get_mut(1..=self.count).unwrap_or(&mut []);
-        if self.half_wave_symmetric
-            && let Some((first, second)) = values.split_at_mut_checked(self.count / 2)
-        {
-            second.iter_mut().zip(first).for_each(|(second, first)| *second = sign * *first);
-        }
-        rotate(values, self.count - 1 - self.farthest, period);
-        fourier.sum_kernel(period, sums);
-    }
-}
-
-/// Values at the samples in the order of time, from the farthest one on, and the branches on which they lie.
+/// Values at the samples of two periods, of which those of one period are evaluated, and the branches on which they lie.
 #[derive(Debug)]
 struct Path<'a> {
     displacement: &'a mut [f64],
@@ -256,29 +206,24 @@ struct Path<'a> {
     branches: Branches<'a>,
 }
 
-/// Length of the arrays of a [`Path`].
-fn path_length(samples: usize) -> usize {
-    padded(samples + 1 + BEYOND)
-}
-
 impl Path<'_> {
     /// Advances the law from the farthest sample along `length` further ones, and evaluates force and stiffness if requested.
-    fn advance(&mut self, law: &mut SteadyState, length: usize, requested: Requested) {
+    fn advance(&mut self, law: &mut SteadyState, farthest: usize, length: usize, requested: Requested) {
         let Path { displacement, force, stiffness, scratch, branches } = self;
-        let mut from = Point { displacement: at(displacement, 0), force: 0.0 };
+        let mut from = Point { displacement: at(displacement, farthest), force: 0.0 };
         let response = law.begin(from.displacement);
         from.force = response.force;
-        if let (Some(force), Some(stiffness)) = (force.first_mut(), stiffness.first_mut()) {
-            (*force, *stiffness) = (response.force, response.stiffness);
+        if let Some(stiffness) = stiffness.get_mut(farthest) {
+            *stiffness = response.stiffness;
         }
         branches.clear();
-        let mut next = 1;
-        while next <= length {
+        let (mut next, last) = (farthest + 1, farthest + length);
+        while next <= last {
             let entered = at(displacement, next);
             law.advance(from, entered);
             let branch = law.branch();
             let Some(rest) = displacement.get(next..) else { return };
-            let count = count_on_branch(rest, &branch).min(length + 1 - next);
+            let count = count_on_branch(rest, &branch).min(last + 1 - next);
             branches.push(count, branch.depth);
             from.displacement = at(displacement, next + count - 1);
             if count > 1 {
@@ -309,15 +254,6 @@ impl Path<'_> {
 #[inline(always)]
 fn at(values: &[f64], index: usize) -> f64 {
     values.get(index).copied().unwrap_or(0.0)
-}
-
-/// Copies a period so that it starts at a sample.
-#[inline(always)]
-fn rotate(from: &[f64], first: usize, to: &mut [f64]) {
-    let (before, after) = from.split_at_checked(first).unwrap_or((from, &[]));
-    to.iter_mut().zip(after).for_each(|(to, from)| *to = *from);
-    let to = to.get_mut(after.len()..).unwrap_or(&mut []);
-    to.iter_mut().zip(before).for_each(|(to, from)| *to = *from);
 }
 
 /// Number of samples, the first included, before the motion reverses or reaches the end of the branch.
