@@ -260,50 +260,29 @@ fn at(values: &[f64], index: usize) -> f64 {
 #[inline(always)]
 fn count_on_branch(samples: &[f64], branch: &Branch) -> usize {
     let (direction, end) = (branch.direction, branch.direction * branch.end);
-    let continues = |last: f64, next: f64| {
-        let (last, next) = (direction * last, direction * next);
-        let (continues, is_inside) = (next >= last, next < end);
-        continues & is_inside
-    };
+    let continues = |last: &f64, next: &f64| (direction * next >= direction * last) & (direction * next < end);
     let later = samples.get(1..).unwrap_or(&[]);
-    let mut count = 1;
-    for ([a, b, c, d], [e, f, g, h]) in samples.as_chunks::<4>().0.iter().zip(later.as_chunks::<4>().0) {
-        if continues(*a, *e) & continues(*b, *f) & continues(*c, *g) & continues(*d, *h) {
-            count += 4;
-            continue;
-        }
-        for (last, next) in [(a, e), (b, f), (c, g)] {
-            if !continues(*last, *next) {
-                break;
-            }
-            count += 1;
-        }
-        return count;
-    }
-    let rest = samples.iter().zip(later).skip(count - 1);
-    count + rest.take_while(|(last, next)| continues(**last, **next)).count()
+    let blocks = samples.as_chunks::<4>().0.iter().zip(later.as_chunks::<4>().0);
+    let continue_all = |([a, b, c, d], [e, f, g, h]): &(&[f64; 4], &[f64; 4])| {
+        continues(a, e) & continues(b, f) & continues(c, g) & continues(d, h)
+    };
+    let whole = 4 * blocks.take_while(continue_all).count();
+    let rest = samples.iter().zip(later).skip(whole);
+    1 + whole + rest.take_while(|(last, next)| continues(last, next)).count()
 }
 
-/// Index of the first of the leading `count` samples with the largest magnitude.
+/// Index of the first of the leading `count` samples with the largest magnitude, which no sample exceeds.
 #[inline(always)]
 fn farthest(displacement: &[f64], count: usize) -> usize {
-    let samples = displacement.get(..count).unwrap_or(displacement);
     let larger = |one: f64, two: f64| if two > one { two } else { one };
-    let (blocks, remainder) = samples.as_chunks::<4>();
     let mut lanes = [0.0; 4];
-    for block in blocks {
+    for block in displacement.as_chunks::<4>().0.iter().take(count.div_ceil(4)) {
         for k in 0..4 {
             lanes[k] = larger(lanes[k], block[k].abs());
         }
     }
-    let [one, two, three, four] = lanes;
-    let mut largest = larger(larger(one, two), larger(three, four));
-    for value in remainder {
-        largest = larger(largest, value.abs());
-    }
-    let has = |block: &[f64; 4]| block.iter().fold(false, |has, value| has | (value.abs() == largest));
-    let before = 4 * blocks.iter().position(has).unwrap_or(blocks.len());
-    before + samples.iter().skip(before).position(|value| value.abs() == largest).unwrap_or(0)
+    let largest = lanes.into_iter().fold(0.0, larger);
+    displacement.iter().position(|value| value.abs() == largest).unwrap_or(0)
 }
 
 #[cfg(test)]
