@@ -100,7 +100,6 @@ pub fn workspace_size(header: &[f64; TAGS]) -> Result<(usize, usize, Rule), Erro
 pub struct Workspace<'a>(ByRule<'a>);
 
 #[derive(Debug)]
-#[expect(clippy::large_enum_variant, reason = "it lives on the stack during a call; there is no heap")]
 enum ByRule<'a> {
     UniformSampling(uniform_sampling::Workspace<'a>),
     EventDriven(event_driven::Workspace<'a>),

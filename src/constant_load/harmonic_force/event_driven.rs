@@ -344,7 +344,8 @@ impl Period<'_, '_, '_> {
             fill_phi(phi.get_mut(..2 * buffers.harmonics + 1).unwrap_or(&mut []), at.t);
             gradient.iter_mut().zip(phi.iter()).for_each(|(gradient, phi)| *gradient = k * phi);
             if left > 0
-                && let Some((phi, before)) = older.chunks_exact(2 * row).last().map(|rows| rows.split_at(row))
+                && let Some((phi, before)) =
+                    older.chunks_exact(2 * row).last().and_then(|rows| rows.split_at_checked(row))
             {
                 add_scaled(gradient, 1.0, before);
                 add_scaled(gradient, -k, phi);
@@ -382,12 +383,12 @@ impl Period<'_, '_, '_> {
                     for k in 0..4 {
                         let at_node = stack.at(&self.law, displacement[k]);
                         for (values, derivative) in derivatives.iter_mut().zip(at_node) {
-                            values[block][k] = derivative;
+                            values.iter_mut().skip(block).take(1).for_each(|values| values[k] = derivative);
                         }
                     }
                 }
                 for (values, column) in derivatives.iter().zip(sums.chunks_exact_mut(coefficients)) {
-                    nodes.add(weights, values.get(..weights.len()).unwrap_or(&[]), column);
+                    nodes.add(weights, values, column);
                 }
             });
             return;
@@ -405,10 +406,10 @@ impl Period<'_, '_, '_> {
                 }
             }
             if force {
-                nodes.add(weights, forces.get(..weights.len()).unwrap_or(&[]), force_sums);
+                nodes.add(weights, &forces, force_sums);
             }
             if stiffness {
-                nodes.add(weights, stiffnesses.get(..weights.len()).unwrap_or(&[]), sums);
+                nodes.add(weights, &stiffnesses, sums);
             }
         });
         if stiffness {

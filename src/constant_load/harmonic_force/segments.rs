@@ -105,13 +105,13 @@ impl<'a> NodalFourier<'a> {
 
     /// Adds the products of weights and values at the nodes of a panel with 1, cos t, sin t, cos 2t, ..., one for each of `sums`.
     #[inline(always)]
-    pub fn add(&self, weights: &[[f64; 4]], values: &[[f64; 4]], sums: &mut [f64]) {
+    pub fn add(&self, weights: &[[f64; 4]], values: &Nodes, sums: &mut [f64]) {
         let rows = &*self.rows;
         dispatch!(
             sums_kernel,
             rows: &[[Nodes; 2]],
             weights: &[[f64; 4]],
-            values: &[[f64; 4]],
+            values: &Nodes,
             sums: &mut [f64] => ()
         );
     }
@@ -158,7 +158,7 @@ fn rows_kernel(rows: &mut [[Nodes; 2]], motion: &Motion, orders: usize, times: &
 }
 
 #[inline(always)]
-fn sums_kernel(rows: &[[Nodes; 2]], weights: &[[f64; 4]], values: &[[f64; 4]], sums: &mut [f64]) {
+fn sums_kernel(rows: &[[Nodes; 2]], weights: &[[f64; 4]], values: &Nodes, sums: &mut [f64]) {
     let total = |[one, two, three, four]: [f64; 4]| (one + two) + (three + four);
     let Some((constant, pairs)) = sums.split_first_mut() else { return };
     let mut products: Nodes = [[0.0; 4]; _];
@@ -170,7 +170,7 @@ fn sums_kernel(rows: &[[Nodes; 2]], weights: &[[f64; 4]], values: &[[f64; 4]], s
         }
     }
     *constant += total(sum);
-    let products = products.get(..values.len()).unwrap_or(&[]);
+    let products = products.get(..weights.len()).unwrap_or(&[]);
     for ([by_cosine, by_sine], [cosines, sines]) in pairs.as_chunks_mut::<2>().0.iter_mut().zip(rows) {
         let (mut c, mut s) = ([0.0; 4], [0.0; 4]);
         for ((product, cosine), sine) in products.iter().zip(cosines).zip(sines) {

@@ -156,7 +156,7 @@ pub(super) fn harmonic_sensitivity(
         }
         *place = now;
     }
-    for (parameter, column) in sensitivity.chunks_exact_mut(size.coefficients()).enumerate() {
+    for (parameter, column) in (0..PARAMETERS).zip(sensitivity.chunks_exact_mut(size.coefficients().max(1))) {
         let values = path.force.iter_mut().skip(farthest + 1);
         values.zip(derivatives.iter()).for_each(|(value, derivatives)| *value = derivatives[parameter]);
         fourier.sum_from(farthest + 1, half_wave.then_some(-1.0), path.force, column);
@@ -260,7 +260,10 @@ fn at(values: &[f64], index: usize) -> f64 {
 #[inline(always)]
 fn count_on_branch(samples: &[f64], branch: &Branch) -> usize {
     let (direction, end) = (branch.direction, branch.direction * branch.end);
-    let continues = |last: &f64, next: &f64| (direction * next >= direction * last) & (direction * next < end);
+    let continues = |last: &f64, next: &f64| {
+        let (continues, is_inside) = (direction * next >= direction * last, direction * next < end);
+        continues & is_inside
+    };
     let later = samples.get(1..).unwrap_or(&[]);
     let blocks = samples.as_chunks::<4>().0.iter().zip(later.as_chunks::<4>().0);
     let continue_all = |([a, b, c, d], [e, f, g, h]): &(&[f64; 4], &[f64; 4])| {
