@@ -345,7 +345,7 @@ impl Period<'_, '_, '_> {
             gradient.iter_mut().zip(phi.iter()).for_each(|(gradient, phi)| *gradient = k * phi);
             if left > 0
                 && let Some((phi, before)) =
-                    older.chunks_exact(2 * row).last().and_then(|rows| rows.split_at_checked(row))
+                    older.chunks_exact((2 * row).max(1)).last().and_then(|rows| rows.split_at_checked(row))
             {
                 add_scaled(gradient, 1.0, before);
                 add_scaled(gradient, -k, phi);
@@ -417,7 +417,7 @@ impl Period<'_, '_, '_> {
             buffers.integrate_phi(from.t, to.t);
             let Buffers { gradients, phi_integrals, segment_stiffness, assembly, .. } = buffers;
             let row = phi_integrals.len().max(1);
-            let rows = gradients.chunks_exact(2 * row).nth(branch.depth.wrapping_sub(1));
+            let rows = gradients.chunks_exact((2 * row).max(1)).nth(branch.depth.wrapping_sub(1));
             if let Some((phi, gradient)) = rows.and_then(|rows| rows.split_at_checked(row)) {
                 let columns = [gradient, phi].map(<[_]>::as_flattened);
                 assembly.add_products(columns, [phi_integrals, segment_stiffness.get(..row).unwrap_or(&[])]);
