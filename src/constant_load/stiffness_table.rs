@@ -236,14 +236,7 @@ impl StiffnessTable {
     /// Writes what is requested of K', K'' and their derivatives at amplitudes \[m\] of a contact with friction of this shape.
     #[inline(always)]
     pub fn write(&self, contact: &Contact, amplitude: &[f64], outputs: StiffnessOutputs) {
-        let table = self;
-        dispatch!(
-            StiffnessTable::write_kernel,
-            table: &StiffnessTable,
-            contact: &Contact,
-            amplitude: &[f64],
-            outputs: StiffnessOutputs => ()
-        );
+        dispatch!(self.write_kernel(contact, amplitude, outputs));
     }
 
     #[inline(always)]
