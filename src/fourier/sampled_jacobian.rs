@@ -65,28 +65,14 @@ impl<'a> Assembly<'a> {
     /// Writes `Σ w φ ⊗ φ`, normalised, to the rows from `offset` on of columns that are `stride` apart.
     #[inline(always)]
     pub fn write_sums(&mut self, columns: &mut [f64], stride: usize, offset: usize) {
-        let assembly = self;
-        dispatch!(
-            Assembly::sums_kernel,
-            assembly: &mut Assembly,
-            columns: &mut [f64],
-            stride: usize,
-            offset: usize => ()
-        );
+        dispatch!(self.sums_kernel(columns, stride, offset));
     }
 
     /// Writes `Σ w φ ⊗ φ` and the outer products to the first rows of the columns. Under half-wave symmetry the products are those of
     /// half a period, and only rows and columns of equal (+1) or opposite (-1) parity remain.
     #[inline(always)]
     pub fn write(&mut self, symmetry: Option<f64>, columns: &mut [f64], stride: usize) {
-        let assembly = self;
-        dispatch!(
-            Assembly::kernel,
-            assembly: &mut Assembly,
-            symmetry: Option<f64>,
-            columns: &mut [f64],
-            stride: usize => ()
-        );
+        dispatch!(self.kernel(symmetry, columns, stride));
     }
 
     #[inline(always)]
@@ -98,27 +84,13 @@ impl<'a> Assembly<'a> {
     /// Sets the outer products to those of the rows Y of an index.
     #[inline(always)]
     pub fn set_products<const D: usize>(&mut self, outer: &OuterProducts<D>, index: usize) {
-        let products = &mut *self.products;
-        dispatch!(
-            OuterProducts::<D>::products,
-            [const D: usize] outer: &OuterProducts<D>,
-            index: usize,
-            products: &mut Blocks => ()
-        );
+        dispatch!(outer.products(index, self.products));
     }
 
     /// Adds `a ⊗ x - b ⊗ y` to the outer products: rows x and y, columns a and b.
     #[inline(always)]
     pub fn add_products(&mut self, [a, b]: [&[f64]; 2], [x, y]: [&Blocks; 2]) {
-        let products = &mut *self.products;
-        dispatch!(
-            add_products,
-            products: &mut Blocks,
-            a: &[f64],
-            b: &[f64],
-            x: &Blocks,
-            y: &Blocks => ()
-        );
+        dispatch!(add_products(self.products, a, b, x, y));
     }
 
     #[inline(always)]

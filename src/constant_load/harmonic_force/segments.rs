@@ -106,28 +106,14 @@ impl<'a> NodalFourier<'a> {
     /// Adds the products of weights and values at the nodes of a panel with 1, cos t, sin t, cos 2t, ..., one for each of `sums`.
     #[inline(always)]
     pub fn add(&self, weights: &[[f64; 4]], values: &Nodes, sums: &mut [f64]) {
-        let rows = &*self.rows;
-        dispatch!(
-            sums_kernel,
-            rows: &[[Nodes; 2]],
-            weights: &[[f64; 4]],
-            values: &Nodes,
-            sums: &mut [f64] => ()
-        );
+        dispatch!(sums_kernel(self.rows, weights, values, sums));
     }
 }
 
 /// Evaluates cos and sin of all orders up to `orders`, and the displacement, at the nodes of a panel.
 #[inline(always)]
 fn fill_rows(rows: &mut [[Nodes; 2]], motion: &Motion, orders: usize, times: &[[f64; 4]], displacement: &mut Nodes) {
-    dispatch!(
-        rows_kernel,
-        rows: &mut [[Nodes; 2]],
-        motion: &Motion,
-        orders: usize,
-        times: &[[f64; 4]],
-        displacement: &mut Nodes => ()
-    );
+    dispatch!(rows_kernel(rows, motion, orders, times, displacement));
 }
 
 #[inline(always)]

@@ -176,13 +176,7 @@ struct Part {
 /// Samples a displacement along two periods.
 #[inline(always)]
 fn sample(count: usize, fourier: &FoldedFourier, displacement: &[f64], samples: &mut [f64]) -> Part {
-    dispatch!(
-        sample_kernel,
-        count: usize,
-        fourier: &FoldedFourier,
-        displacement: &[f64],
-        samples: &mut [f64] => Part
-    )
+    dispatch!(sample_kernel(count, fourier, displacement, samples))
 }
 
 #[inline(always)]
