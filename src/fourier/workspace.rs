@@ -183,4 +183,52 @@ impl<'a> Parts<'a> {
     pub fn take_blocks(&mut self, blocks: usize) -> Result<&'a mut Blocks, Error> {
         Ok(self.take(4 * blocks)?.as_chunks_mut().0)
     }
+
+    /// # Errors
+    /// Those of [`Parts::take`].
+    #[inline(always)]
+    pub fn take_records<T: Record>(&mut self, count: usize) -> Result<&'a mut [T], Error> {
+        const { assert!(align_of::<T>() <= align_of::<f64>() && size_of::<T>().is_multiple_of(size_of::<f64>())) };
+        let doubles = self.take(count * (size_of::<T>() / size_of::<f64>()))?;
+        let records = size_of_val(doubles) / size_of::<T>();
+        // SAFETY: a record accepts all bits of these doubles, which no other reference reaches, and leaves none uninitialised.
+        #[allow(unsafe_code)]
+        Ok(unsafe { core::slice::from_raw_parts_mut(doubles.as_mut_ptr().cast(), records) })
+    }
 }
+
+/// Structs that may occupy the doubles of a workspace: [`record`] defines them.
+///
+/// # Safety
+/// All bits are valid and there is no padding.
+#[allow(unsafe_code)]
+pub(crate) unsafe trait Record: Copy {}
+
+// SAFETY: numbers without invalid bits, and arrays without padding.
+#[allow(unsafe_code)]
+mod numbers {
+    use super::Record;
+    unsafe impl Record for f64 {}
+    unsafe impl Record for u64 {}
+    unsafe impl<T: Record, const N: usize> Record for [T; N] {}
+}
+
+/// Defines a struct whose fields are records, and which is one therefore.
+macro_rules! record {
+    ($(#[$attribute:meta])* $visibility:vis struct $name:ident {
+        $($(#[$field_attribute:meta])* $field_visibility:vis $field:ident: $type:ty),+ $(,)?
+    }) => {
+        $(#[$attribute])*
+        #[derive(Debug, Clone, Copy)]
+        #[repr(C)]
+        $visibility struct $name {
+            $($(#[$field_attribute])* $field_visibility $field: $type),+
+        }
+
+        // SAFETY: the fields are records whose size is a multiple of their alignment, that of doubles.
+        #[allow(unsafe_code)]
+        unsafe impl $crate::fourier::workspace::Record for $name where $($type: $crate::fourier::workspace::Record),+ {}
+    };
+}
+
+pub(crate) use record;

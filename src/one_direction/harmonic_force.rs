@@ -7,12 +7,10 @@
 //! in closed form at one sample, so one period is evaluated, and half of one if it is half-wave symmetric.
 //!
 //! - `samples`: normal states, characteristic coordinates, entry into the steady state;
-//! - `runs`: the memory diagram along the period, without evaluating any force;
+//! - `runs`: the memory diagram along the period, without evaluating any force, and the energy dissipated;
 //! - `forces`: the tangential forces;
-//! - `jacobian`: their exact derivatives;
-//! - `energy`: dissipation.
+//! - `jacobian`: their exact derivatives.
 
-mod energy;
 mod forces;
 mod jacobian;
 mod runs;
@@ -30,8 +28,8 @@ use crate::fourier::workspace::{HEADER, Parts, Size, WorkspaceLayout};
 use crate::limits::check_coefficients;
 use crate::tag::Kind;
 use forces::Forces;
-use jacobian::{Context, Cuts, PIECE, Sensitivity};
-use runs::{KNOT, PeriodicPath, RUN};
+use jacobian::{Context, Cuts, Sensitivity};
+use runs::PeriodicPath;
 use samples::{Part, Samples};
 
 /// Number of doubles in a workspace for the given number of harmonics and of samples per period; 0 if these are not allowed.
@@ -130,12 +128,8 @@ impl<'a> Workspace<'a> {
             last_cut_load: array()?,
         };
         let (own, places) = ([array()?, array()?], array()?);
-        let path = PeriodicPath {
-            knots: parts.take(KNOT * capacity)?.as_chunks_mut().0,
-            runs: parts.take(RUN * capacity)?.as_chunks_mut().0,
-            cut_shift,
-        };
-        let pieces = parts.take(PIECE * capacity)?.as_chunks_mut().0;
+        let path = PeriodicPath { knots: parts.take_blocks(capacity)?, runs: parts.take_records(capacity)?, cut_shift };
+        let pieces = parts.take_records(capacity)?;
         let stored = parts.take_blocks(2 * row_blocks(harmonics) * capacity)?;
         let outer = OuterProducts::take(parts, harmonics, count)?;
         let assembly = Assembly::take(parts, harmonics, 1.0 / count as f64)?;
@@ -195,12 +189,12 @@ pub fn harmonic_force(
         let part = part.insert(samples.enter_steady_state(element, motion.half_wave));
         if needs_forces {
             let extent = path.evaluate(element, samples, part);
-            let runs = path.runs(extent, part, samples.count);
+            let runs = path.runs.get(..extent.runs).unwrap_or(&[]);
             let cut_shift = path.cuts(extent);
             if jacobian.is_none() {
                 forces.evaluate::<false>(element, samples, cut_shift, runs);
             } else {
-                forces.evaluate::<true>(element, samples, cut_shift, runs.clone());
+                forces.evaluate::<true>(element, samples, cut_shift, runs);
                 let context = Context { element, samples, part };
                 let cuts = Cuts {
                     shifts: path.cut_shift,
@@ -208,13 +202,13 @@ pub fn harmonic_force(
                     stiffnesses: forces.cut_stiffness,
                     slopes: forces.slope,
                 };
-                sensitivity.gather(&context, &cuts, &runs);
+                sensitivity.gather(&context, &cuts, runs);
             }
         }
     }
     if let Some(dissipated) = dissipated {
         let Workspace { samples, path, .. } = workspace;
-        let energy = part.map_or(0.0, |part| energy::dissipated_in(element, samples, &part, path.diagram()));
+        let energy = part.map_or(0.0, |part| path.dissipated(element, samples, &part));
         *dissipated = if motion.half_wave { 2.0 * energy } else { energy };
     }
     if let Some(drift) = drift {

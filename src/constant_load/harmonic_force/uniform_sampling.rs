@@ -4,7 +4,7 @@
 //! transformed back. The error is O(samples⁻²). The Jacobian is exact for the discrete sums: `Σ k φ ⊗ φ` follows from Fourier sums of
 //! the stiffness, and `sampled_terms` adds the terms of the reversals.
 
-use super::reversal_terms::{BRANCH, Branches, ENTRY, ReversalTerms};
+use super::reversal_terms::{self, ReversalTerms};
 use super::sensitivity::ReversalSensitivities;
 use super::{HarmonicOutput, Requested};
 use crate::constant_load::contact::Contact;
@@ -85,9 +85,9 @@ impl<'a> Workspace<'a> {
         let mut array = |length: usize| parts.take(length + 1 + BEYOND);
         let [displacement, force, stiffness] = [array(2 * count)?, array(2 * count)?, array(2 * count)?];
         let scratch = [array(count)?, array(count)?];
-        let branches = Branches::new(parts.take(BRANCH * capacity)?);
+        let branches = parts.take_records(capacity)?;
         let reversals = parts.take(3 * capacity)?.as_chunks_mut().0;
-        let entries = parts.take(ENTRY * capacity)?.as_chunks_mut().0;
+        let entries = parts.take_records(capacity)?;
         let sums = parts.take_blocks(2 * row_blocks(harmonics) * capacity)?;
         let outer = OuterProducts::take(parts, harmonics, capacity)?;
         let assembly = Assembly::take(parts, harmonics, 1.0 / count as f64)?;
@@ -116,7 +116,7 @@ pub(super) fn harmonic_force(
     let symmetry = |sign: f64| half_wave.then_some(sign);
     let mut law = SteadyState::new(contact, reversals, dissipated.is_some());
     let requested = Requested { force: force.is_some() || jacobian.is_some(), stiffness: jacobian.is_some() };
-    path.advance(&mut law, farthest, length, requested);
+    let branches = path.advance(&mut law, farthest, length, requested);
     if let (Some(dissipated), Some(energy)) = (dissipated, law.dissipated()) {
         *dissipated = if half_wave { 2.0 * energy } else { energy };
     }
@@ -125,7 +125,7 @@ pub(super) fn harmonic_force(
         normalise(force, 1.0 / size.samples as f64);
     }
     if let Some(jacobian) = jacobian {
-        terms.gather(&path.branches, farthest, path.stiffness);
+        terms.gather(path.branches.get(..branches).unwrap_or(&[]), path.stiffness);
         fourier.sum_from(farthest + 1, symmetry(1.0), path.stiffness, assembly.sums);
         assembly.set_products(&terms.outer, 0);
         assembly.write(symmetry(1.0), jacobian, size.coefficients());
@@ -197,12 +197,13 @@ struct Path<'a> {
     stiffness: &'a mut [f64],
     /// Scratch memory of evaluators.
     scratch: [&'a mut [f64]; 2],
-    branches: Branches<'a>,
+    branches: &'a mut [reversal_terms::Branch],
 }
 
 impl Path<'_> {
-    /// Advances the law from the farthest sample along `length` further ones, and evaluates force and stiffness if requested.
-    fn advance(&mut self, law: &mut SteadyState, farthest: usize, length: usize, requested: Requested) {
+    /// Advances the law from the farthest sample along `length` further ones, and evaluates force and stiffness if requested. Returns the
+    /// number of branches.
+    fn advance(&mut self, law: &mut SteadyState, farthest: usize, length: usize, requested: Requested) -> usize {
         let Path { displacement, force, stiffness, scratch, branches } = self;
         let mut from = Point { displacement: at(displacement, farthest), force: 0.0 };
         let response = law.begin(from.displacement);
@@ -210,15 +211,19 @@ impl Path<'_> {
         if let Some(stiffness) = stiffness.get_mut(farthest) {
             *stiffness = response.stiffness;
         }
-        branches.clear();
+        let mut used = 0;
         let (mut next, last) = (farthest + 1, farthest + length);
         while next <= last {
             let entered = at(displacement, next);
             law.advance(from, entered);
             let branch = law.branch();
-            let Some(rest) = displacement.get(next..) else { return };
+            let Some(rest) = displacement.get(next..) else { break };
             let count = count_on_branch(rest, &branch).min(last + 1 - next);
-            branches.push(count, branch.depth);
+            if let Some(place) = branches.get_mut(used) {
+                let [first, count, depth] = [next, count, branch.depth].map(|number| number as u64);
+                *place = reversal_terms::Branch { first, count, depth };
+                used += 1;
+            }
             from.displacement = at(displacement, next + count - 1);
             if count > 1 {
                 law.account_for(entered, from.displacement);
@@ -242,6 +247,7 @@ impl Path<'_> {
             }
             next += count;
         }
+        used
     }
 }
 
