@@ -462,29 +462,6 @@ mod tests {
     }
 
     #[test]
-    fn one_harmonic_agrees_with_the_complex_stiffness() {
-        for contact in contacts() {
-            for (ratio, bound) in
-                [(1e-6, 1e-14), (0.3, 1e-14), (0.8, 1e-13), (0.95, 1e-12), (1.1, 1e-12), (3.0, 1e-12), (1e3, 1e-12)]
-            {
-                let amplitude = ratio * contact.slip_displacement;
-                let exact = contact.complex_stiffness(amplitude).unwrap();
-                let size = exact.real().hypot(exact.imaginary());
-                for phase in [0.0, 0.3, 2.0, 4.0] {
-                    let (sine, cosine) = f64::sin_cos(phase);
-                    let (force, _, energy) = all(&contact, 64, &[0.0, amplitude * cosine, amplitude * sine]);
-                    let real = (cosine * force[1] + sine * force[2]) / amplitude;
-                    let imaginary = (sine * force[1] - cosine * force[2]) / amplitude;
-                    let error = (real - exact.real()).hypot(imaginary - exact.imaginary());
-                    assert!(error < bound * size, "{ratio} {phase}: {:e}", error / size);
-                    // The energy of small loops is a difference of forces, with their absolute error.
-                    assert!((energy / exact.dissipated() - 1.0).abs() < 1e-12, "{ratio} {energy}");
-                }
-            }
-        }
-    }
-
-    #[test]
     fn the_jacobian_agrees_with_finite_differences() {
         for contact in contacts() {
             for (shape, size) in
@@ -620,17 +597,5 @@ mod tests {
             assert!(distance(&one.0, &two.0) < 1e-9 * contact.slip_force, "{steps} {by}");
             assert!((one.2 / two.2 - 1.0).abs() < 1e-12, "{steps} {by}: {} {}", one.2, two.2);
         }
-    }
-
-    #[test]
-    fn the_force_of_a_large_motion_is_a_square_wave() {
-        let contact = contact(0.0);
-        let huge = 1e9 * contact.slip_displacement;
-        let (force, _, energy) = all(&contact, 16, &[0.0, 0.0, huge, 0.0, 0.0, 0.0, 0.0]);
-        // The contact sticks for 1e-4 of the period.
-        assert!((force[1] / contact.slip_force * PI / 4.0 - 1.0).abs() < 1e-4);
-        assert!((energy / (4.0 * contact.slip_force * huge) - 1.0).abs() < 1e-8);
-        let square: f64 = force.iter().map(|force| force * force).sum();
-        assert!((square.sqrt() / contact.slip_force / (4.0 / PI * (1.0 + 1.0 / 9.0f64).sqrt()) - 1.0).abs() < 1e-4);
     }
 }
