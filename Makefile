@@ -135,11 +135,8 @@ bench: all
 figures:
 	@tools/dependencies.sh figures
 	$(CARGO) run --quiet --locked --package paper
-	verification/paper/draw.sh
 	$(CARGO) run --quiet --locked --package validation
-	verification/validation/draw.sh
-	tools/identification.sh
-	tools/layer.sh
+	verification/paper/draw.sh
 
 ## identification: fit 200 computed data sets of each kind, and write the tables of docs/identification.md (half an hour)
 identification:

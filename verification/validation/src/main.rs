@@ -1,8 +1,8 @@
 //! The law against Kalker and Vollebregt's boundary-element code CONTACT, row by row; in two directions against boundary elements of
 //! our own; strips of finite length against boundary elements; a sliding cylinder against published measurements.
 //!
-//! - `validation` writes the data of the figures to `docs/figures/data`, and the tables of `docs/validation.md`;
-//! - `validation --check` compares both with what the library computes now, and the differences with their bounds.
+//! - `validation` writes the data of the figures to `target/figures`, and the tables of `docs/validation.md`;
+//! - `validation --check` compares the tables with what the library computes now, and the differences with their bounds.
 
 #[path = "../../paper/src/documents.rs"]
 mod documents;
