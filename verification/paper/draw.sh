@@ -1,6 +1,6 @@
 #!/bin/sh
 # draw.sh [GNUPLOT]: draws the pictures of docs/figures from the data of `paper` and `validation` in target/figures, and from what the
-# command line computes here: loops with layers, and a fit of two noisy loops.
+# command line computes here: a damper and its spring-slider, loops with layers, a fit of two noisy loops.
 set -eu
 cd "$(dirname "$0")"
 : "${CARGO:=cargo}"
@@ -14,7 +14,18 @@ numbers() {
     grep -e '^[a-z]' -e '^[0-9]'
 }
 
-"$program" example > "$work/contact.toml"
+"$program" example > "$work/damper.toml"
+"$program" contact "$work/damper.toml" | awk -F, '/^slip_|^initial_/ { print $1 " = " $2 }' > "$work/damper"
+slip=$(sed -n 's/^slip_displacement = //p' "$work/damper")
+"$program" jenkins "$work/damper.toml" --amplitude "$slip" | # the spring-slider of equal complex stiffness at gross slip
+    awk -F, '/^[0-9]/ { print "tuned_stiffness = " $2 "; tuned_force = " $3 }' | cat "$work/damper" - > "$root/target/figures/why.gp"
+"$program" loop "$work/damper.toml" --relative --amplitude 0.8 --points 201 | numbers > "$root/target/figures/why_loop.csv"
+"$program" stiffness "$work/damper.toml" --relative --from 0.05 --to 5 | numbers > "$root/target/figures/why_stiffness.csv"
+make -s -C "$root/fortran_examples" demo-cylinder demo-spring_slider PREFIX=../dist > "$work/demo"
+
+sed -e 's/^flat_half_width.*/flat_half_width = 0.5e-3/; s/^edge_radius.*/edge_radius = 3e-3/; s/^length.*/length = 20e-3/' \
+    -e 's/^friction.*/friction_coefficient = 0.5/; s/^young.*/young_modulus = 200e9/; s/^poisson.*/poisson_ratio = 0.3/' \
+    "$work/damper.toml" > "$work/contact.toml"
 stiffness=$("$program" contact "$work/contact.toml" | awk -F, '$1 == "initial_stiffness" { print $2 }')
 normal_force=$(sed -n 's/^normal_force = \([0-9.e]*\).*/\1/p' "$work/contact.toml")
 for share in 0 0.3 1 3; do
