@@ -66,14 +66,7 @@ impl Contact {
     /// Force and stiffness at displacements of either sign.
     #[inline(always)]
     pub(crate) fn responses(&self, displacement: &[f64], force: Option<&mut [f64]>, stiffness: Option<&mut [f64]>) {
-        let contact = self;
-        dispatch!(
-            Contact::responses_kernel,
-            contact: &Contact,
-            displacement: &[f64],
-            force: Option<&mut [f64]>,
-            stiffness: Option<&mut [f64]> => ()
-        );
+        dispatch!(self.responses_kernel(displacement, force, stiffness));
     }
 
     #[inline(always)]
