@@ -33,7 +33,7 @@ struct Slip {
 /// Energy \[J\] dissipated from a closed contact with the diagram `knots`, which must not be empty.
 #[inline(always)]
 pub(crate) fn dissipated(element: &Element, knots: &[[f64; 4]], path: &Path) -> f64 {
-    dispatch!(dissipated_kernel, element: &Element, knots: &[[f64; 4]], path: &Path => f64)
+    dispatch!(dissipated_kernel(element, knots, path))
 }
 
 #[inline(always)]

@@ -55,11 +55,7 @@ impl<const N: usize> Edge<N> {
     /// With the edge in a part of a shell.
     #[inline(always)]
     pub fn of_shell(springs: &Springs, now: &Pressed, last: usize, part: usize) -> Edge<N> {
-        dispatch!(
-            Edge::of_shell_kernel,
-            [const N: usize]
-            springs: &Springs, now: &Pressed, last: usize, part: usize => Edge<N>
-        )
+        dispatch!(Edge::of_shell_kernel(springs, now, last, part))
     }
 
     #[inline(always)]

@@ -481,7 +481,7 @@ fn row(matrix: &[f64], n: usize, r: usize) -> &[f64] {
 
 /// Adds the derivatives of both forces times each value of the basis.
 fn accumulate(sums: &mut [f64], basis: &[f64], forces: &[f64]) {
-    dispatch!(accumulate_kernel, sums: &mut [f64], basis: &[f64], forces: &[f64] => ());
+    dispatch!(accumulate_kernel(sums, basis, forces));
 }
 
 #[inline(always)]

@@ -85,15 +85,7 @@ pub(crate) fn step<const N: usize>(
     requested: [bool; 2],
     record: &mut StepRecord<N>,
 ) -> Outcome {
-    dispatch!(
-        kernel,
-        [const N: usize]
-        springs: &Springs,
-        state: &mut SpringState<N>,
-        motion: &Increment,
-        requested: [bool; 2],
-        record: &mut StepRecord<N> => Outcome
-    )
+    dispatch!(kernel(springs, state, motion, requested, record))
 }
 
 #[inline(always)]

@@ -25,14 +25,7 @@ pub(crate) fn stuck<const N: usize>(
     now: &Pressed,
     offset: &Both<f64>,
 ) -> Option<Stuck> {
-    dispatch!(
-        kernel,
-        [const N: usize]
-        springs: &Springs,
-        state: &StoredSprings<N>,
-        now: &Pressed,
-        offset: &Both<f64> => Option<Stuck>
-    )
+    dispatch!(kernel(springs, state, now, offset))
 }
 
 #[inline(always)]

@@ -149,7 +149,7 @@ impl<const N: usize> Parameter<N> {
 
     fn set_load(&mut self, taken: &Taken<N>) {
         let load = self;
-        dispatch!(by_load, [const N: usize] load: &mut Parameter<N>, taken: &Taken<N> => ());
+        dispatch!(by_load(load, taken));
     }
 
     /// The logarithm of the size of the alignment, by the derivatives of the tables.
@@ -162,7 +162,7 @@ impl<const N: usize> Parameter<N> {
 
     fn set_alignment(&mut self, taken: &Taken<N>, slopes: &Springs) {
         let of = self;
-        dispatch!(by_alignment, [const N: usize] of: &mut Parameter<N>, taken: &Taken<N>, slopes: &Springs => ());
+        dispatch!(by_alignment(of, taken, slopes));
     }
 
     #[inline(always)]
@@ -333,7 +333,7 @@ impl Wide {
 
 /// Copies rows to the first places of wider ones.
 fn widen<const N: usize>(from: &[Row<N>], to: &mut [Row<MOST>]) {
-    dispatch!(widen_kernel, [const N: usize] from: &[Row<N>], to: &mut [Row<MOST>] => ());
+    dispatch!(widen_kernel(from, to));
 }
 
 #[inline(always)]
@@ -369,15 +369,7 @@ pub(crate) fn tangent<const N: usize, const C: usize>(
     derivatives: &mut Derivatives<N, C>,
     inner: usize,
 ) -> Both<Columns<C>> {
-    dispatch!(
-        kernel,
-        [const N: usize, const C: usize]
-        taken: &Taken<N>,
-        parameters: &[Parameter<N>],
-        columns: &IncrementColumns<C>,
-        derivatives: &mut Derivatives<N, C>,
-        inner: usize => Both<Columns<C>>
-    )
+    dispatch!(kernel(taken, parameters, columns, derivatives, inner))
 }
 
 /// The first shell whose spring has slipped or was engaged, from that before the step.

@@ -57,15 +57,7 @@ impl Forces<'_> {
         cut_shift: &[[f64; 4]],
         runs: Runs,
     ) {
-        let forces = self;
-        dispatch!(
-            Forces::kernel::<SLOPES>,
-            [const SLOPES: bool] forces: &mut Forces,
-            element: &Element,
-            samples: &Samples,
-            cut_shift: &[[f64; 4]],
-            runs: Runs => ()
-        );
+        dispatch!(self.kernel::<SLOPES>(element, samples, cut_shift, runs));
     }
 
     #[inline(always)]
