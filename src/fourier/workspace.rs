@@ -204,14 +204,17 @@ impl<'a> Parts<'a> {
 #[allow(unsafe_code)]
 pub(crate) unsafe trait Record: Copy {}
 
-// SAFETY: numbers without invalid bits, and arrays without padding.
+// SAFETY: all bits are numbers.
 #[allow(unsafe_code)]
-mod numbers {
-    use super::Record;
-    unsafe impl Record for f64 {}
-    unsafe impl Record for u64 {}
-    unsafe impl<T: Record, const N: usize> Record for [T; N] {}
-}
+unsafe impl Record for f64 {}
+
+// SAFETY: all bits are numbers.
+#[allow(unsafe_code)]
+unsafe impl Record for u64 {}
+
+// SAFETY: arrays have no padding.
+#[allow(unsafe_code)]
+unsafe impl<T: Record, const N: usize> Record for [T; N] {}
 
 /// Defines a struct whose fields are records, and which is one therefore.
 macro_rules! record {
