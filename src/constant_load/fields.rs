@@ -74,6 +74,25 @@ impl Contact {
 mod tests {
     use crate::constant_load::contact::tests::{FLATS, contact};
 
+    #[test]
+    fn shear_is_mu_p_under_mu_n_and_zero_without_force() {
+        for flat in FLATS {
+            let contact = contact(flat);
+            let (end, unloaded) =
+                (contact.curve_at_force(-contact.slip_force).unwrap(), contact.curve_at_force(0.0).unwrap());
+            for ratio in [0.0, 0.3, -0.7, 0.999, 1.0, 1.5] {
+                let x = ratio * contact.half_width;
+                let limit = 0.4 * contact.pressure(x);
+                assert!((end.shear(x) + limit).abs() <= 4e-16 * limit, "{flat} {ratio}");
+                assert_eq!((unloaded.shear(x), unloaded.slip(x)), (0.0, Ok(0.0)));
+                let slip = end.slip(x).unwrap();
+                assert!(slip <= 0.0);
+                // mu p |s|, with the rounding errors of two products.
+                assert!((end.damage(x).unwrap() + limit * slip).abs() <= 4e-16 * (limit * slip).abs());
+            }
+        }
+    }
+
     /// Tractions and slip in gross slip are those at its onset, at a force as at a displacement.
     #[test]
     fn tractions_are_constant_in_gross_slip() {
