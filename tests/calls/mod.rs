@@ -148,6 +148,7 @@ mod environment {
     }
 }
 
+#[allow(unused_imports, reason = "not for the fuzzer")]
 pub use environment::MODES;
 
 /// An argument as it is passed.

@@ -14,6 +14,11 @@ impl Bytes<'_> {
         Bytes(bytes)
     }
 
+    #[allow(dead_code, reason = "for the fuzzer")]
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
     fn byte(&mut self) -> usize {
         let Some((first, rest)) = self.0.split_first() else { return 0 };
         self.0 = rest;
