@@ -357,27 +357,3 @@ fn negative_normal_forces_are_rejected_but_for_rounding() {
         assert!(!is_valid || (force[5..] == displacement[5..] && force[1].is_finite()));
     }
 }
-
-#[test]
-fn results_do_not_depend_on_earlier_use_or_on_other_outputs() {
-    let mut random = Scattered(5);
-    let element = elements(NormalInput::Approach)[1];
-    let used = workspace_length(3, 32);
-    let mut memory = vec![-1.0; used + 2];
-    workspace_init(3, 32, &mut memory).unwrap();
-    let motions = [[0.4, 0.5, 0.3], [3.0, 0.2, 0.6]]
-        .map(|[size, mean, swing]| motion(&element, 3, size, mean, swing, &mut random));
-    let first = all(&element, &mut memory, &motions[0]);
-    let second = all(&element, &mut memory, &motions[1]);
-    assert_eq!(all(&element, &mut memory, &motions[0]), first);
-    assert_eq!(force_of(&element, &mut memory, &motions[1]), second.0);
-    let mut energy = 0.0;
-    let output = HarmonicOutput { force: None, jacobian: None, dissipated: Some(&mut energy), drift: None };
-    evaluate(&element, &mut memory, &motions[0], output).unwrap();
-    assert_eq!(energy, first.2);
-    let mut jacobian = vec![0.0; 14 * 14];
-    let output = HarmonicOutput { force: None, jacobian: Some(&mut jacobian), dissipated: None, drift: None };
-    evaluate(&element, &mut memory, &motions[1], output).unwrap();
-    assert_eq!(jacobian, second.1);
-    assert_eq!(memory[used..], [-1.0, -1.0]);
-}
