@@ -151,29 +151,6 @@ static double stiffness_range(const char *task, const char *method, double shape
     return s->n ? sum / (double)s->n : 0.0;
 }
 
-void write_readme_table(FILE *file)
-{
-    sample range = { .n = 0 };
-    stiffness_range("stiffness over amplitude", "microslip", -1.0, &range);
-    fputs("| task | microslip | instead |\n|---|---:|---|\n", file);
-    const summary *s = summary_of("microslip", "force", 0, 0, 0);
-    fprintf(file, "| force and stiffness at a displacement | %s | "
-                  "quadrature of Eq. 10, error 1e-8: %s; one spring-slider: %s |\n",
-            cell(&s->own), cell(&s->quadrature), cell(&s->one));
-    s = summary_of("microslip", "stiffness", 0, 0, 0);
-    fprintf(file, "| complex stiffness and derivatives | %s, at worst %s | "
-                  "quadrature, error 1e-8: %s; one spring-slider: %s |\n",
-            cell(&s->own), text_of(range.value[range.n - 1]), cell(&s->quadrature), cell(&s->one));
-    s = summary_of("microslip", "harmonic", 5, 128, 1);
-    fprintf(file, "| harmonic force and Jacobian, 5 harmonics, 128 samples | %s | "
-                  "parallel sliders, error 1e-4: %s; one spring-slider: %s |\n", cell(&s->own), cell(&s->coarse), cell(&s->one));
-    s = summary_of("microslip", "time step", 0, 0, 0);
-    fprintf(file, "| step of a time integration | %s | parallel sliders, error 1e-4: %s; one spring-slider: %s |\n",
-            cell(&s->own), cell(&s->coarse), cell(&s->one));
-    s = summary_of("microslip", "initialisation", 0, 0, 0);
-    fprintf(file, "| initialisation of a contact | %s | – |\n", cell(&s->own));
-}
-
 /* Median of the times of microslip over those of the fastest of some methods, and the largest; all that match a call. */
 static const char *ratios(const char *task, const char *const *methods, double parameter, int harmonics, int samples, int jacobian)
 {
@@ -204,43 +181,21 @@ static const char *ratios(const char *task, const char *const *methods, double p
     return t;
 }
 
-static void write_harmonic_table(FILE *file)
-{
-    fputs("\nTime of the harmonic force by uniform sampling over that of one spring-slider, the faster of two methods: median over "
-          "shapes\nand amplitudes, in brackets the largest.\n\n"
-          "| motion | force, 64 samples | 128 | 256 | with Jacobian, 64 | 128 | 256 |\n|---|---:|---:|---:|---:|---:|---:|\n", file);
-    static const char *const tasks[] = { "odd motion", "general motion" };
-    static const char *const methods[] = { "spring-slider", "spring-slider by reversals", NULL };
-    for (int k = 0; k < 2; ++k) {
-        for (int h = 1; h <= 9; h += 4) {
-            fprintf(file, "| %s, H = %d", k ? "general" : "odd harmonics", h);
-            for (int jacobian = 0; jacobian <= 1; ++jacobian) {
-                for (int samples = 64; samples <= 256; samples *= 2) {
-                    fprintf(file, " | %s", ratios(tasks[k], methods, -1.0, h, samples, jacobian));
-                }
-            }
-            fputs(" |\n", file);
-        }
-    }
-}
-
 static void write_element_table(FILE *file)
 {
     fputs("\nTime of an element under a varying normal force over that of one spring-slider with a varying limit: median over the "
           "shapes,\nin brackets the largest. H = 1, 5, 9 with 64, 128, 256 samples.\n\n"
           "| motion | force, H = 1 | H = 5 | H = 9 | with Jacobian, H = 1 | H = 5 | H = 9 | step |\n"
           "|---|---:|---:|---:|---:|---:|---:|---:|\n", file);
-    static const char *const methods[][2] = { { "spring-slider", NULL }, { "spring-slider, folded transforms", NULL } };
-    for (int k = 0; k < 2; ++k) {
-        for (int motion = 0; element_motion(motion); ++motion) {
-            fprintf(file, "| %s%s", element_motion(motion), k ? ", slider with folded transforms" : "");
-            for (int jacobian = 0; jacobian <= 1; ++jacobian) {
-                for (int h = 1; h <= 9; h += 4) {
-                    fprintf(file, " | %s", ratios("element", methods[k], motion, h, 0, jacobian));
-                }
+    static const char *const methods[] = { "spring-slider", NULL };
+    for (int motion = 0; element_motion(motion); ++motion) {
+        fprintf(file, "| %s", element_motion(motion));
+        for (int jacobian = 0; jacobian <= 1; ++jacobian) {
+            for (int h = 1; h <= 9; h += 4) {
+                fprintf(file, " | %s", ratios("element", methods, motion, h, 0, jacobian));
             }
-            fprintf(file, " | %s |\n", ratios("element step", methods[k], motion, 0, 0, 0));
         }
+        fprintf(file, " | %s |\n", ratios("element step", methods, motion, 0, 0, 0));
     }
     static const char *const logarithm[] = { "logarithm", NULL };
     const summary *s = summary_of("microslip", "element initialisation", 0, 0, 0);
@@ -452,7 +407,6 @@ void write_tables(FILE *file, const char *machine)
 
     write_stiffness_table(file);
     write_step_tables(file);
-    write_harmonic_table(file);
     write_element_table(file);
     write_two_directions_tables(file);
     write_springs_table(file);
