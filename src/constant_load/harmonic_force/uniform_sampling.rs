@@ -2,7 +2,7 @@
 //!
 //! The displacement is sampled, the law advanced from branch to branch, the forces of each branch are evaluated four at a time, and
 //! transformed back. The error is O(samples⁻²). The Jacobian is exact for the discrete sums: `Σ k φ ⊗ φ` follows from Fourier sums of
-//! the stiffness, and `sampled_terms` adds the terms of the reversals.
+//! the stiffness, and `reversal_terms` adds the terms of the reversals.
 
 use super::reversal_terms::{self, ReversalTerms};
 use super::sensitivity::ReversalSensitivities;
