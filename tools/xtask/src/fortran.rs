@@ -216,7 +216,7 @@ pub fn wrapped(indent: &str, statement: &str) -> Vec<String> {
 }
 
 /// A text, broken at blanks into lines of a width.
-pub fn broken(text: &str, width: usize) -> Vec<String> {
+fn broken(text: &str, width: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in text.split_ascii_whitespace() {
         let line = lines.last_mut().expect("there is a line");
