@@ -1,7 +1,7 @@
 program bad_input
-  ! Every procedure with a contact or an element of one and of two directions, by a table: against its C function, with each subset of
-  ! the optional outputs, arrays of wrong size, invalid items, and memory that was never initialised or truncated. Each error has its
-  ! own status and modifies no output; compiled with traps, none raises a signal. The values of arguments are tested in Rust.
+  ! Every procedure with a contact or an element of one and of two directions, by a table: against its C function, with each
+  ! subset of the optional outputs, arrays of wrong size, invalid items, and memory that was never initialised or truncated. Each
+  ! error has its own status and modifies no output; compiled with traps, none raises a signal. Values are tested in Rust.
   use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_loc, c_null_ptr, c_ptr, c_size_t
   use microslip

@@ -23,7 +23,8 @@ pub fn fill(module: &str, header: &str) -> Result<String, String> {
     replaced(module, blocks)
 }
 
-/// What the test of invalid input includes: the C functions and the procedures with outputs, and a call of each in Fortran and in C.
+/// What the test of invalid input includes: the C functions and the procedures with outputs, and a call of each in Fortran and
+/// in C.
 pub fn test(prototypes: &[Prototype], functions: &[Function]) -> Result<[String; 2], String> {
     let [names, table, calls] = wrappers::test(functions);
     let tested: Vec<&Prototype> =
@@ -334,7 +335,7 @@ void mslip_clear(struct mslip_result *result);
     /// The blocks but for the procedures.
     fn fill(module: &str, header: &str) -> Result<String, String> {
         let declared = Header::new(header)?;
-        let raw = ("functions", interfaces(&declared.prototypes()?)?);
+        let raw = ("functions", interfaces(&declared.prototypes()?.iter().collect::<Vec<_>>())?);
         replaced(module, vec![("constants", constants(header)), ("types", types(header)?), raw])
     }
 

@@ -57,7 +57,8 @@ fn forms(function: &Function) -> Vec<Form> {
     [Some(Form::Array), scalar, advance].into_iter().flatten().collect()
 }
 
-/// The procedures with outputs, for the test of invalid input: names of the C functions, a table, and the calls in Fortran and in C.
+/// The procedures with outputs, for the test of invalid input: names of the C functions, a table, and the calls in Fortran
+/// and in C.
 pub fn test(functions: &[Function]) -> [Vec<String>; 3] {
     let (mut rows, mut names) = (Vec::new(), Vec::new());
     let mut calls =
