@@ -404,7 +404,10 @@ void write_tables(FILE *file, const char *machine)
     }
     row(file, "step of a time integration", "microslip", "time step", 0, 0, 0);
     row(file, "initialisation of a contact", "microslip", "initialisation", 0, 0, 0);
+}
 
+void write_details(FILE *file)
+{
     write_stiffness_table(file);
     write_step_tables(file);
     write_element_table(file);

@@ -6,5 +6,6 @@
 
 void check_errors(void);
 void write_tables(FILE *file, const char *machine);
+void write_details(FILE *file);
 
 #endif

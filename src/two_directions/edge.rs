@@ -1,6 +1,6 @@
 //! The shell at the edge of the contact, which ends at the present size: all of the springs that depends on the load.
 
-use super::springs::{Both, Fine, LEAST_STIFFNESS, MOST, PARTS, Pressed, Row, Springs, add, dot, used};
+use super::springs::{Both, Fine, LEAST_STIFFNESS, MOST, PARTS, Pressed, PressedSlopes, Row, Springs, add, dot, used};
 use crate::shape::TINY;
 use crate::simd::dispatch;
 
@@ -63,7 +63,7 @@ impl<const N: usize> Edge<N> {
         let (last, part) = (last.min(N - 1), part.min(PARTS - 1));
         let first = last <= springs.under_flat;
         let mut edge = Edge { last, part, ..Edge::NONE };
-        [edge.reach, _] = springs.reach(last, now);
+        [edge.reach, _] = springs.reach(last, now, &PressedSlopes::default());
         let mut pressure = edge.reach;
         for row in &springs.traction[springs.under_flat.min(last)..last] {
             for i in 0..N {

@@ -10,9 +10,11 @@
 //! ```
 //!
 //! where F_ij is the pressure at x_i that shell j carries: `q_i = p_i = Σ F_ij` if all of the contact slides. Shells under a flat
-//! carry no pressure; there `F_ij = [acosh(s_{j+1}/x_i) - acosh(s_j/x_i)] g/(4 Δs_j)`, and the compliance stands for the difference of
-//! shifts. The inverse of the map, `v_j = Σ_{i≥j} U_ji q_i`, is triangular too, and its leading blocks are the inverses of those of the
-//! map: only the last column depends on the load.
+//! carry no pressure; there `F_ij = [acosh(s_{j+1}/x_i) - acosh(s_j/x_i)] g/(4 Δs_j)`, and the compliance stands for the difference
+//! of shifts. Per shift no shell carries more than the one before it, F_ij/ΔS_j <= F_i,j-1/ΔS_j-1 in both directions, to which F_ij
+//! is cut: then points that slip with the contact have no slip against their traction (derivation, "Motion along an axis"). The
+//! inverse of the map, `v_j = Σ_{i≥j} U_ji q_i`, is triangular too, and its leading blocks are the inverses of those of the map:
+//! only the last column depends on the load.
 //!
 //! All is in units of the normal force N, of the shift S across the line and of w of the reference size; tractions in a unit of each
 //! point.
@@ -226,11 +228,13 @@ impl<'a> Springs<'a> {
         (1..PARTS).filter(|r| self.fine_shift[0][*r][last.min(MOST - 1)] < inside).count()
     }
 
-    /// Pressure of the last shell at the points within, and its derivative by w².
+    /// Pressure of the last shell at the points within, capped like that of the others, and its derivative by the normal component.
     #[inline(always)]
-    pub fn reach<const N: usize>(&self, last: usize, now: &Pressed) -> [Row<N>; 2] {
+    pub fn reach<const N: usize>(&self, last: usize, now: &Pressed, slopes: &PressedSlopes) -> [Row<N>; 2] {
         let (mut reach, mut slope, last) = ([0.0; N], [0.0; N], last.min(N - 1));
         let (size, lower) = (now.size, self.size[last]);
+        let (before, growth, [k, j]) = self.cap(last, now);
+        let growth_slope = slopes.shift[k] * self.per_step[k][j];
         for i in 0..N {
             let (high, low) = (size - self.point[i], lower - self.point[i]);
             let (high, low) = (if high > TINY { high } else { TINY }, if low > 0.0 { low } else { 0.0 });
@@ -239,8 +243,9 @@ impl<'a> Springs<'a> {
             let difference = (size - lower) / (root + low.sqrt());
             let own = self.weight[last] * self.unit[i];
             let weight = if i < last { own } else { 0.0 };
-            reach[i] = weight * difference;
-            slope[i] = 0.5 * weight / root;
+            let (own, cap) = (weight * difference, before[i] * growth);
+            reach[i] = if own > cap { cap } else { own };
+            slope[i] = if own > cap { before[i] * growth_slope } else { 0.5 * weight / root * slopes.size };
         }
         [reach, slope]
     }
@@ -250,6 +255,9 @@ impl<'a> Springs<'a> {
     pub fn reach_slope<const N: usize>(&self, slopes: &Springs, last: usize, now: &Pressed) -> Row<N> {
         let (mut reach, last) = ([0.0; N], last.min(N - 1));
         let (size, lower, lower_slope) = (now.size, self.size[last], slopes.size[last]);
+        let (before, growth, [k, j]) = self.cap(last, now);
+        let per_step = self.per_step[k][j];
+        let growth_slope = growth / per_step * slopes.per_step[k][j] - slopes.shift[k][last] * per_step;
         for i in 0..N {
             let (high, low) = (size - self.point[i], lower - self.point[i]);
             let (high, low) = (if high > TINY { high } else { TINY }, if low > TINY { low } else { TINY });
@@ -258,10 +266,20 @@ impl<'a> Springs<'a> {
             let weight_slope = slopes.weight[last] * self.unit[i] + self.weight[last] * slopes.unit[i];
             let difference = (size - lower) / (root + low_root);
             let by_point = (slopes.point[i] - lower_slope) / low_root - slopes.point[i] / root;
-            let slope = weight_slope * difference + 0.5 * weight * by_point;
+            let own_slope = weight_slope * difference + 0.5 * weight * by_point;
+            let cap_slope = slopes.traction[j][i] * growth + before[i] * growth_slope;
+            let slope = if weight * difference > before[i] * growth { cap_slope } else { own_slope };
             reach[i] = if i < last { slope } else { 0.0 };
         }
         reach
+    }
+
+    /// The shell before the last one, the growth of the cap from there, and the direction and the shell that it depends on.
+    #[inline(always)]
+    fn cap(&self, last: usize, now: &Pressed) -> (&'a Row<MOST>, f64, [usize; 2]) {
+        let j = last.max(1) - 1;
+        let [x, y] = [0, 1].map(|k| (now.shift[k] - self.shift[k][last]) * self.per_step[k][j]);
+        (&self.traction[j], if y < x { y } else { x }, [usize::from(y < x), j])
     }
 }
 
@@ -388,29 +406,29 @@ pub(crate) fn fill(tables: &mut [f64], element: &Element, units: &Units, referen
     *traction = [[0.0; MOST]; MOST];
     *displacement_x = [[0.0; MOST]; MOST];
     *displacement_y = [[0.0; MOST]; MOST];
-    for i in 0..n {
-        for j in i.max(inner)..n {
-            let (upper, lower) = (if j + 1 < n { size[j + 1] } else { end_size }, size[j]);
-            traction[j][i] = weight[j] * root_difference(upper, lower, point[i]);
-            unit[i] += traction[j][i];
-        }
-        unit[i] = 1.0 / unit[i].max(TINY);
-    }
     let quarter_load = 0.25 * RoundedPunch::new(flat, 1.0).load();
     let acosh = |s: f64, x: f64| {
         let ratio = (s / x).max(1.0);
         (ratio + ((ratio - 1.0) * (ratio + 1.0)).sqrt()).ln()
     };
     for j in 0..n {
-        if j < inner {
-            let to = if j + 1 < n { width[j + 1] } else { flat };
-            for i in 0..=j {
-                let x = position[i];
-                traction[j][i] = quarter_load * (acosh(to, x) - acosh(width[j], x)) / (to - width[j]);
-            }
+        let outer = |row: &Row<MOST>, end: f64| if j + 1 < n { row[j + 1] } else { end };
+        let (upper, to) = (outer(size, end_size), if j + 1 < n { width[j + 1] } else { flat });
+        let [x, y] = [0, 1].map(|k| step[k][j.max(1) - 1] / step[k][j]);
+        for i in 0..=j {
+            let own = if j < inner {
+                quarter_load * (acosh(to, position[i]) - acosh(width[j], position[i])) / (to - width[j])
+            } else {
+                weight[j] * root_difference(upper, size[j], point[i])
+            };
+            traction[j][i] = if i < j { own.min(traction[j - 1][i] * x.min(y)) } else { own };
+            unit[i] += if j < inner { 0.0 } else { traction[j][i] };
         }
-        for i in 0..n {
-            traction[j][i] *= unit[i];
+    }
+    for i in 0..n {
+        unit[i] = 1.0 / unit[i].max(TINY);
+        for row in &mut traction[..n] {
+            row[i] *= unit[i];
         }
     }
     for column in 0..n {

@@ -186,10 +186,7 @@ fn by_load<const N: usize>(load: &mut Parameter<N>, taken: &Taken<N>) {
     let Taken { springs, new, motion, record, slopes, .. } = *taken;
     let (edge, slip) = (&new.edge, &record.slip);
     let last = edge.last.min(N - 1);
-    let [_, by_size] = springs.reach::<N>(last, &motion.now);
-    for i in 0..N {
-        load.pressure[i] = by_size[i] * slopes.size;
-    }
+    [_, load.pressure] = springs.reach(last, &motion.now, &slopes);
     for k in 0..2 {
         let shift = slopes.shift[k];
         load.shift[k] = shift;
