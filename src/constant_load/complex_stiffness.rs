@@ -17,12 +17,14 @@
 //! The tangent stiffness k is singular at ρ = 0, like a power of `q = ρ^(1/3)`, the size of a stick zone under a flat, or a logarithm; the
 //! root at ρ = e, on either side. The distance of that is the scale s of `q = q0 + s (cosh u - 1)`, which moves all of these singularities
 //! to |Im u| >= π/4 and makes the root at q0 smooth; `u = u_end (1 - ζ²)` does the same for that at x = 0. For Λ near 0, k is nearly
-//! singular there, too: ζ is a hyperbolic sine then. Gauss's rule converges for all amplitudes.
+//! singular there, too: ζ is a hyperbolic sine then. Gauss's rule converges for all amplitudes. Away
+//! from gross slip and for larger Λ, fewer points of the midpoint rule in θ, `x = ξ sin²(θ/2)`, are enough.
 
 use crate::constant_load::contact::{Contact, NODES_IN_SLIP};
 use crate::constant_load::evaluator::BEYOND;
 use crate::error::Error;
 use crate::limits::MAX_DISPLACEMENT;
+use crate::numerics::chebyshev::Interpolant;
 use crate::numerics::fp_class::in_0_to;
 use crate::numerics::quadrature::gauss_legendre;
 use crate::simd::dispatch;
@@ -37,11 +39,11 @@ pub struct ComplexStiffness<'a> {
     gross_slip: bool,
 }
 
-/// Nodes for `e >= 0.02`, next to gross slip, and beyond it up to `e = -0.05`, from where the contact has weights. F has an error of
-/// 3e-15, dF/dξ of 5e-15; next to gross slip of 1e-13, and of 1e-12 for Λ near 0. The last number is that for all amplitudes of a curve
-/// without an interpolant: it has a knee, or is nearly singular.
-const FAR_BELOW: f64 = 0.02;
-const NODES_FAR_BELOW: usize = 24;
+/// Nodes of the midpoint rule for e from these two values on, which has the error of rounding; of Gauss's next to gross slip, and beyond
+/// it up to `e = -0.05`, from where the contact has weights. F has an error of 3e-15, dF/dξ of 5e-15; next to gross slip of 1e-13, and of
+/// 1e-12 for Λ near 0. The last number is that for all amplitudes of a curve without an interpolant: it has a knee, or is nearly singular.
+const FAR_BELOW: [f64; 2] = [0.1, 0.03];
+const NODES_FAR_BELOW: [usize; 2] = [24, 48];
 const NODES_BELOW: usize = 64;
 const NODES_BEYOND: usize = 96;
 const IN_SLIP: f64 = -0.05;
@@ -135,14 +137,27 @@ impl Contact {
     fn cycle_integrals_kernel(&self, xi: f64, e: f64) -> [f64; 2] {
         if !self.has_weights_in_slip() || (e > IN_SLIP && e <= 0.0) {
             self.integrals::<NODES_BEYOND, { NODES_BEYOND + BEYOND }>(xi, e)
-        } else if e >= FAR_BELOW {
-            self.integrals::<NODES_FAR_BELOW, { NODES_FAR_BELOW + BEYOND }>(xi, e)
+        } else if e >= FAR_BELOW[0] {
+            self.midpoint::<{ NODES_FAR_BELOW[0] }, { NODES_FAR_BELOW[0] + BEYOND }>(xi, e)
+        } else if e >= FAR_BELOW[1] {
+            self.midpoint::<{ NODES_FAR_BELOW[1] }, { NODES_FAR_BELOW[1] + BEYOND }>(xi, e)
         } else if e > 0.0 {
             self.integrals::<NODES_BELOW, { NODES_BELOW + BEYOND }>(xi, e)
         } else {
             let rest = RULE_IN_SLIP[0].map(|rho| rho - e);
             sums(&from_fn(|i| self.weights_in_slip[i] * rest[i].sqrt()), &rest)
         }
+    }
+
+    /// F and dF/dξ by the midpoint rule in θ, `x = ξ sin²(θ/2)`: the integrands are periodic and even.
+    #[inline(always)]
+    fn midpoint<const N: usize, const L: usize>(&self, xi: f64, e: f64) -> [f64; 2] {
+        let cosines = const { &Interpolant::<N>::POINTS };
+        let mut x = [xi; L];
+        x.iter_mut().zip(cosines).for_each(|(x, cosine)| *x *= 0.5 - 0.5 * cosine);
+        let rest = cosines.map(|cosine| xi * (0.5 + 0.5 * cosine));
+        let stiffness = self.evaluator().relative_stiffnesses(&x, &rest.map(|rest| e + rest));
+        sums(&from_fn(|i| PI / N as f64 * (x[i] * rest[i]) * stiffness[i]), &rest)
     }
 
     /// F and dF/dξ by the rule of N nodes; L is the length of arrays of displacements.
