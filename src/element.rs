@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::limits::{MAX_DISPLACEMENT, check_displacement, in_range};
 use crate::numerics::fp_class::{in_0_to, is_finite, le};
 use crate::numerics::quadrature::gauss_nodes;
-use crate::parameters::{EllipticParameters, Pair, Parameters, check_moduli};
+use crate::parameters::{Common, EllipticParameters, Parameters};
 use crate::shape::{HertzEllipse, Layer, Layered, Plane, Quantity, RoundedFlat, Shape, TINY};
 use crate::tag::LAYOUT;
 use core::array::from_fn;
@@ -164,24 +164,13 @@ impl Element {
         input: NormalInput,
     ) -> Result<(), Error> {
         parameters.check()?;
-        let flat_half_width = parameters.flat_half_width.abs();
-        let parameters = &Parameters { flat_half_width, ..*parameters };
-        check_moduli(&parameters.material)?;
-        let Parameters { length, normal_force, friction_coefficient, .. } = *parameters;
-        if normal_force == 0.0 {
-            return Err(Error::BadNormalForce);
-        }
-        let flat = RoundedFlat::new(parameters)?;
-        let composite_modulus = Pair::new(&parameters.material).composite_modulus;
-        in_range(&[normal_force], &[length, flat.half_width()])?;
+        let (common, length) = (parameters.common(), parameters.length);
+        let composite_modulus = closed_modulus(&common)?;
+        let flat = Layered::new(RoundedFlat::new(parameters)?, &common)?;
         // The load at b = 2L.
         in_range(&[length, length, length, composite_modulus], &[parameters.edge_radius])?;
-        let layered = Layered { shape: flat, layer: Layer::new(&parameters.layer, normal_force)?.0 };
-        let plane = Plane { layer: &layered.layer, ..flat.plane() };
-        self.init(&plane, &layered, [normal_force, friction_coefficient], directions, input)?;
-        self.composite_modulus = composite_modulus;
-        self.springs = springs_of(parameters.springs, directions);
-        (self.flat, self.ellipse) = (layered, EMPTY.ellipse);
+        self.init(&flat, &common, directions, input)?;
+        (self.composite_modulus, self.flat, self.ellipse) = (composite_modulus, flat, EMPTY.ellipse);
         Ok(())
     }
 
@@ -196,37 +185,29 @@ impl Element {
         input: NormalInput,
     ) -> Result<(), Error> {
         parameters.check()?;
-        check_moduli(&parameters.material)?;
-        let EllipticParameters { normal_force, friction_coefficient, .. } = *parameters;
-        if normal_force == 0.0 {
-            return Err(Error::BadNormalForce);
-        }
-        let ellipse = HertzEllipse::new(parameters)?;
-        let composite_modulus = Pair::new(&parameters.material).composite_modulus;
-        in_range(&[normal_force], &[])?;
+        let common = parameters.common();
+        let composite_modulus = closed_modulus(&common)?;
+        let ellipse = Layered::new(HertzEllipse::new(parameters)?, &common)?;
         // The approach, free of overflow.
         for axis in [parameters.semi_axis_x, parameters.semi_axis_y] {
-            in_range(&[normal_force], &[axis, composite_modulus])?;
+            in_range(&[common.normal_force], &[axis, composite_modulus])?;
         }
-        let layered = Layered { shape: ellipse, layer: Layer::new(&parameters.layer, normal_force)?.0 };
-        let plane = Plane { layer: &layered.layer, ..ellipse.plane() };
-        self.init(&plane, &layered, [normal_force, friction_coefficient], directions, input)?;
+        self.init(&ellipse, &common, directions, input)?;
         self.tag |= ELLIPTIC;
-        self.composite_modulus = composite_modulus;
-        self.springs = springs_of(parameters.springs, directions);
-        (self.flat, self.ellipse) = (EMPTY.flat, layered);
+        (self.composite_modulus, self.flat, self.ellipse) = (composite_modulus, EMPTY.flat, ellipse);
         Ok(())
     }
 
     /// Checks all ranges, then writes what depends on the shape only through its trait.
     fn init(
         &mut self,
-        plane: &Plane,
         shape: &dyn Shape,
-        [normal_force, friction_coefficient]: [f64; 2],
+        parameters: &Common,
         directions: Directions,
         input: NormalInput,
     ) -> Result<(), Error> {
+        let Common { normal_force, friction_coefficient, springs, .. } = *parameters;
+        let plane = shape.plane();
         let layer = plane.layer;
         let mut largest = shape.largest_size();
         if directions == Directions::Two {
@@ -268,6 +249,7 @@ impl Element {
         let smallest = if directions == Directions::Two { SMALLEST_OF_SPRINGS } else { SMALLEST_LOAD };
         self.smallest_input = smallest * if input == NormalInput::Force { normal_force } else { approach };
         self.friction_coefficient = friction_coefficient;
+        self.springs = springs_of(springs, directions);
         self.per_two_mu = if friction_coefficient > 0.0 { 0.5 / friction_coefficient.max(TINY) } else { 0.0 };
         self.normal_force = normal_force;
         self.half_width = shape.half_width(w);
@@ -313,11 +295,7 @@ impl Element {
 
     /// The family of sizes in both directions.
     pub(crate) fn plane(&self) -> Plane<'_> {
-        if self.tag & ELLIPTIC == 0 {
-            Plane { layer: &self.flat.layer, ..self.flat.shape.plane() }
-        } else {
-            Plane { layer: &self.ellipse.layer, ..self.ellipse.shape.plane() }
-        }
+        self.shape().plane()
     }
 
     /// S along y, from a load and its shift along x.
@@ -740,6 +718,15 @@ const EMPTY: Element = Element {
     key: 0.0,
     springs: 0,
 };
+
+/// E* of parameters that were checked.
+///
+/// # Errors
+/// `OutOfRange`, or `BadNormalForce` for an open contact.
+fn closed_modulus(parameters: &Common) -> Result<f64, Error> {
+    let modulus = parameters.composite_modulus()?;
+    if parameters.normal_force > 0.0 { Ok(modulus) } else { Err(Error::BadNormalForce) }
+}
 
 /// The number of springs of parameters that were checked.
 fn springs_of(requested: i32, directions: Directions) -> usize {

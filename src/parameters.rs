@@ -172,18 +172,41 @@ fn positive(value: f64, error: Error) -> Result<(), Error> {
     if in_0_to(f64::MAX, value) && !abs_le(value, 0.0) { Ok(()) } else { Err(error) }
 }
 
-fn check_materials(material: &[Material; 2]) -> Result<(), Error> {
-    for body in material {
-        positive(body.young_modulus, Error::BadYoungModulus)?;
-        if !in_0_to(0.5, body.poisson_ratio) {
-            return Err(Error::BadPoissonRatio);
-        }
-    }
-    Ok(())
+/// The parameters that all shapes have.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Common {
+    pub normal_force: f64,
+    pub friction_coefficient: f64,
+    pub material: [Material; 2],
+    pub layer: Layer,
+    pub springs: i32,
 }
 
-fn check_springs(springs: i32) -> Result<(), Error> {
-    if matches!(springs, 0 | 8 | 12 | 16) { Ok(()) } else { Err(Error::BadSprings) }
+impl Common {
+    fn check(&self) -> Result<(), Error> {
+        not_negative(self.normal_force, Error::BadNormalForce)?;
+        not_negative(self.friction_coefficient, Error::BadFrictionCoefficient)?;
+        for body in &self.material {
+            positive(body.young_modulus, Error::BadYoungModulus)?;
+            if !in_0_to(0.5, body.poisson_ratio) {
+                return Err(Error::BadPoissonRatio);
+            }
+        }
+        self.layer.check(self.normal_force)
+    }
+
+    fn check_springs(&self) -> Result<(), Error> {
+        if matches!(self.springs, 0 | 8 | 12 | 16) { Ok(()) } else { Err(Error::BadSprings) }
+    }
+
+    /// E* of parameters that were checked.
+    ///
+    /// # Errors
+    /// `OutOfRange` for a modulus of an unusable magnitude.
+    pub fn composite_modulus(&self) -> Result<f64, Error> {
+        self.material.iter().try_for_each(|body| in_range(&[body.young_modulus], &[]))?;
+        Ok(Pair::new(&self.material).composite_modulus)
+    }
 }
 
 impl Parameters {
@@ -195,14 +218,16 @@ impl Parameters {
         not_negative(self.flat_half_width, Error::BadFlatHalfWidth)?;
         positive(self.edge_radius, Error::BadEdgeRadius)?;
         positive(self.length, Error::BadLength)?;
-        not_negative(self.normal_force, Error::BadNormalForce)?;
-        not_negative(self.friction_coefficient, Error::BadFrictionCoefficient)?;
-        check_materials(&self.material)?;
-        self.layer.check(self.normal_force)?;
+        self.common().check()?;
         match self.displacement_reference {
-            CENTRE_POINT | RIGID_STRIP => check_springs(self.springs),
+            CENTRE_POINT | RIGID_STRIP => self.common().check_springs(),
             _ => Err(Error::BadDisplacementReference),
         }
+    }
+
+    pub(crate) fn common(&self) -> Common {
+        let Parameters { normal_force, friction_coefficient, material, layer, springs, .. } = *self;
+        Common { normal_force, friction_coefficient, material, layer, springs }
     }
 }
 
@@ -214,11 +239,13 @@ impl EllipticParameters {
     pub fn check(&self) -> Result<(), Error> {
         positive(self.semi_axis_x, Error::BadSemiAxisX)?;
         positive(self.semi_axis_y, Error::BadSemiAxisY)?;
-        not_negative(self.normal_force, Error::BadNormalForce)?;
-        not_negative(self.friction_coefficient, Error::BadFrictionCoefficient)?;
-        check_materials(&self.material)?;
-        self.layer.check(self.normal_force)?;
-        check_springs(self.springs)
+        self.common().check()?;
+        self.common().check_springs()
+    }
+
+    pub(crate) fn common(&self) -> Common {
+        let EllipticParameters { normal_force, friction_coefficient, material, layer, springs, .. } = *self;
+        Common { normal_force, friction_coefficient, material, layer, springs }
     }
 }
 
@@ -250,12 +277,6 @@ impl Pair {
         let [first, second] = [function(self.poisson_ratio[0]), function(self.poisson_ratio[1])];
         first + self.fraction[1] * (second - first)
     }
-}
-
-/// # Errors
-/// `OutOfRange` for a modulus of an unusable magnitude.
-pub(crate) fn check_moduli(material: &[Material; 2]) -> Result<(), Error> {
-    material.iter().try_for_each(|body| in_range(&[body.young_modulus], &[]))
 }
 
 #[cfg(test)]

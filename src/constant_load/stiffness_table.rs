@@ -166,7 +166,7 @@ impl StiffnessTable {
         let integrals = |e: f64| contact.cycle_integrals(1.0 - e, e).map(|integral| 8.0 / PI * integral);
         let amplitude = |e: f64| Complement { consumed: slip * (1.0 - e), remaining: slip * e };
         let energy_rate = |e: f64| contact.cycle_energy(amplitude(e)).1 / (PI * initial * slip);
-        let secant = contact.secant_polynomial();
+        let secant = *contact.interpolant().secant();
         self.inner = [weighted(&secant, &CYCLE_WEIGHTS), weighted(&secant, &ENERGY_WEIGHTS)];
         self.inner[1].as_flattened_mut().iter_mut().for_each(|power| *power /= PI);
         [self.moment, self.slope_at_slip] = integrals(0.0);
