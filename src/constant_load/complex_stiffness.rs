@@ -80,15 +80,52 @@ fn sums<const N: usize>(terms: &[f64; N], rest: &[f64; N]) -> [f64; 2] {
     sums.map(|sum| (sum[0] + sum[2]) + (sum[1] + sum[3]))
 }
 
+/// K' or K'' and its derivative with respect to the amplitude.
+pub(crate) type ValueAndSlope = (f64, f64);
+
+/// K', K'' and their derivatives, each if it is requested.
+pub(crate) type StiffnessOutputs<'a> = [Option<&'a mut [f64]>; 4];
+
+/// Writes what is requested of K' and K'' at consecutive amplitudes.
+#[inline(always)]
+pub(crate) fn write_values<const N: usize>(
+    values: [[ValueAndSlope; 2]; N],
+    first: usize,
+    outputs: &mut StiffnessOutputs,
+) {
+    for (i, [(real, d_real), (imaginary, d_imaginary)]) in values.into_iter().enumerate() {
+        for (output, value) in outputs.iter_mut().zip([real, imaginary, d_real, d_imaginary]) {
+            if let Some(place) = output.as_deref_mut().and_then(|values| values.get_mut(first + i)) {
+                *place = value;
+            }
+        }
+    }
+}
+
 impl Contact {
+    /// Writes what is requested of K', K'' and their derivatives at a checked amplitude \[m\], as value i of each output.
+    pub(crate) fn write_complex_stiffness(&self, amplitude: f64, i: usize, outputs: &mut StiffnessOutputs) {
+        let [k_real, k_imag, dk_real, dk_imag] = &*outputs;
+        let is_requested =
+            |value: &Option<_>, slope: &Option<_>| (value.is_some() || slope.is_some()) && !self.is_frictionless();
+        let cycle = self.cycle(amplitude);
+        let real = if is_requested(k_real, dk_real) { cycle.real_with_derivative() } else { (0.0, 0.0) };
+        let imaginary = if is_requested(k_imag, dk_imag) { cycle.imaginary_with_derivative() } else { (0.0, 0.0) };
+        write_values([[real, imaginary]], i, outputs);
+    }
+
+    fn cycle(&self, amplitude: f64) -> ComplexStiffness<'_> {
+        let gross_slip = self.is_frictionless() || amplitude >= self.slip_displacement;
+        ComplexStiffness { contact: self, amplitude, gross_slip }
+    }
+
     /// The complex stiffness at a displacement amplitude \[m\]; at 0 it is the initial stiffness.
     ///
     /// # Errors
     /// `BadAmplitude` if the amplitude is not finite, negative, or beyond 1e150.
     pub fn complex_stiffness(&self, amplitude: f64) -> Result<ComplexStiffness<'_>, Error> {
         check_amplitude(amplitude)?;
-        let gross_slip = self.is_frictionless() || amplitude >= self.slip_displacement;
-        Ok(ComplexStiffness { contact: self, amplitude, gross_slip })
+        Ok(self.cycle(amplitude))
     }
 
     /// F and dF/dξ at ξ = 1 - e, in units of the initial stiffness.

@@ -60,14 +60,14 @@ pub(crate) struct Problem<'a, const N: usize> {
     pub overshoot: &'a Row<N>,
 }
 
-/// Where Newton's method begins: directions of the tractions, points that slip, and the turn from which on it is given up. Slip bends from the
-/// traction at the start of the step, or, without β, follows that at its end alone: a convex problem.
+/// Where Newton's method begins: directions of the tractions, points that slip, the turn from which on it is given up, and the share of β:
+/// without it slip follows the traction at the end of the step alone, a convex problem.
 #[derive(Clone, Copy)]
 pub(crate) struct Guess<const N: usize> {
     pub e: Both<Row<N>>,
     pub set: Set,
     pub largest_turn: f64,
-    pub bends: bool,
+    pub bends: f64,
 }
 
 /// The slip at all points, and what its derivatives need.
@@ -138,8 +138,8 @@ impl<const N: usize> Slip<N> {
         for i in 0..N {
             let square = start[0][i] * start[0][i] + start[1][i] * start[1][i];
             let u = 2.0 * square - 1.0;
-            let u = if guess.bends && u > 0.0 { u } else { 0.0 };
-            self.per_along[i] = u * u / (1.0 + overshoot[i] * (1.0 / 3.0));
+            let u = if u > 0.0 { u } else { 0.0 };
+            self.per_along[i] = guess.bends * u * u / (1.0 + overshoot[i] * (1.0 / 3.0));
         }
         let (mut changes, mut steps) = (0, 0);
         'sets: while changes <= CHANGES && self.set != 0 {

@@ -19,6 +19,8 @@ pub(crate) const SLIPPED: f64 = 1.0 - 1e-9;
 
 /// Cosine of the angle between the tractions before and of the trial state up to which the one before is the first guess.
 const NEAR: f64 = 0.5;
+/// Steps in which β grows.
+const PARTS_OF_BETA: u8 = 8;
 /// Cosine of the angle between a motion and a traction from which on a point turns back.
 const BACKWARDS: f64 = 0.6;
 
@@ -232,18 +234,27 @@ fn slide<const N: usize>(
         set |= Set::from(is_outside || (outer && continues[i] > 0.0)) << i;
     }
     let problem = Problem { springs, edge, stiffness, trial, start, overshoot };
-    // A contact that slips on hardly turns; otherwise slip begins from the trial state. Where neither converges, slip without β does.
-    let from_start = Guess { e: [e_x, e_y], set, largest_turn: LARGEST_TURN, bends: true };
-    let from_trial = Guess { e: [trial_x, trial_y], set: outside, largest_turn: LOST, bends: true };
-    let straight = Guess { bends: false, ..from_trial };
-    for guess in [from_start, from_trial, straight] {
+    // A contact that slips on hardly turns; otherwise slip begins from the trial state.
+    let from_start = Guess { e: [e_x, e_y], set, largest_turn: LARGEST_TURN, bends: 1.0 };
+    let from_trial = Guess { e: [trial_x, trial_y], set: outside, largest_turn: LOST, bends: 1.0 };
+    for guess in [from_start, from_trial] {
         slip.solve(&problem, &guess, derivatives, end);
         if slip.converged {
-            break;
+            return;
         }
     }
+    // Where neither converges, once in 2e5 steps of random motions, β grows from 0, a convex problem.
+    let mut guess = from_trial;
+    for part in 0..=PARTS_OF_BETA {
+        guess.bends = f64::from(part) / f64::from(PARTS_OF_BETA);
+        slip.solve(&problem, &guess, derivatives, end);
+        if !slip.converged {
+            break;
+        }
+        (guess.e, guess.set) = (slip.e, slip.set);
+    }
     if !slip.converged {
-        // Never seen in 1e7 steps of random motions: each spring returns to its own limit.
+        // Never seen in 6e6 steps of random motions: each spring returns to its own limit.
         for k in 0..2 {
             for j in 0..N {
                 end[k][j] = trial[k][j] / (1.0 + overshoot[j]);
