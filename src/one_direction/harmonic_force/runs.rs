@@ -197,16 +197,6 @@ impl<'a> Stack<'a> {
         Run { first: first as u64, ..run }
     }
 
-    /// Removes the inner end of a slip zone in which nothing slips.
-    fn remove_empty_slip_zone(&mut self) {
-        if let Some([cut, end]) = self.depth.checked_sub(2).and_then(|at| self.knots.get_mut(at..)?.first_chunk_mut())
-            && (cut[0], cut[1]) == (end[0], end[1])
-        {
-            *cut = *end;
-            self.depth -= 1;
-        }
-    }
-
     fn knot(&self, index: usize) -> Knot {
         let [xi, eta, code, _] = self.knots.get(index).copied().unwrap_or([0.0; 4]);
         Knot { xi, eta, place: Place { code } }
@@ -301,7 +291,6 @@ impl PeriodicPath<'_> {
                 energy += energy::dissipated(element, stack.used(), &Path { shift, displacement: end - start });
             }
             stack.advance(element, samples, part, sample..sample + 1, self.cut_shift);
-            stack.remove_empty_slip_zone();
         }
         energy
     }
