@@ -73,6 +73,8 @@ pub struct Element {
     of_input: Table,
     /// S of the input.
     shift: Table,
+    /// S over U and over N, of which it is the sum with these factors; 0 with a layer, or if the input is the load.
+    shift_per: [f64; 2],
     /// N(S).
     load_of_shift: Table,
     /// M at the middle of each quarter of `load_of_shift`.
@@ -286,6 +288,8 @@ impl Element {
             NormalInput::Approach => (Quantity::Approach, regular(approach, self.largest_approach)),
             NormalInput::Force => (Quantity::Load, normal_force),
         };
+        let is_sum = layer.is_none() && input == NormalInput::Approach;
+        self.shift_per = if is_sum { [plane.per_approach[0], plane.per_load[0]] } else { [0.0; 2] };
         Table::fill([&mut self.of_input, &mut self.shift], largest, &mut |x| {
             let [load, approach, shift] = shape.series(shape.size_at(argument, x), argument);
             [if input == NormalInput::Force { approach } else { load }, shift]
@@ -615,6 +619,14 @@ impl Element {
 
     #[inline(always)]
     fn closed<const SLOPES: bool, const L: usize>(&self, input: &[f64; L]) -> [[f64; L]; 4] {
+        let [per_approach, per_load] = self.shift_per;
+        if per_approach > 0.0 {
+            // A sum is faster than a second table.
+            let [(load, slope)] =
+                self.functions::<SLOPES, 1, L>([&self.of_input], [Quantity::Load], Quantity::Approach, input);
+            let shift = from_fn(|k| per_approach * input[k] + per_load * load[k]);
+            return [load, shift, slope, slope.map(|slope| per_approach + per_load * slope)];
+        }
         if self.by_approach() {
             let (tables, quantities) = ([&self.of_input, &self.shift], [Quantity::Load, Quantity::Shift]);
             let [(load, load_slope), (shift, shift_slope)] =
@@ -712,6 +724,7 @@ const EMPTY: Element = Element {
     ellipse: Layered { shape: HertzEllipse::EMPTY, layer: Layer::NONE },
     of_input: Table::EMPTY,
     shift: Table::EMPTY,
+    shift_per: [0.0; 2],
     load_of_shift: Table::EMPTY,
     potential: [0.0; PIECES],
     lateral: [0.0; 2],
