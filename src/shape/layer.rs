@@ -386,6 +386,16 @@ impl LayeredZones {
         // Remaining shift of the contact, and of contact and layer; d(ln of the second)/d(ln of the first).
         let mut last = [shift, self.slip_shift, 1.0];
         move |remaining| {
+            let consumed = self.slip_shift - remaining;
+            if consumed <= self.small_load.half_shift {
+                // For Λ near 0 the remaining shift of the contact has too few digits for a small load.
+                let zone = self.small_load.at_shift(Complement { consumed, remaining });
+                return CurvePoint {
+                    remaining: zone.load.remaining,
+                    compliance_increase: zone.compliance_increase,
+                    curvature: self.small_load.evaluate(zone.load.consumed).curvature,
+                };
+            }
             let [of_contact, of_both, power] = last;
             let mut found = CurvePoint { remaining: 0.0, compliance_increase: 0.0, curvature: 0.0 };
             let mut sum = |own: f64| {
