@@ -233,11 +233,12 @@ impl Contact {
     /// Tangent stiffnesses over the initial one at four rising x and remaining ρ = 1 - x.
     #[inline(always)]
     fn relative_stiffnesses(&self, x: &[f64; 4], rho: &[f64; 4]) -> [f64; 4] {
-        let (per_initial, mut values) = (1.0 / self.initial_stiffness, [0.0; 4]);
+        let (per_initial, slip) = (1.0 / self.initial_stiffness, self.slip_displacement);
+        let [mut values, mut remaining] = [[0.0; 4]; 2];
         for k in 0..4 {
-            values[k] = x[k] * self.slip_displacement;
+            (values[k], remaining[k]) = (x[k] * slip, rho[k] * slip);
         }
-        match self.evaluator().four_stiffnesses(&values) {
+        match self.evaluator().four_stiffnesses(&values, &remaining) {
             Some(stiffnesses) => values = stiffnesses,
             None => (0..4).for_each(|k| values[k] = self.stiffness_in_integral(x[k], rho[k])),
         }

@@ -120,9 +120,11 @@ impl Contact {
     pub(crate) fn stiffness_in_integral(&self, x: f64, rho: f64) -> f64 {
         if !self.has_no_interpolant() {
             let rho = rho * self.slip_displacement * self.outer_scale;
-            return match self.evaluator().interpolated(x * self.slip_displacement) {
-                Some(response) if rho >= END_OF_PIECES => response.stiffness,
-                _ => self.slip_force * self.outer_scale * self.interpolant().last_slope(rho),
+            return if rho < END_OF_PIECES {
+                let [slope] = self.interpolant().last_slopes(&[rho]);
+                self.slip_force * self.outer_scale * slope
+            } else {
+                self.response(x * self.slip_displacement).stiffness
             };
         }
         if let Some((_, stiffness)) = self.load_with_knee(rho * self.slip_displacement) {
@@ -289,11 +291,19 @@ impl CurveEvaluator<'_> {
         }
     }
 
-    /// Stiffnesses at four rising displacements up to that of gross slip, if one polynomial gives them all.
+    /// Stiffnesses in an integral at four rising displacements up to that of gross slip and the remaining ones, if all are on one
+    /// polynomial of the force or beyond all of them.
     #[inline(always)]
-    pub fn four_stiffnesses(&self, displacement: &[f64; 4]) -> Option<[f64; 4]> {
+    pub fn four_stiffnesses(&self, displacement: &[f64; 4], remaining: &[f64; 4]) -> Option<[f64; 4]> {
         if !self.interpolant.is_converged() {
             return None;
+        }
+        if remaining[0] * self.outer_scale < END_OF_PIECES {
+            let mut values = self.interpolant.last_slopes(&remaining.map(|remaining| remaining * self.outer_scale));
+            for value in &mut values {
+                *value *= self.outer_stiffness;
+            }
+            return Some(values);
         }
         if displacement[3] * self.inner_scale <= 1.0 {
             return Some(self.four_inner::<true>(displacement).1);

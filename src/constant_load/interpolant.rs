@@ -222,9 +222,18 @@ impl ForceInterpolant {
 
     /// The derivative below the last interval of v, for integrals, if converged.
     #[inline(always)]
-    pub fn last_slope(&self, rho: f64) -> f64 {
-        let place = Place::of(eighth_root(rho * (1.0 / END_OF_PIECES)), LAST_PIECES);
-        self.last.get(place.piece).map_or(0.0, |piece| place.product_slope(value_and_slope(piece, place.z)))
+    pub fn last_slopes<const N: usize>(&self, rho: &[f64; N]) -> [f64; N] {
+        // Roots of several take the time of one.
+        let (mut roots, mut slopes) = ([0.0; N], [0.0; N]);
+        for k in 0..N {
+            roots[k] = eighth_root(rho[k] * (1.0 / END_OF_PIECES));
+        }
+        for k in 0..N {
+            let place = Place::of(roots[k], LAST_PIECES);
+            let piece = self.last.get(place.piece).unwrap_or(&self.inner);
+            slopes[k] = place.product_slope(value_and_slope(piece, place.z));
+        }
+        slopes
     }
 
     /// [`ForceInterpolant::secant_and_tangent`] at four places, if converged.

@@ -232,13 +232,14 @@ impl StiffnessTable {
         // Roots of several take the time of one.
         let u = e.map(|e| eighth_root(e.abs() * (1.0 / TOP)));
         for i in 0..N {
-            let values = self.at_fraction(requested, amplitude[i] * per_slip, e[i], u[i]);
-            write_values(values.map(|(value, slope)| (unit * value, unit * per_slip * slope)), first + i, outputs);
+            let [real, imaginary] = self.at_fraction(requested, amplitude[i] * per_slip, e[i], u[i]);
+            let scaled = |(value, slope): ValueAndSlope| (unit * value, unit * per_slip * slope);
+            write_values([scaled(real), scaled(imaginary)], first + i, outputs);
         }
     }
 
     /// At ξ = 1 - e, in units of the initial stiffness.
-    #[inline(never)]
+    #[inline(always)]
     fn at_fraction(&self, [has_real, has_imaginary]: [bool; 2], xi: f64, e: f64, u: f64) -> [ValueAndSlope; 2] {
         if xi <= 1.0 - TOP + OVERLAP {
             let scale = const { 1.0 / (1.0 - TOP) };
