@@ -253,7 +253,8 @@ impl StiffnessTable {
             let [real, imaginary] = &self.inner;
             [part(has_real, real), part(has_imaginary, imaginary)]
         } else {
-            let (per_xi, place) = (1.0 / xi, Place::of(u, PIECES));
+            // The compiler may divide before the comparison.
+            let (per_xi, place) = (1.0 / xi.max(1.0 - TOP), Place::of(u, PIECES));
             let real = if has_real { self.outer_real(xi, per_xi, e, &place) } else { (0.0, 0.0) };
             [real, if has_imaginary { self.outer_imaginary(per_xi, e, &place) } else { (0.0, 0.0) }]
         }
