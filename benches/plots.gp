@@ -56,6 +56,6 @@ do for [panel = 1:3] {
   plot of('microslip')              with linespoints ls 1 title panel == 1 ? 'microslip, 16 to 1024 samples' : '', \
        of('microslip event-driven') with linespoints ls 2 title panel == 1 ? 'microslip, event-driven' : '', \
        of('sliders')                with linespoints ls 4 title panel == 1 ? '4 to 4096 sliders, 128 samples' : '', \
-       of('spring-slider by reversals') with linespoints ls 5 title panel == 1 ? 'one spring-slider, 16 to 1024 samples' : ''
+       of('spring-slider') with linespoints ls 5 title panel == 1 ? 'one spring-slider, 16 to 1024 samples' : ''
 }
 unset multiplot
