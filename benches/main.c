@@ -60,7 +60,9 @@ static void run_tasks(const extent *x)
                 measure(first);
                 free_to(task_mark);
             }
-            fprintf(stderr, rounds ? "a/b = %g: %s\n" : "", c.shape, tasks[t].name);
+            if (rounds > 0) {
+                fprintf(stderr, "a/b = %g: %s\n", c.shape, tasks[t].name);
+            }
         }
         free_to(mark);
     }

@@ -47,7 +47,7 @@ set terminal svg size 1280, 540 dynamic background rgb 'white' font 'Helvetica,1
 set output sprintf('| python3 ../tools/svg.py > %s/harmonic.svg', to)
 set xlabel 'error of the first harmonic, relative'
 set ylabel 'time of force and Jacobian (ns)'
-set yrange [100:1e6]
+set yrange [100:1e8]
 set multiplot layout 1, 3 margins 0.07, 0.985, 0.24, 0.925 spacing 0.065, 0
 do for [panel = 1:3] {
   h = 4*panel - 3
