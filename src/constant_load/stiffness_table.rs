@@ -12,7 +12,7 @@
 //! down to the rounding of ξ:
 //!
 //! - ξ <= 2/5: the first polynomial of the curve, integrated for each power;
-//! - 2/5 < ξ <= 1: G and R in u; 1 < ξ <= 1.6: G in u, with |e| and its sign;
+//! - 2/5 < ξ <= 1: G and R in u; 1 < ξ <= 1.56: G in u, with |e| and its sign;
 //! - beyond: `K' ξ^(3/2)` as a polynomial in 1/ξ. E is linear beyond 1.
 //!
 //! dF/dξ and dE/dξ, those of a single call, are interpolated first.
@@ -44,11 +44,13 @@ const TOP: f64 = 1.0 - INNER_FRACTION;
 /// Λ from which the polynomials are accurate: a singularity at a displacement of about -Λ² approaches the first ones.
 const SMALLEST_COMPLIANCE: f64 = 0.9;
 /// Smallest ξ of the last polynomial, and its terms: the derivative of those that are left out is n² times as large.
-const FAR: f64 = 1.0 + TOP;
+const FAR: f64 = 1.5;
 const FAR_TERMS: usize = 24;
-/// The first polynomial is used somewhat beyond its interval, where its error has hardly grown: at the end of the first piece, the
-/// derivative is least accurate.
+/// The first polynomial is used somewhat beyond its interval, where its error has hardly grown, the last one from within its own: at
+/// the end of a piece, the derivative is least accurate, by up to n² times the error of the interpolated values.
 const OVERLAP: f64 = 0.02;
+/// Largest ξ of the pieces beyond gross slip.
+const NEAR: f64 = 1.0 + TOP - 2.0 * OVERLAP;
 
 /// The polynomials of one shape.
 #[repr(C)]
@@ -66,7 +68,7 @@ pub(crate) struct StiffnessTable {
     gross_slip_rate: f64,
     /// K' and K'' over y = ξ/(2/5).
     inner: [Polynomial; 2],
-    /// K' ξ^(3/2) over 1.6/ξ.
+    /// K' ξ^(3/2) over 1.5/ξ.
     far: Rows<{ FAR_TERMS / 4 }>,
     /// (8/π) G over z = 4 2ʲ u - 3.
     below: Pieces<ROWS_BELOW>,
@@ -277,7 +279,7 @@ impl StiffnessTable {
     /// K' beyond the first polynomial.
     #[inline(always)]
     fn outer_real(&self, xi: f64, per_xi: f64, e: f64, place: &Place) -> ValueAndSlope {
-        if xi > FAR {
+        if xi > NEAR {
             let (value, slope) = value_and_slope(&self.far, FAR * per_xi);
             let factor = per_xi * per_xi.sqrt();
             return (factor * value, -factor * per_xi * (1.5 * value + FAR * per_xi * slope));
