@@ -581,8 +581,10 @@ impl<S: Shape> Shape for Layered<S> {
         }
         let largest = self.shape.value(quantity, self.shape.largest_size());
         let of_shape = self.shape.size_at(quantity, value.min(largest));
-        let of_layer = self.shape.at_load(self.layer.load_of_extent(value / unloaded));
-        inverse_of_sum(value, of_shape.min(of_layer), f64::INFINITY, |w| {
+        // A soft layer stiffens exponentially: alone it may carry a load that no size has.
+        let of_layer = self.layer.load_of_extent(value / unloaded);
+        let start = if of_layer < self.shape.load(of_shape) { self.shape.at_load(of_layer) } else { of_shape };
+        inverse_of_sum(value, start, f64::INFINITY, |w| {
             let sum = self.value(quantity, w);
             // dN/d(ln w) = 2w²/(dw²/dN).
             [sum, 2.0 * w / self.shape.size_slope(w) * w * self.compliance(quantity, w) / sum]
