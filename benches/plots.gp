@@ -47,7 +47,7 @@ set terminal svg size 1280, 540 dynamic background rgb 'white' font 'Helvetica,1
 set output sprintf('| python3 ../tools/svg.py > %s/harmonic.svg', to)
 set xlabel 'error of the first harmonic, relative'
 set ylabel 'time of force and Jacobian (ns)'
-set yrange [100:1e6]
+set yrange [100:1e8]
 set multiplot layout 1, 3 margins 0.07, 0.985, 0.24, 0.925 spacing 0.065, 0
 do for [panel = 1:3] {
   h = 4*panel - 3
@@ -56,6 +56,6 @@ do for [panel = 1:3] {
   plot of('microslip')              with linespoints ls 1 title panel == 1 ? 'microslip, 16 to 1024 samples' : '', \
        of('microslip event-driven') with linespoints ls 2 title panel == 1 ? 'microslip, event-driven' : '', \
        of('sliders')                with linespoints ls 4 title panel == 1 ? '4 to 4096 sliders, 128 samples' : '', \
-       of('spring-slider by reversals') with linespoints ls 5 title panel == 1 ? 'one spring-slider, 16 to 1024 samples' : ''
+       of('spring-slider') with linespoints ls 5 title panel == 1 ? 'one spring-slider, 16 to 1024 samples' : ''
 }
 unset multiplot
