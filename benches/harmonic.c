@@ -299,7 +299,6 @@ static double run_slider_steps(void *context)
         const double w = j->path[2 * i + 1], load = w > 0.0 ? j->normal_stiffness * w : 0.0;
         jenkins_step(j->stiffness, friction * load, &force, j->path[2 * i] - u, &tangent[0]);
         u = j->path[2 * i];
-        tangent[1] = 0.0;
         tangent[3] = w > 0.0 ? j->normal_stiffness : 0.0;
         tangent[2] = tangent[0] > 0.0 ? 0.0 : (force > 0.0 ? friction : -friction) * tangent[3];
     }

@@ -41,7 +41,8 @@ pub(crate) struct Position {
 }
 
 impl Table {
-    pub const EMPTY: Table = Table { base: u64::MAX, quarters: [[0.0; TERMS]; PIECES] };
+    /// Zeros, to be filled.
+    pub const EMPTY: Table = Table { base: 0, quarters: [[0.0; TERMS]; PIECES] };
 
     /// Fills tables of several functions of one argument up to (at least) the argument `largest`, a normal number, from their Taylor
     /// series about the middle x of each quarter in powers of ρ, for the argument x (1 + ρ), in the order of the quarters.
@@ -95,9 +96,10 @@ impl Table {
         Some((values, slopes))
     }
 
-    /// y and dy/dx at an argument inside.
-    pub fn one_at(&self, x: f64) -> (f64, f64) {
-        self.position(x).map_or((0.0, 0.0), |at| one(x, self.coefficients(at)))
+    /// y and dy/dx at an argument; `None` outside the table.
+    #[inline(always)]
+    pub fn one_at(&self, x: f64) -> Option<(f64, f64)> {
+        self.position(x).map(|at| one(x, self.coefficients(at)))
     }
 
     /// The smallest argument inside.

@@ -255,7 +255,7 @@ impl LayerCurve {
 
     /// dλ2/dτ as a polynomial in τ up to 1/2, with its pole at 1/η > 1.
     fn curvature_series(&self) -> [f64; RETAINED_TERMS] {
-        let tangents = Interpolant::<{ RETAINED_TERMS / 2 }>::POINTS.map(|z| {
+        let tangents = Interpolant::<{ RETAINED_TERMS / 2 }>::at_points(|z| {
             let consumed = 0.25 * (1.0 + z);
             let load = Complement { consumed, remaining: 1.0 - consumed };
             let value = self.curvature(load);
