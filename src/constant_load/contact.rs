@@ -173,31 +173,11 @@ impl Contact {
         let by_compliance = slip_force * self.sensitivity_scales[PARAMETERS - 1];
         self.sensitivity_scales =
             [self.friction_coefficient, normal_force, by_size, by_radius, by_length, by_modulus, by_compliance];
-        let inner;
-        (self.interpolant, inner) = self.interpolant_of_curve();
+        let inner = set_interpolant_of_curve(&self.zones, &mut self.interpolant);
         self.inner_scale = 1.0 / (inner * slip_displacement);
         self.outer_scale = 1.0 / ((1.0 - inner) * slip_displacement);
         self.weights_in_slip = self.weights_of_curve();
         Ok(())
-    }
-
-    /// The interpolant and the fraction of its first polynomial.
-    fn interpolant_of_curve(&self) -> (ForceInterpolant, f64) {
-        let of = |zones: &dyn StickZones| (zones.slip_shift(), zones.small_load().compliance);
-        if self.is_layered() {
-            let (slip_shift, compliance) = of(&self.zones);
-            let fractions = [INNER_FRACTION, KNEE_FRACTION];
-            for fraction in fractions.into_iter().take(if self.has_knee() { 2 } else { 1 }) {
-                let both = ForceInterpolant::of(true, fraction, slip_shift, compliance, &mut self.zones.sequence());
-                if both.is_converged() {
-                    return (both, fraction);
-                }
-            }
-        }
-        let (slip_shift, compliance) = of(self.zones.contact());
-        let mut points = self.zones.sequence_of_contact();
-        let alone = ForceInterpolant::of(false, INNER_FRACTION, slip_shift, compliance, &mut points);
-        (if self.is_layered() { alone.without_layer() } else { alone }, INNER_FRACTION)
     }
 
     /// Whether this memory was initialised by a library of this version.
@@ -251,6 +231,28 @@ impl Contact {
     pub(crate) fn energy_scale(&self) -> f64 {
         self.slip_force * self.displacement_scale
     }
+}
+
+/// Interpolates the curve, in place; returns the fraction of its first polynomial.
+fn set_interpolant_of_curve(all: &LayeredZones, curve: &mut ForceInterpolant) -> f64 {
+    let of = |zones: &dyn StickZones| (zones.slip_shift(), zones.small_load().compliance);
+    let is_layered = all.has_layer();
+    if is_layered {
+        let (slip_shift, compliance) = of(all);
+        let fractions = [INNER_FRACTION, KNEE_FRACTION];
+        for fraction in fractions.into_iter().take(if all.has_knee() { 2 } else { 1 }) {
+            *curve = ForceInterpolant::of(true, fraction, slip_shift, compliance, &mut all.sequence());
+            if curve.is_converged() {
+                return fraction;
+            }
+        }
+    }
+    let (slip_shift, compliance) = of(all.contact());
+    *curve = ForceInterpolant::of(false, INNER_FRACTION, slip_shift, compliance, &mut all.sequence_of_contact());
+    if is_layered {
+        curve.mark_without_layer();
+    }
+    INNER_FRACTION
 }
 
 /// An open contact without a tag.

@@ -92,9 +92,9 @@ impl ForceInterpolant {
         converged: 0,
     };
 
-    /// The same interpolant, marked as that of the curve of the contact without its layer.
-    pub fn without_layer(self) -> ForceInterpolant {
-        ForceInterpolant { converged: WITHOUT_LAYER * self.converged, ..self }
+    /// Marks it as that of the curve of the contact without its layer.
+    pub fn mark_without_layer(&mut self) {
+        self.converged *= WITHOUT_LAYER;
     }
 
     pub fn is_without_layer(&self) -> bool {
