@@ -82,7 +82,7 @@ extern entry entries[];
 extern size_t entry_count;
 extern int rounds; /* per entry; the slowest have fewer; 0: nothing is timed */
 
-/* Adds an entry without errors and runs it once. Its context is a copy of so many bytes. */
+/* Adds an entry whose error is 0 and runs it once. The entry keeps its own copy of the context, of the given number of bytes. */
 entry *entry_add(entry e, const void *context, size_t bytes);
 void measure(size_t first); /* times all entries from `first` on, interleaved */
 

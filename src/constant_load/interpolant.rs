@@ -220,7 +220,7 @@ impl ForceInterpolant {
         Some((remaining, 2.0 * scale * slope / v))
     }
 
-    /// The derivative below the last interval of v, for integrals, if converged.
+    /// The derivatives at places below the last interval of v, for integrals, if converged.
     #[inline(always)]
     pub fn last_slopes<const N: usize>(&self, rho: &[f64; N]) -> [f64; N] {
         // Roots of several take the time of one.
@@ -230,6 +230,7 @@ impl ForceInterpolant {
         }
         for k in 0..N {
             let place = Place::of(roots[k], LAST_PIECES);
+            // Every place is on a piece; the other polynomial only spares a check that could fail.
             let piece = self.last.get(place.piece).unwrap_or(&self.inner);
             slopes[k] = place.product_slope(value_and_slope(piece, place.z));
         }
