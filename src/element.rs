@@ -156,9 +156,6 @@ impl Element {
     }
 
     /// Initialises an element in place; unchanged on an error.
-    ///
-    /// # Errors
-    /// As for [`Element::rounded_flat`].
     pub(crate) fn init_rounded_flat(
         &mut self,
         parameters: &Parameters,
@@ -177,9 +174,6 @@ impl Element {
     }
 
     /// Initialises an element in place; unchanged on an error.
-    ///
-    /// # Errors
-    /// As for [`Element::elliptic`].
     pub(crate) fn init_elliptic(
         &mut self,
         parameters: &EllipticParameters,
@@ -334,9 +328,7 @@ impl Element {
     }
 
     /// Checks the tag of an element that is used with the given number of directions.
-    ///
-    /// # Errors
-    /// `BadElement` unless it was initialised by this version; `BadDirections` for the other number of directions.
+    /// Errors: `BadElement` unless it was initialised by this version; `BadDirections` for the other number of directions.
     #[inline(always)]
     pub(crate) fn check_directions(&self, directions: Directions) -> Result<(), Error> {
         match self.tag & !(ELLIPTIC | FORCE_INPUT) {
@@ -511,9 +503,7 @@ impl Element {
     }
 
     /// Checks a normal component.
-    ///
-    /// # Errors
-    /// `BadNormalForce` for a force that is negative or not finite; `BadDisplacement` for an approach that is not finite;
+    /// Errors: `BadNormalForce` for a force that is negative or not finite; `BadDisplacement` for an approach that is not finite;
     /// `LengthTooShort` if the contact would become too wide for its length.
     #[inline(always)]
     pub(crate) fn check_input(&self, input: f64) -> Result<(), Error> {
@@ -704,9 +694,7 @@ const EMPTY: Element = Element {
 };
 
 /// E* of parameters that were checked.
-///
-/// # Errors
-/// `OutOfRange`, or `BadNormalForce` for an open contact.
+/// Errors: `OutOfRange`, or `BadNormalForce` for an open contact.
 fn closed_modulus(parameters: &Common) -> Result<f64, Error> {
     let modulus = parameters.composite_modulus()?;
     if parameters.normal_force > 0.0 { Ok(modulus) } else { Err(Error::BadNormalForce) }

@@ -176,16 +176,9 @@ impl ForceInterpolant {
         &self.inner
     }
 
-    /// Secant and tangent stiffness over the initial one at y = x/(2/5 x_s), at most 1; `None` if not converged.
+    /// Secant and tangent stiffness over the initial one at y = x/(2/5 x_s), at most 1, if converged.
     #[inline(always)]
-    pub fn secant_and_tangent(&self, y: f64) -> Option<(f64, f64)> {
-        let values = self.inner_secant_and_tangent(y);
-        self.is_converged().then_some(values)
-    }
-
-    /// The same without a check.
-    #[inline(always)]
-    pub fn inner_secant_and_tangent(&self, y: f64) -> (f64, f64) {
+    pub fn secant_and_tangent(&self, y: f64) -> (f64, f64) {
         let (secant, slope) = value_and_slope(&self.inner, y);
         (secant, secant + slope * y)
     }
@@ -202,16 +195,9 @@ impl ForceInterpolant {
         self.is_converged().then(|| sum(weighted(&self.inner, &ENERGY_WEIGHTS).into_iter(), y))
     }
 
-    /// 1 - τ and its derivative with respect to ρ; `None` if ρ is below the last interval of v, or if not converged.
+    /// 1 - τ and its derivative with respect to ρ, if converged; `None` if ρ is below the last interval of v.
     #[inline(always)]
     pub fn complement_and_slope(&self, rho: f64) -> Option<(f64, f64)> {
-        let values = self.outer_complement_and_slope(rho)?;
-        self.is_converged().then_some(values)
-    }
-
-    /// The same without a check of the convergence.
-    #[inline(always)]
-    pub fn outer_complement_and_slope(&self, rho: f64) -> Option<(f64, f64)> {
         let v = root_of(rho);
         let Interval(exponent) = Interval::of(v);
         let piece = self.pieces.get((1022 - exponent) as usize)?;

@@ -186,13 +186,6 @@ pub(crate) fn step_in_full_state(contact: &Contact, state: &[f64], displacement:
     if transition.reversed { step.merged(contact, &memory) } else { step }
 }
 
-/// The step, and the energy \[J\] that it dissipates.
-#[must_use]
-#[inline(always)]
-pub fn step_with_energy(contact: &Contact, state: &[f64], displacement: f64) -> (Step, f64) {
-    (step(contact, state, displacement), dissipated(contact, state, displacement))
-}
-
 /// The energy \[J\] that a step dissipates, not negative.
 #[must_use]
 #[inline(never)]

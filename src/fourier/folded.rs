@@ -54,9 +54,6 @@ pub(crate) struct FoldedFourier<'a> {
 
 impl<'a> FoldedFourier<'a> {
     /// For all orders up to an even number.
-    ///
-    /// # Errors
-    /// `BadWorkspace` if fewer doubles remain.
     pub fn take(parts: &mut Parts<'a>, samples: usize, orders: usize) -> Result<FoldedFourier<'a>, Error> {
         let blocks = position_blocks(samples);
         let weights = parts.take_blocks(blocks)?;

@@ -26,8 +26,6 @@ pub(crate) struct Assembly<'a> {
 }
 
 impl<'a> Assembly<'a> {
-    /// # Errors
-    /// `BadWorkspace` if fewer doubles remain.
     pub fn take(parts: &mut Parts<'a>, harmonics: usize, weight: f64) -> Result<Assembly<'a>, Error> {
         let sums = parts.take(4 * harmonics + 1)?;
         let mut pairs = || parts.take(2 * (3 * harmonics + 2));

@@ -104,9 +104,6 @@ struct Buffers<'a> {
 
 impl<'a> Workspace<'a> {
     /// Opens an initialised workspace.
-    ///
-    /// # Errors
-    /// `BadWorkspace` if uninitialised or too short.
     #[inline(always)]
     pub fn new(workspace: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
         let (layout, mut parts) = Layout::open(workspace)?;
