@@ -39,12 +39,6 @@ impl Contact {
         self.evaluator().at(displacement)
     }
 
-    /// The same, not inlined.
-    #[inline(never)]
-    pub(crate) fn response_at(&self, displacement: f64) -> Response {
-        self.response(displacement)
-    }
-
     /// The evaluator of the curve: the fields of the contact that it needs, loaded once for many displacements.
     #[inline(always)]
     pub(crate) fn evaluator(&self) -> CurveEvaluator<'_> {
