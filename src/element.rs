@@ -563,17 +563,16 @@ impl Element {
     /// N, S and, if requested, their derivatives at four inputs; zeros for an open contact.
     #[inline(always)]
     pub(crate) fn four_normals<const SLOPES: bool>(&self, input: &[f64; 4]) -> [[f64; 4]; 4] {
-        if input.iter().all(|input| *input > 0.0) {
-            return self.closed::<SLOPES, 4>(input);
-        }
         // A closed contact in place of each open one.
-        let substitute = self.of_input.smallest();
+        let (is_closed, substitute) = (input.map(|input| input > 0.0), self.of_input.smallest());
         let mut closed = *input;
-        closed.iter_mut().for_each(|input| *input = if *input > 0.0 { *input } else { substitute });
+        for (input, is_closed) in closed.iter_mut().zip(is_closed) {
+            *input = if is_closed { *input } else { substitute };
+        }
         let mut states = self.closed::<SLOPES, 4>(&closed);
         for values in &mut states {
-            for (value, input) in values.iter_mut().zip(input) {
-                *value = if *input > 0.0 { *value } else { 0.0 };
+            for (value, is_closed) in values.iter_mut().zip(is_closed) {
+                *value = if is_closed { *value } else { 0.0 };
             }
         }
         states
