@@ -205,23 +205,8 @@ impl Element {
         let Common { normal_force, friction_coefficient, springs, .. } = *parameters;
         let plane = shape.plane();
         let layer = plane.layer;
-        let mut largest = shape.largest_size();
-        if directions == Directions::Two {
-            largest = largest.min(plane.largest);
-        }
-        let w = shape.at_load(normal_force);
+        let [w, largest] = sizes(shape, normal_force, directions)?;
         let compliances = [Quantity::Approach, Quantity::Shift].map(|quantity| shape.compliance(quantity, w));
-        if !layer.is_none() {
-            layer.check_share(normal_force, compliances)?;
-            // The contact stiffens with the load, so that a layer has energies of the order of N² where those of a contact are smaller.
-            let most = normal_force * MOST_LOAD_WITH_LAYER;
-            if shape.load(largest) > most {
-                largest = shape.at_load(most);
-            }
-        }
-        if w >= largest {
-            return Err(Error::LengthTooShort);
-        }
         let [approach, shift] = [Quantity::Approach, Quantity::Shift].map(|quantity| shape.value(quantity, w));
         for value in [approach, shift, normal_force] {
             // The element accepts its own load and approach.
@@ -267,6 +252,13 @@ impl Element {
             self.lateral[0],
             self.lateral[1],
         ]);
+        self.fill_tables(shape, input, [normal_force, approach, shift]);
+        Ok(())
+    }
+
+    /// Fills the tables up to N, U and S of the parameters.
+    fn fill_tables(&mut self, shape: &dyn Shape, input: NormalInput, [normal_force, approach, shift]: [f64; 3]) {
+        let plane = shape.plane();
         // The approach and the shift of a short contact have a maximum just beyond the largest size, where their inverses are
         // singular. Where that is at less than 2.25 times the argument, it would lie within 9 half-lengths of a quarter.
         let regular = |value: f64, largest: f64| value.min(largest / 2.25);
@@ -282,13 +274,12 @@ impl Element {
             NormalInput::Approach => (Quantity::Approach, regular(approach, self.largest_approach)),
             NormalInput::Force => (Quantity::Load, normal_force),
         };
-        let is_sum = layer.is_none() && input == NormalInput::Approach;
+        let is_sum = plane.layer.is_none() && input == NormalInput::Approach;
         self.shift_per = if is_sum { [plane.per_approach[0], plane.per_load[0]] } else { [0.0; 2] };
         Table::fill([&mut self.of_input, &mut self.shift], largest, &mut |x| {
             let [load, approach, shift] = shape.series(shape.size_at(argument, x), argument);
             [if input == NormalInput::Force { approach } else { load }, shift]
         });
-        Ok(())
     }
 
     /// The family of sizes in both directions.
@@ -697,6 +688,28 @@ const EMPTY: Element = Element {
 fn closed_modulus(parameters: &Common) -> Result<f64, Error> {
     let modulus = parameters.composite_modulus()?;
     if parameters.normal_force > 0.0 { Ok(modulus) } else { Err(Error::BadNormalForce) }
+}
+
+/// The size under a normal force and the largest one for which the laws hold.
+///
+/// Errors: those of [`Layer::check_share`]; `LengthTooShort` if the first one is not smaller.
+fn sizes(shape: &dyn Shape, normal_force: f64, directions: Directions) -> Result<[f64; 2], Error> {
+    let plane = shape.plane();
+    let mut largest = shape.largest_size();
+    if directions == Directions::Two {
+        largest = largest.min(plane.largest);
+    }
+    let w = shape.at_load(normal_force);
+    if !plane.layer.is_none() {
+        let compliances = [Quantity::Approach, Quantity::Shift].map(|quantity| shape.compliance(quantity, w));
+        plane.layer.check_share(normal_force, compliances)?;
+        // The contact stiffens with the load, so that a layer has energies of the order of N² where those of a contact are smaller.
+        let most = normal_force * MOST_LOAD_WITH_LAYER;
+        if shape.load(largest) > most {
+            largest = shape.at_load(most);
+        }
+    }
+    if w >= largest { Err(Error::LengthTooShort) } else { Ok([w, largest]) }
 }
 
 /// The number of springs of parameters that were checked.

@@ -147,22 +147,7 @@ impl ForceInterpolant {
             converged &= piece_converged;
             scale *= 0.5;
         }
-        let mut last = [[[0.0; 4]; _]; LAST_PIECES];
-        for (piece, polynomial) in last.iter_mut().enumerate() {
-            let tangent = |z: f64| {
-                let rho = END_OF_PIECES * Place { piece, z }.distance();
-                let point = at_remaining(remaining * rho);
-                let value = point.remaining / rho;
-                let tangent = remaining / (compliance + point.compliance_increase);
-                Tangent { value, slope: 8.0 / (3.0 + z) * (tangent - value) }
-            };
-            // The share in an integral is at most a 16th of that of the piece before.
-            *polynomial = match piece {
-                0 | 1 => powers(Interpolant::<20>::osculating(&Interpolant::<10>::at_points(tangent)).terms()),
-                2 | 3 => powers(Interpolant::<16>::osculating(&Interpolant::<8>::at_points(tangent)).terms()),
-                _ => powers(Interpolant::<12>::osculating(&Interpolant::<6>::at_points(tangent)).terms()),
-            };
-        }
+        let last = last_pieces(compliance, remaining, at_remaining);
         ForceInterpolant { inner, pieces, last, converged: converged as u64 }
     }
 
@@ -322,6 +307,31 @@ impl Interval {
 #[inline(always)]
 fn power_of(exponent: u64) -> f64 {
     f64::from_bits((2047 - 2 - exponent) << 52)
+}
+
+/// (1 - τ)/ρ beyond the dyadic intervals of v.
+fn last_pieces(
+    compliance: f64,
+    remaining: f64,
+    at_remaining: &mut dyn FnMut(f64) -> CurvePoint,
+) -> [Polynomial; LAST_PIECES] {
+    let mut last = [[[0.0; 4]; _]; LAST_PIECES];
+    for (piece, polynomial) in last.iter_mut().enumerate() {
+        let tangent = |z: f64| {
+            let rho = END_OF_PIECES * Place { piece, z }.distance();
+            let point = at_remaining(remaining * rho);
+            let value = point.remaining / rho;
+            let tangent = remaining / (compliance + point.compliance_increase);
+            Tangent { value, slope: 8.0 / (3.0 + z) * (tangent - value) }
+        };
+        // The share in an integral is at most a 16th of that of the piece before.
+        *polynomial = match piece {
+            0 | 1 => powers(Interpolant::<20>::osculating(&Interpolant::<10>::at_points(tangent)).terms()),
+            2 | 3 => powers(Interpolant::<16>::osculating(&Interpolant::<8>::at_points(tangent)).terms()),
+            _ => powers(Interpolant::<12>::osculating(&Interpolant::<6>::at_points(tangent)).terms()),
+        };
+    }
+    last
 }
 
 /// 1 - τ over a dyadic interval, and whether it has converged: the integral of `unit (3+z)/(Λ + λ)`, with a constant that fits the

@@ -349,6 +349,25 @@ impl Period<'_, '_, '_> {
         }
     }
 
+    /// Adds a segment to the integrals of the derivatives with respect to the parameters.
+    fn integrate_sensitivity(&mut self, buffers: &mut Buffers, segment: Segment) {
+        let coefficients = buffers.coefficients();
+        if let Some(sums) = &mut self.sensitivity {
+            let stack = ReversalSensitivities::new(buffers.gradients.as_flattened_mut());
+            buffers.nodes.for_each_panel(&self.motion, segment, buffers.harmonics, |nodes, displacement, weights| {
+                let mut derivatives: [Nodes; PARAMETERS] = [[[0.0; 4]; _]; _];
+                for (node, displacement) in displacement.as_flattened().iter().enumerate() {
+                    for (values, derivative) in derivatives.iter_mut().zip(stack.at(&self.law, *displacement)) {
+                        values.as_flattened_mut().iter_mut().skip(node).take(1).for_each(|value| *value = derivative);
+                    }
+                }
+                for (values, column) in derivatives.iter().zip(sums.chunks_exact_mut(coefficients)) {
+                    nodes.add(weights, values, column);
+                }
+            });
+        }
+    }
+
     /// Adds a segment of the present branch to the integrals and the energy. `to_slip`: gross slip starts at its end.
     fn integrate_segment(&mut self, buffers: &mut Buffers, from: Instant, to: Instant, to_slip: bool) {
         self.law.account_for(from.displacement, to.displacement);
@@ -371,20 +390,8 @@ impl Period<'_, '_, '_> {
             return;
         }
         let segment = Segment { from: from.t, to: to.t, to_slip };
-        if let Some(sums) = &mut self.sensitivity {
-            let stack = ReversalSensitivities::new(buffers.gradients.as_flattened_mut());
-            buffers.nodes.for_each_panel(&self.motion, segment, buffers.harmonics, |nodes, displacement, weights| {
-                let mut derivatives: [Nodes; PARAMETERS] = [[[0.0; 4]; _]; _];
-                for (node, displacement) in displacement.as_flattened().iter().enumerate() {
-                    for (values, derivative) in derivatives.iter_mut().zip(stack.at(&self.law, *displacement)) {
-                        values.as_flattened_mut().iter_mut().skip(node).take(1).for_each(|value| *value = derivative);
-                    }
-                }
-                for (values, column) in derivatives.iter().zip(sums.chunks_exact_mut(coefficients)) {
-                    nodes.add(weights, values, column);
-                }
-            });
-            return;
+        if self.sensitivity.is_some() {
+            return self.integrate_sensitivity(buffers, segment);
         }
         let evaluator = self.law.evaluator();
         let orders = if stiffness { 2 * buffers.harmonics } else { buffers.harmonics };
