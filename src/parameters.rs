@@ -280,10 +280,10 @@ impl Pair {
 }
 
 #[cfg(test)]
-pub(crate) mod tests {
+mod tests {
     use super::*;
 
-    pub(crate) fn steel() -> Parameters {
+    fn steel() -> Parameters {
         let material = Material { young_modulus: 2e11, poisson_ratio: 0.3 };
         Parameters {
             flat_half_width: 1e-4,

@@ -148,16 +148,16 @@ impl Contact {
         }
         let layer = zones.layer();
         // The layer alone would have more load at this displacement; a shift grows at most like the power 2/3 of the load.
-        let of_layer = alone.slip_shift() * layer.load_remaining(remaining / layer.compliance()).cbrt().powi(2);
+        let of_layer = alone.slip_shift() * layer.load_of_shift(remaining).cbrt().powi(2);
         let start = remaining.min(of_layer).max(f64::MIN_POSITIVE);
         let at = |own: f64| {
             let [left, compliance] = self.without_layer(own);
             let load = Complement { consumed: 1.0 - left, remaining: left };
-            (load, compliance, layer.compliance_at(load))
+            (load, compliance, layer.compliance(left))
         };
         let (load, of_contact, of_layer) = at(inverse_of_sum(remaining, start, alone.slip_shift(), |own| {
             let (load, of_contact, of_layer) = at(own);
-            let sum = own + layer.shift_remaining(load.remaining);
+            let sum = own + layer.shift(load.remaining);
             [sum, own / sum * (1.0 + of_layer / of_contact)]
         }));
         Some((load, self.stiffness_scale / (of_contact + of_layer)))

@@ -14,7 +14,7 @@
 
 use crate::numerics::chebyshev::{Interpolant, Tangent};
 use crate::shape::rounded_punch::{InversePower, RoundedPunch, TINY};
-use crate::shape::stick_zone::small_load::{RETAINED_TERMS, SmallLoadSeries};
+use crate::shape::stick_zone::small_load::{RETAINED_TERMS, SmallLoadSeries, curvature_series};
 use crate::shape::stick_zone::{Complement, CurvePoint, StickZone, StickZones, SurfacePoint};
 use crate::shape::tractions;
 use core::f64::consts::PI;
@@ -72,7 +72,7 @@ impl RoundedFlatZones {
             beta,
             gamma: contact.gamma(load),
             slip_shift: compliance + beta,
-            small_load: SmallLoadSeries::new(compliance, curvature_series(contact, load)),
+            small_load: SmallLoadSeries::new(compliance, curvature_of(contact, load)),
         }
     }
 
@@ -302,7 +302,7 @@ fn curvature(punch: &RoundedPunch, load: f64) -> f64 {
 }
 
 /// h'' as a polynomial in τ up to 1/2: positive, with its singularity as far beyond as the interval is long.
-fn curvature_series(contact: &RoundedPunch, load: f64) -> [f64; RETAINED_TERMS] {
+fn curvature_of(contact: &RoundedPunch, load: f64) -> [f64; RETAINED_TERMS] {
     let mut last: Option<InversePower> = None;
     let mut tangents = Interpolant::<{ RETAINED_TERMS / 2 }>::at_points(|z| {
         let remaining = (0.75 + 0.25 * z) * load;
@@ -317,11 +317,5 @@ fn curvature_series(contact: &RoundedPunch, load: f64) -> [f64; RETAINED_TERMS] 
     });
     // From τ = 0 on; the points are symmetric.
     tangents.reverse();
-    let interpolant = Interpolant::<RETAINED_TERMS>::osculating(&tangents);
-    let mut scale = 1.0;
-    interpolant.powers_from_end().map(|power| {
-        let coefficient = scale * power;
-        scale *= 2.0;
-        coefficient
-    })
+    curvature_series(&tangents)
 }
