@@ -7,7 +7,7 @@ module host
   use microslip
   implicit none
   private
-  public :: contact_model, run
+  public :: contact_model, element_of, points_of, run
 
   abstract interface
     !> One call of the user subroutine: from displacement and state variables at the start of the increment to those of the trial.
@@ -42,6 +42,45 @@ module host
   real(wp), parameter :: usual_step = 0.01_wp, restart_time = 0.5_wp
 
 contains
+
+  !> The element of a, R, L, N, mu, E1, nu1, E2, nu2.
+  function element_of(c, directions, normal_input) result(element)
+    real(wp), intent(in) :: c(:)
+    integer, intent(in) :: directions, normal_input
+    type(mslip_element) :: element
+    integer(mslip_int) :: status
+
+    call mslip_element_init(mslip_parameters(c(1), c(2), c(3), c(4), c(5), [mslip_material(c(6), c(7)), &
+      mslip_material(c(8), c(9))], displacement_reference=MSLIP_RIGID_STRIP), directions, normal_input, element, status)
+    call check_status('element', status, MSLIP_OK)
+  end function element_of
+
+  !> Points with these elements: the unknowns of the program are those of the law, and force and energy are a share of the element's.
+  function points_of(name, elements, share, variables, call_user) result(model)
+    character(len=*), intent(in) :: name
+    type(mslip_element), intent(in) :: elements(:)
+    real(wp), intent(in) :: share(:)
+    integer, intent(in) :: variables
+    procedure(user_subroutine) :: call_user
+    type(contact_model) :: model
+    integer :: j, m
+
+    m = elements(1)%directions + 1
+    write (model%name, '(2a, i0)') name, ', directions: ', m - 1
+    model%points = size(elements)
+    model%unknowns = m
+    model%variables = variables
+    model%elements = elements
+    model%share = share
+    allocate (model%to_law(m, m, size(elements)), model%from_law(m, m, size(elements)), source=0.0_wp)
+    do j = 1, m
+      model%to_law(j, j, :) = 1
+      model%from_law(j, j, :) = share
+    end do
+    model%offset = spread(0.0_wp, 1, m)
+    model%spring = spread(0.3_wp*elements(1)%tangential_stiffness, 1, m)
+    model%call_user => call_user
+  end function points_of
 
   subroutine run(model)
     type(contact_model), intent(in) :: model

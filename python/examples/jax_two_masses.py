@@ -1,6 +1,6 @@
 """Two masses on a contact in JAX: forced response by Newton's method, and a fit of the friction to measured amplitudes.
 
-The masses are those of fortran_examples/cases/two_dof.nml: M x'' + D x' + K x + B f(B^T x) = F cos(omega t).
+The masses are those of `two_masses`: M x'' + D x' + K x + B f(B^T x) = F cos(omega t).
 """
 
 import sys
@@ -10,22 +10,10 @@ import jax.numpy as jnp
 import microslip
 import numpy as np
 from jax_microslip import harmonic_force
+from two_masses import CONTACT, DAMPING, MASS, STIFFNESS
 
 jax.config.update("jax_enable_x64", True)
 
-CONTACT = {
-    "flat_half_width": 0.2e-3,
-    "edge_radius": 5e-3,
-    "length": 10e-3,
-    "normal_force": 150.0,
-    "friction_coefficient": 0.4,
-    "young_modulus": 114e9,
-    "poisson_ratio": 0.32,
-    "displacement_reference": "rigid_strip",
-}
-MASS = np.diag([1.0, 0.5])
-DAMPING = np.array([[30.0, -10.0], [-10.0, 10.0]])
-STIFFNESS = np.array([[2.5e7, -2e7], [-2e7, 2.1e7]])
 HARMONICS, FORCE = 5, 15.0
 
 contact_force = harmonic_force(CONTACT, microslip.Workspace(HARMONICS, 128))
