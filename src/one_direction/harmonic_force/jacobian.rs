@@ -350,7 +350,7 @@ impl<const N: usize> Gathering<'_, N> {
             && let Some(mut piece) = self.pieces.get(index).copied()
         {
             let (removes, was_cut) = (self.depth > kept, piece.cut.count > 0);
-            if !removes && !(is_cut && was_cut && self.depth == kept) {
+            if !(removes || is_cut && was_cut && self.depth == kept) {
                 return;
             }
             let has_sums = piece.stored > 0 || was_cut || now > piece.since as usize;
