@@ -3,7 +3,7 @@
 //! The curve is odd: its points are computed on the positive half, and the sign is stored separately.
 
 use crate::constant_load::contact::Contact;
-use crate::constant_load::evaluator::Response;
+use crate::constant_load::evaluator::{Response, sign_of};
 use crate::error::Error;
 use crate::limits::check_displacement;
 use crate::numerics::fp_class::{abs_le, is_finite, le};
@@ -112,10 +112,6 @@ impl Contact {
     pub(crate) fn stiffness_of(&self, zone: &StickZone) -> f64 {
         self.stiffness_scale / self.stick_zones().compliance(zone)
     }
-}
-
-pub(super) fn sign_of(value: f64) -> f64 {
-    if value < 0.0 { -1.0 } else { 1.0 }
 }
 
 impl CurvePoint<'_> {

@@ -4,7 +4,6 @@
 //! that bends the curve strongly, the stick zone is found by iteration.
 
 use crate::constant_load::contact::Contact;
-use crate::constant_load::curve::sign_of;
 use crate::constant_load::interpolant::{END_OF_PIECES, ForceInterpolant, INNER_FRACTION, Interval, root_of};
 use crate::shape::layer::inverse_of_sum;
 use crate::shape::stick_zone::{Complement, StickZones};
@@ -14,6 +13,10 @@ use crate::shape::stick_zone::{Complement, StickZones};
 pub(crate) struct Response {
     pub force: f64,
     pub stiffness: f64,
+}
+
+pub(super) fn sign_of(value: f64) -> f64 {
+    if value < 0.0 { -1.0 } else { 1.0 }
 }
 
 /// Values behind those that are evaluated, so that whole blocks of four can be read and written from any value on.
