@@ -61,9 +61,6 @@ void set_up_force(const test_case *c, const extent *x, int a)
         exact[i] = value[0];
     }
     add_curve(&e, exact, "microslip", 0.0, (curve_job) { microslip_curve, &c->contact, 1 });
-    for (int k = 0; k < RULES; ++k) {
-        add_curve(&e, exact, "quadrature", c->paper[k].nodes, (curve_job) { paper_curve, &c->paper[k], 0 });
-    }
     for (int k = 1; k < BANKS && (int)c->bank[k].n <= x->most_sliders; ++k) {
         add_curve(&e, exact, "sliders", (double)c->bank[k].n, (curve_job) { sliders_curve, &c->bank[k], c->bank[k].n <= 256 });
     }
@@ -138,7 +135,7 @@ static void add_stiffness(const entry *e, double (*exact)[4], const char *method
 
 void set_up_stiffness(const test_case *c, const extent *x, int a)
 {
-    enum { N = 8, SLOW = 2 };
+    enum { N = 8 };
     double exact[N][4];
     const entry e = { .task = "stiffness", .amplitude = x->amplitude[a], .run = run_stiffness };
     stiffness_job j = { .law = &c->contact, .n = N };
@@ -151,12 +148,6 @@ void set_up_stiffness(const test_case *c, const extent *x, int a)
     for (int k = 0; k < BANKS && (int)c->bank[k].n <= x->most_sliders; ++k) {
         j.law = &c->bank[k];
         add_stiffness(&e, exact, k ? "sliders" : "spring-slider", k ? (double)c->bank[k].n : 0.0, &j);
-    }
-    j.stiffness = paper_stiffness;
-    j.n = SLOW;
-    for (int k = 0; k < RULES; ++k) {
-        j.law = &c->paper[k];
-        add_stiffness(&e, exact, "quadrature", c->paper[k].nodes, &j);
     }
 }
 

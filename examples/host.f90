@@ -173,13 +173,14 @@ contains
     logical, intent(out) :: converged
     real(wp) :: residual(model%unknowns), matrix(model%unknowns, model%unknowns), ratio, tolerance
     logical :: close(model%points), failed
-    integer :: iteration, i, j
+    integer :: iteration, i, j, pivots(model%unknowns), info
+    external :: dgesv
 
     x = x_start
     tolerance = 1e-10_wp*maxval(model%spring)*model%elements(1)%approach
     do iteration = 1, 16
       failed = .false.
-      !$omp parallel do private(residual, matrix, ratio, j) reduction(.or.: failed)
+      !$omp parallel do private(residual, matrix, ratio, j, pivots, info) reduction(.or.: failed)
       do i = 1, model%points
         call model%call_user(i, x_start(:, i), x(:, i), before(:, i), after(:, i), force(:, i), tangent(:, :, i), dissipated(i), &
           ratio)
@@ -191,7 +192,7 @@ contains
           do j = 1, model%unknowns
             matrix(j, j) = matrix(j, j) + model%spring(j)
           end do
-          call solve(matrix, residual)
+          call dgesv(size(residual), 1, matrix, size(residual), pivots, residual, size(residual), info)
           x(:, i) = x(:, i) - residual
         end if
       end do
@@ -362,30 +363,5 @@ contains
     call check(trim(model%name)//': a shorter increment', ratio < 1)
     call check_same(trim(model%name)//': state variables after an error', after, before(:, 1))
   end subroutine exceed_range
-
-  !> Gaussian elimination with pivoting; the solution replaces b.
-  subroutine solve(a, b)
-    real(wp), intent(inout) :: a(:, :), b(:)
-    real(wp) :: row(size(b)), element
-    integer :: i, j, p
-
-    do i = 1, size(b)
-      p = i - 1 + maxloc(abs(a(i:, i)), 1)
-      row = a(i, :)
-      a(i, :) = a(p, :)
-      a(p, :) = row
-      element = b(i)
-      b(i) = b(p)
-      b(p) = element
-      do j = i + 1, size(b)
-        element = a(j, i)/a(i, i)
-        a(j, i:) = a(j, i:) - element*a(i, i:)
-        b(j) = b(j) - element*b(i)
-      end do
-    end do
-    do i = size(b), 1, -1
-      b(i) = (b(i) - dot_product(a(i, i+1:), b(i+1:)))/a(i, i)
-    end do
-  end subroutine solve
 
 end module host

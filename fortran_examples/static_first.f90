@@ -84,8 +84,9 @@ contains
 
   ! The contact carries the static forces at x = 0, so that they are subtracted from its mean forces.
   subroutine balance
-    real(wp) :: residual(unknowns), step(unknowns)
-    integer :: iteration
+    real(wp) :: residual(unknowns), matrix(unknowns, unknowns)
+    integer :: iteration, pivots(unknowns), info
+    external :: dgesv                                                     ! LAPACK
 
     do iteration = 1, 30
       call mslip_element_harmonic_force(element, workspace, static + x, status, force, jacobian, dissipated, drift)
@@ -94,31 +95,12 @@ contains
       residual(1) = residual(1) - shear
       residual(unknowns - 2) = residual(unknowns - 2) - normal_force
       if (maxval(abs(residual)) < 1e-9_wp*normal_force) return
-      step = solution(body + jacobian, -residual)
-      x = x + step
+      matrix = body + jacobian
+      call dgesv(unknowns, 1, matrix, unknowns, pivots, residual, unknowns, info)
+      x = x - residual
     end do
     error stop 'no equilibrium'
   end subroutine balance
-
-  ! Gaussian elimination with pivots.
-  function solution(matrix, right_side) result(y)
-    real(wp), intent(in) :: matrix(:, :), right_side(:)
-    real(wp) :: y(size(right_side)), a(size(right_side), size(right_side) + 1)
-    integer :: i, k, pivot
-
-    k = size(right_side)
-    a(:, :k) = matrix
-    a(:, k + 1) = right_side
-    do i = 1, k
-      pivot = i - 1 + maxloc(abs(a(i:, i)), dim=1)
-      a([i, pivot], :) = a([pivot, i], :)
-      a(i, :) = a(i, :)/a(i, i)
-      do pivot = 1, k
-        if (pivot /= i) a(pivot, :) = a(pivot, :) - a(pivot, i)*a(i, :)
-      end do
-    end do
-    y = a(:, k + 1)
-  end function solution
 
   subroutine check
     if (status /= MSLIP_OK) then
