@@ -18,7 +18,7 @@
 use crate::numerics::chebyshev::{Interpolant, Polynomial, TERMS, Tangent, powers};
 use crate::numerics::polynomial::{four_values_and_slopes, rows, sum, value_and_slope};
 use crate::shape::rounded_punch::TINY;
-use crate::shape::stick_zone::CurvePoint;
+use crate::shape::stick_zone::LoadPoint;
 
 /// Fraction of x_s that the first polynomial covers.
 pub(crate) const INNER_FRACTION: f64 = 0.4;
@@ -78,7 +78,7 @@ pub(crate) struct ForceInterpolant {
     inner: Polynomial,
     /// 1 - τ over z = 2ʲ⁺² v - 3, from -1 to 1.
     pieces: [Polynomial; PIECES],
-    /// (1 - τ)/ρ over z of a [`Place`].
+    /// (1 - τ)/ρ over z of a [`DyadicPlace`].
     last: [Polynomial; LAST_PIECES],
     /// 1 if all polynomials are accurate to rounding; 0 if the curvature is too strong, for Λ near 0; [`WITHOUT_LAYER`].
     converged: u64,
@@ -109,11 +109,11 @@ impl ForceInterpolant {
         inner_fraction: f64,
         slip_shift: f64,
         compliance: f64,
-        at_remaining: &mut dyn FnMut(f64) -> CurvePoint,
+        at_remaining: &mut dyn FnMut(f64) -> LoadPoint,
     ) -> ForceInterpolant {
         let (first, remaining) = (inner_fraction * slip_shift, (1.0 - inner_fraction) * slip_shift);
         let mut tangents = Interpolant::<{ TERMS / 2 }>::at_points(|z| {
-            let CurvePoint { compliance_increase: increase, curvature, .. } =
+            let LoadPoint { compliance_increase: increase, curvature, .. } =
                 at_remaining(slip_shift - 0.5 * (1.0 - z) * first);
             let stiffness = 1.0 / (compliance + increase);
             let slope = 0.5 * first * compliance * curvature * stiffness * stiffness * stiffness;
@@ -200,7 +200,7 @@ impl ForceInterpolant {
             roots[k] = eighth_root(rho[k] * (1.0 / END_OF_PIECES));
         }
         for k in 0..N {
-            let place = Place::of(roots[k], LAST_PIECES);
+            let place = DyadicPlace::of(roots[k], LAST_PIECES);
             // Every place is on a piece; the other polynomial only spares a check that could fail.
             let piece = self.last.get(place.piece).unwrap_or(&self.inner);
             slopes[k] = place.product_slope(value_and_slope(piece, place.z));
@@ -241,19 +241,19 @@ impl ForceInterpolant {
 
 /// The piece and the argument on it of a small distance, by its eighth root u: pieces are the dyadic intervals 2⁻ʲ⁻¹ <= u <= 2⁻ʲ.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Place {
+pub(crate) struct DyadicPlace {
     pub piece: usize,
     /// 4 2ʲ u - 3, from -1 to 1.
     pub z: f64,
 }
 
-impl Place {
+impl DyadicPlace {
     /// The place of u on one of some pieces, that of the end of the last one if u is below.
     #[inline(always)]
-    pub fn of(u: f64, pieces: usize) -> Place {
+    pub fn of(u: f64, pieces: usize) -> DyadicPlace {
         let u = u.max(f64::from_bits((1023 - pieces as u64) << 52));
         let Interval(exponent) = Interval::of(u);
-        Place { piece: (1022 - exponent) as usize, z: 4.0 * (power_of(exponent) * u) - 3.0 }
+        DyadicPlace { piece: (1022 - exponent) as usize, z: 4.0 * (power_of(exponent) * u) - 3.0 }
     }
 
     /// u.
@@ -313,12 +313,12 @@ fn power_of(exponent: u64) -> f64 {
 fn last_pieces(
     compliance: f64,
     remaining: f64,
-    at_remaining: &mut dyn FnMut(f64) -> CurvePoint,
+    at_remaining: &mut dyn FnMut(f64) -> LoadPoint,
 ) -> [Polynomial; LAST_PIECES] {
     let mut last = [[[0.0; 4]; _]; LAST_PIECES];
     for (piece, polynomial) in last.iter_mut().enumerate() {
         let tangent = |z: f64| {
-            let rho = END_OF_PIECES * Place { piece, z }.distance();
+            let rho = END_OF_PIECES * DyadicPlace { piece, z }.distance();
             let point = at_remaining(remaining * rho);
             let value = point.remaining / rho;
             let tangent = remaining / (compliance + point.compliance_increase);
@@ -340,12 +340,12 @@ fn last_pieces(
 fn interpolate<const N: usize, const M: usize>(
     compliance: f64,
     unit: f64,
-    at: &mut dyn FnMut(f64) -> CurvePoint,
+    at: &mut dyn FnMut(f64) -> LoadPoint,
     tolerance: f64,
 ) -> (Polynomial, bool) {
     let (mut sum, mut first) = (0.0, None);
     let tangents = Interpolant::<M>::at_points(|z| {
-        let CurvePoint { remaining, compliance_increase: increase, curvature } = at(z);
+        let LoadPoint { remaining, compliance_increase: increase, curvature } = at(z);
         sum += remaining;
         let first = *first.get_or_insert(increase);
         let stiffness = 1.0 / (compliance + increase);

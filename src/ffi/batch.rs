@@ -20,7 +20,7 @@ use core::{ptr, slice};
 use libc::size_t;
 
 /// The law of contacts, or of elements with a number of directions.
-pub(super) trait Law {
+pub(super) trait StepLaw {
     /// A contact or an element.
     type Item: Copy;
     /// A displacement; a force has as many components.
@@ -46,7 +46,7 @@ pub(super) trait Law {
     );
 }
 
-impl Law for Contact {
+impl StepLaw for Contact {
     type Item = Contact;
     type Vector = f64;
     type Tangent = f64;
@@ -94,7 +94,7 @@ impl Law for Contact {
     }
 }
 
-impl<L: ElementLaw> Law for L {
+impl<L: ElementLaw> StepLaw for L {
     type Item = Element;
     type Vector = L::Vector;
     type Tangent = L::Tangent;
@@ -167,7 +167,7 @@ unsafe fn copy(state_old: *const [f64], state_new: *mut f64) {
 
 /// Advances the state of one contact or element, which is checked.
 #[inline(always)]
-pub(super) unsafe fn update_one<L: Law>(
+pub(super) unsafe fn update_one<L: StepLaw>(
     law: &L::Item,
     state_length: usize,
     state_old: *const f64,
@@ -210,7 +210,7 @@ impl<'a, T: Copy> Items<'a, T> {
 
     /// Checks the contacts or elements of all active items, and with each what else belongs to the item.
     #[inline(always)]
-    fn check<L: Law<Item = T>>(self, mut item: impl FnMut(usize, &T) -> Result<(), Error>) -> Result<(), Error> {
+    fn check<L: StepLaw<Item = T>>(self, mut item: impl FnMut(usize, &T) -> Result<(), Error>) -> Result<(), Error> {
         self.active().try_for_each(|i| {
             let law = self.law(i).ok_or(Error::BadIndex)?;
             L::check(law)?;
@@ -249,7 +249,7 @@ impl Items<'_, Element> {
 
 /// Advances the states of all active items.
 #[inline(never)]
-unsafe fn update<L: Law>(
+unsafe fn update<L: StepLaw>(
     items: Items<L::Item>,
     state_length: usize,
     states_old: *const f64,
@@ -315,7 +315,7 @@ fn prefetch<const LINES: usize>(state: *const f64) {
 }
 
 /// Harmonic forces of all active items, with displacements of `one` coefficients.
-unsafe fn harmonic_forces<L: Law, W>(
+unsafe fn harmonic_forces<L: StepLaw, W>(
     items: Items<L::Item>,
     workspace: &mut W,
     one: usize,

@@ -18,7 +18,7 @@ use crate::parameters::{self, Common};
 use crate::shape::stick_zone::ellipse::EllipseZones;
 use crate::shape::stick_zone::rounded_flat::RoundedFlatZones;
 use crate::shape::stick_zone::small_load::{RETAINED_TERMS, SmallLoadSeries, curvature_series};
-use crate::shape::stick_zone::{Complement, CurvePoint, StickZone, StickZones, SurfacePoint};
+use crate::shape::stick_zone::{Complement, LoadPoint, StickZone, StickZones, SurfacePoint};
 use crate::shape::{ORDER, Plane, Quantity, Reversed, Series, Shape, TINY, identity};
 
 /// The layer of a contact, in absolute terms.
@@ -323,7 +323,7 @@ impl LayeredZones {
 
     /// Finds the points of the curve at a sequence of decreasing remaining shifts, the first of which is close to x_s: Newton's method
     /// in the logarithm of the remaining shift of the contact, from its tangent at the point before.
-    pub fn sequence(&self) -> impl FnMut(f64) -> CurvePoint {
+    pub fn sequence(&self) -> impl FnMut(f64) -> LoadPoint {
         let mut in_contact = self.sequence_of_contact();
         let contact = self.contact();
         let (shift, full_stick) = (contact.slip_shift(), contact.small_load().compliance);
@@ -334,14 +334,14 @@ impl LayeredZones {
             if consumed <= self.small_load.half_shift {
                 // For Λ near 0 the remaining shift of the contact has too few digits for a small load.
                 let zone = self.small_load.at_shift(Complement { consumed, remaining });
-                return CurvePoint {
+                return LoadPoint {
                     remaining: zone.load.remaining,
                     compliance_increase: zone.compliance_increase,
                     curvature: self.small_load.evaluate(zone.load.consumed).curvature,
                 };
             }
             let [of_contact, of_both, power] = last;
-            let mut found = CurvePoint { remaining: 0.0, compliance_increase: 0.0, curvature: 0.0 };
+            let mut found = LoadPoint { remaining: 0.0, compliance_increase: 0.0, curvature: 0.0 };
             let mut sum = |own: f64| {
                 found = in_contact(own);
                 let load = found.load();
@@ -355,7 +355,7 @@ impl LayeredZones {
             let own = inverse_of_sum(remaining, start, shift, &mut sum);
             sum(own);
             let load = found.load();
-            CurvePoint {
+            LoadPoint {
                 compliance_increase: found.compliance_increase + self.layer.increase(load),
                 curvature: found.curvature + self.layer.curvature(load),
                 ..found
@@ -365,7 +365,7 @@ impl LayeredZones {
 
     /// Finds the points of the curve of the contact alone at a sequence of decreasing remaining shifts, the first of which is close to the
     /// shift of gross slip.
-    pub fn sequence_of_contact(&self) -> impl FnMut(f64) -> CurvePoint {
+    pub fn sequence_of_contact(&self) -> impl FnMut(f64) -> LoadPoint {
         let mut of_flat = self.flat.sequence();
         move |remaining| if self.is_elliptic() { EllipseZones::at(remaining) } else { of_flat(remaining) }
     }

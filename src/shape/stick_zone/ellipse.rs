@@ -9,7 +9,7 @@
 
 use crate::shape::rounded_punch::TINY;
 use crate::shape::stick_zone::small_load::{SmallLoadSeries, TERMS, economized};
-use crate::shape::stick_zone::{Complement, CurvePoint, StickZone, StickZones, SurfacePoint};
+use crate::shape::stick_zone::{Complement, LoadPoint, StickZone, StickZones, SurfacePoint};
 use core::f64::consts::PI;
 
 /// The stick zones of every elliptical contact.
@@ -33,10 +33,10 @@ const SLIP_SHIFT: f64 = 1.5;
 
 impl EllipseZones {
     /// The point of the curve at a remaining shift.
-    pub(crate) fn at(remaining: f64) -> CurvePoint {
+    pub(crate) fn at(remaining: f64) -> LoadPoint {
         let size = (remaining / SLIP_SHIFT).max(0.0).sqrt();
         let per_size = 1.0 / size.max(TINY);
-        CurvePoint {
+        LoadPoint {
             remaining: size * size * size,
             compliance_increase: per_size - 1.0,
             curvature: 1.0 / 3.0 * (per_size * per_size) * (per_size * per_size),

@@ -15,7 +15,7 @@
 use crate::numerics::chebyshev::{Interpolant, Tangent};
 use crate::shape::rounded_punch::{InversePower, RoundedPunch, TINY};
 use crate::shape::stick_zone::small_load::{RETAINED_TERMS, SmallLoadSeries, curvature_series};
-use crate::shape::stick_zone::{Complement, CurvePoint, StickZone, StickZones, SurfacePoint};
+use crate::shape::stick_zone::{Complement, LoadPoint, StickZone, StickZones, SurfacePoint};
 use crate::shape::tractions;
 use core::f64::consts::PI;
 
@@ -78,13 +78,13 @@ impl RoundedFlatZones {
 
     /// Finds the points of the curve at a sequence of decreasing remaining shifts, the first of which is close to x_s. Each starts from
     /// the expansion about the one before, so that the closed forms are nearly always evaluated once.
-    pub(crate) fn sequence(&self) -> impl FnMut(f64) -> CurvePoint {
+    pub(crate) fn sequence(&self) -> impl FnMut(f64) -> LoadPoint {
         let mut last: Option<InversePower> = None;
         move |remaining| {
             let w = last.as_ref().map_or(self.w, |last| last.w(remaining));
             let (zone, punch, inverse) = self.refine_shift_remaining(remaining, RoundedPunch::new(self.flat, w));
             last = Some(inverse);
-            CurvePoint {
+            LoadPoint {
                 remaining: zone.load.remaining,
                 compliance_increase: zone.compliance_increase,
                 curvature: curvature(&punch, self.load),
