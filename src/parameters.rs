@@ -48,7 +48,6 @@ impl Layer {
     /// polynomials of a contact resolve down to this ratio.
     const SMALLEST_STIFFENING: f64 = 1e-3;
 
-    /// # Errors
     /// The error of the first field that is NaN or outside its range.
     fn check(&self, normal_force: f64) -> Result<(), Error> {
         not_negative(self.normal_compliance, Error::BadNormalCompliance)?;

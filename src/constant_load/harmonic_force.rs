@@ -71,28 +71,18 @@ impl Rule {
     }
 }
 
-/// Number of doubles in an initialised workspace, from its header.
+/// Rule, size and number of doubles of an initialised workspace, from its header.
 ///
-/// # Errors
-/// `BadWorkspace` if uninitialised.
-pub fn workspace_extent(header: &[f64; TAGS]) -> Result<usize, Error> {
-    match Rule::of_workspace(header) {
-        Rule::UniformSampling => uniform_sampling::Layout::read(header).map(|layout| layout.length()),
-        Rule::EventDriven => event_driven::Layout::read(header).map(|layout| layout.length()),
-    }
-}
-
-/// Harmonics, samples and rule of an initialised workspace, from its header.
-///
-/// # Errors
-/// `BadWorkspace` if uninitialised.
-pub fn workspace_size(header: &[f64; TAGS]) -> Result<(usize, usize, Rule), Error> {
+/// Errors: `BadWorkspace` if uninitialised.
+pub(crate) fn workspace_size(header: &[f64; TAGS]) -> Result<(Rule, Size, usize), Error> {
     let rule = Rule::of_workspace(header);
-    let size = match rule {
-        Rule::UniformSampling => uniform_sampling::Layout::read(header)?.size(),
-        Rule::EventDriven => event_driven::Layout::read(header)?.size(),
+    let (size, length) = match rule {
+        Rule::UniformSampling => {
+            uniform_sampling::Layout::read(header).map(|layout| (layout.size(), layout.length()))?
+        }
+        Rule::EventDriven => event_driven::Layout::read(header).map(|layout| (layout.size(), layout.length()))?,
     };
-    Ok((size.harmonics, size.samples, rule))
+    Ok((rule, size, length))
 }
 
 /// An opened workspace.

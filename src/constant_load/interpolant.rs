@@ -147,22 +147,7 @@ impl ForceInterpolant {
             converged &= piece_converged;
             scale *= 0.5;
         }
-        let mut last = [[[0.0; 4]; _]; LAST_PIECES];
-        for (piece, polynomial) in last.iter_mut().enumerate() {
-            let tangent = |z: f64| {
-                let rho = END_OF_PIECES * Place { piece, z }.distance();
-                let point = at_remaining(remaining * rho);
-                let value = point.remaining / rho;
-                let tangent = remaining / (compliance + point.compliance_increase);
-                Tangent { value, slope: 8.0 / (3.0 + z) * (tangent - value) }
-            };
-            // The share in an integral is at most a 16th of that of the piece before.
-            *polynomial = match piece {
-                0 | 1 => powers(Interpolant::<20>::osculating(&Interpolant::<10>::at_points(tangent)).terms()),
-                2 | 3 => powers(Interpolant::<16>::osculating(&Interpolant::<8>::at_points(tangent)).terms()),
-                _ => powers(Interpolant::<12>::osculating(&Interpolant::<6>::at_points(tangent)).terms()),
-            };
-        }
+        let last = last_pieces(compliance, remaining, at_remaining);
         ForceInterpolant { inner, pieces, last, converged: converged as u64 }
     }
 
@@ -176,16 +161,9 @@ impl ForceInterpolant {
         &self.inner
     }
 
-    /// Secant and tangent stiffness over the initial one at y = x/(2/5 x_s), at most 1; `None` if not converged.
+    /// Secant and tangent stiffness over the initial one at y = x/(2/5 x_s), at most 1, if converged.
     #[inline(always)]
-    pub fn secant_and_tangent(&self, y: f64) -> Option<(f64, f64)> {
-        let values = self.inner_secant_and_tangent(y);
-        self.is_converged().then_some(values)
-    }
-
-    /// The same without a check.
-    #[inline(always)]
-    pub fn inner_secant_and_tangent(&self, y: f64) -> (f64, f64) {
+    pub fn secant_and_tangent(&self, y: f64) -> (f64, f64) {
         let (secant, slope) = value_and_slope(&self.inner, y);
         (secant, secant + slope * y)
     }
@@ -202,16 +180,9 @@ impl ForceInterpolant {
         self.is_converged().then(|| sum(weighted(&self.inner, &ENERGY_WEIGHTS).into_iter(), y))
     }
 
-    /// 1 - τ and its derivative with respect to ρ; `None` if ρ is below the last interval of v, or if not converged.
+    /// 1 - τ and its derivative with respect to ρ, if converged; `None` if ρ is below the last interval of v.
     #[inline(always)]
     pub fn complement_and_slope(&self, rho: f64) -> Option<(f64, f64)> {
-        let values = self.outer_complement_and_slope(rho)?;
-        self.is_converged().then_some(values)
-    }
-
-    /// The same without a check of the convergence.
-    #[inline(always)]
-    pub fn outer_complement_and_slope(&self, rho: f64) -> Option<(f64, f64)> {
         let v = root_of(rho);
         let Interval(exponent) = Interval::of(v);
         let piece = self.pieces.get((1022 - exponent) as usize)?;
@@ -336,6 +307,31 @@ impl Interval {
 #[inline(always)]
 fn power_of(exponent: u64) -> f64 {
     f64::from_bits((2047 - 2 - exponent) << 52)
+}
+
+/// (1 - τ)/ρ beyond the dyadic intervals of v.
+fn last_pieces(
+    compliance: f64,
+    remaining: f64,
+    at_remaining: &mut dyn FnMut(f64) -> CurvePoint,
+) -> [Polynomial; LAST_PIECES] {
+    let mut last = [[[0.0; 4]; _]; LAST_PIECES];
+    for (piece, polynomial) in last.iter_mut().enumerate() {
+        let tangent = |z: f64| {
+            let rho = END_OF_PIECES * Place { piece, z }.distance();
+            let point = at_remaining(remaining * rho);
+            let value = point.remaining / rho;
+            let tangent = remaining / (compliance + point.compliance_increase);
+            Tangent { value, slope: 8.0 / (3.0 + z) * (tangent - value) }
+        };
+        // The share in an integral is at most a 16th of that of the piece before.
+        *polynomial = match piece {
+            0 | 1 => powers(Interpolant::<20>::osculating(&Interpolant::<10>::at_points(tangent)).terms()),
+            2 | 3 => powers(Interpolant::<16>::osculating(&Interpolant::<8>::at_points(tangent)).terms()),
+            _ => powers(Interpolant::<12>::osculating(&Interpolant::<6>::at_points(tangent)).terms()),
+        };
+    }
+    last
 }
 
 /// 1 - τ over a dyadic interval, and whether it has converged: the integral of `unit (3+z)/(Λ + λ)`, with a constant that fits the

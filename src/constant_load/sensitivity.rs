@@ -22,7 +22,7 @@
 //! of bodies with given shapes b scales as (NR/E*)^(1/3), and all is elementary in the size c/b.
 
 use crate::constant_load::contact::Contact;
-use crate::constant_load::curve::sign_of;
+use crate::constant_load::evaluator::sign_of;
 use crate::error::Error;
 use crate::limits::check_displacement;
 use crate::parameters::{PARAMETERS, Sensitivity, times};

@@ -9,7 +9,7 @@ use crate::constant_load::complex_stiffness::check_amplitude;
 use crate::constant_load::contact::Contact;
 use crate::constant_load::evaluator::Response;
 use crate::constant_load::harmonic_force::{HarmonicOutput, harmonic_force};
-use crate::constant_load::masing::{self, with_step};
+use crate::constant_load::masing;
 use crate::constant_load::memory::Point;
 use crate::constant_load::state;
 use crate::element::{Directions, Element};
@@ -148,15 +148,13 @@ unsafe fn general_update(
     state_new: *mut f64,
     [force, stiffness]: [*mut f64; 2],
 ) {
-    let state = &*state_old;
-    with_step!(contact, state, displacement, |step| {
-        if !state_new.is_null() {
-            copy(state_old, state_new);
-            step.write(slice::from_raw_parts_mut(state_new, state_old.len()));
-        }
-        write(force, step.force());
-        write(stiffness, step.stiffness());
-    });
+    let step = masing::step(contact, &*state_old, displacement);
+    if !state_new.is_null() {
+        copy(state_old, state_new);
+        step.write(slice::from_raw_parts_mut(state_new, state_old.len()));
+    }
+    write(force, step.force());
+    write(stiffness, step.stiffness());
 }
 
 /// Copies a state unless the new one is the same memory.

@@ -66,13 +66,13 @@ pub unsafe extern "C" fn mslip_harmonic_workspace_size(
         let header = pointers::workspace_header(workspace)?;
         [harmonics, samples].iter().try_for_each(|output| check_alignment(*output))?;
         check_alignment(rule)?;
-        let (harmonics_found, samples_found, rule_found) = workspace_size(&header)?;
-        let constant = match rule_found {
+        let (found, size, _) = workspace_size(&header)?;
+        let constant = match found {
             Rule::UniformSampling => MSLIP_UNIFORM_SAMPLING,
             Rule::EventDriven => MSLIP_EVENT_DRIVEN,
         };
-        pointers::write(harmonics, harmonics_found);
-        pointers::write(samples, samples_found);
+        pointers::write(harmonics, size.harmonics);
+        pointers::write(samples, size.samples);
         pointers::write(rule, constant);
         Ok(())
     })

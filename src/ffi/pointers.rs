@@ -7,7 +7,7 @@
 
 use super::{MSLIP_OK, mslip_contact, mslip_element};
 use crate::constant_load::contact::Contact;
-use crate::constant_load::harmonic_force::{Workspace, workspace_extent};
+use crate::constant_load::harmonic_force::{Workspace, workspace_size};
 use crate::constant_load::stiffness_table::{StiffnessTable, TABLE_LENGTH};
 use crate::element::{Directions, Element};
 use crate::fourier::workspace::{Size, TAGS, WorkspaceLayout};
@@ -226,7 +226,7 @@ pub unsafe fn workspace_header(pointer: *const f64) -> Result<[f64; TAGS], Error
 #[inline(never)]
 pub unsafe fn workspace<'a>(pointer: *mut f64) -> Result<Workspace<'a>, Error> {
     let header = workspace_header(pointer)?;
-    let extent = workspace_extent(&header)?;
+    let (_, _, extent) = workspace_size(&header)?;
     Workspace::new(output(pointer, extent)?.ok_or(Error::BadWorkspace)?)
 }
 

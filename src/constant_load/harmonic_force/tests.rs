@@ -57,8 +57,8 @@ fn an_invalid_header_or_length_of_a_workspace_is_rejected() {
         assert_eq!(Workspace::new(&mut short).map(|_| ()), Err(Error::BadWorkspace));
         assert_eq!(Workspace::new(&mut []).map(|_| ()), Err(Error::BadWorkspace));
         let header = good.first_chunk().unwrap();
-        assert_eq!(workspace_extent(header), Ok(good.len()));
-        assert_eq!(workspace_size(header), Ok((3, 16, rule)));
+        let (found, Size { harmonics, samples, .. }, length) = workspace_size(header).unwrap();
+        assert_eq!((found, harmonics, samples, length), (rule, 3, 16, good.len()));
         // Memory beyond the extent is not written.
         let mut long = vec![-1.0; good.len() + 2];
         rule.workspace_init(3, 16, &mut long).unwrap();
