@@ -3,7 +3,7 @@
 #   make test PREFIX=...    compile templates and driver twice, and run them: with checks and floating-point traps; with OpenMP
 #   make clean
 #
-# PREFIX is the installation of microslip. TEMPLATES are in fixed form, MODULES in free form.
+# PREFIX is the installation of microslip; the driver needs LAPACK. TEMPLATES are in fixed form, MODULES in free form.
 
 PREFIX ?= ../../dist
 FC ?= gfortran

@@ -55,7 +55,7 @@ contains
     call check_status('element', status, MSLIP_OK)
   end function element_of
 
-  !> Points with these elements: the unknowns of the program are those of the law, and force and energy are a share of the element's.
+  !> Points with these elements: the unknowns of the program are those of the law, and force and energy a share of the element's.
   function points_of(name, elements, share, variables, call_user) result(model)
     character(len=*), intent(in) :: name
     type(mslip_element), intent(in) :: elements(:)

@@ -1,8 +1,7 @@
 #!/bin/sh
 # docs.sh: the documents and the references of the C interface, the Fortran module and the Rust functions, into target/docs, a site
-# with a search that opens from its index.html without a network. What is not understood is an error, and what has no comment in C or Rust: the Fortran module is generated
-# with their comments. FORD
-# comes from PyPI, into target/tools.
+# with a search that opens from its index.html without a network. What is not understood is an error, and what has no comment in C or
+# Rust, from which the Fortran module is generated. FORD comes from PyPI, into target/tools.
 set -eu
 
 cd "$(dirname "$0")/.."

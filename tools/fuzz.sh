@@ -1,5 +1,5 @@
 #!/bin/sh
-# fuzz.sh [--check | --seeds]: coverage-guided fuzzing of the library (libFuzzer, AddressSanitizer) on stable Rust, by calls of the C
+# fuzz.sh [--check | --seeds]: coverage-guided fuzzing of the library (libFuzzer, AddressSanitizer) on stable Rust: calls of the C
 # interface with invalid arguments and corrupted memory.
 #
 # TIME seconds (60), JOBS processes (1), MICROSLIP_SEED (new each time). New inputs are kept in

@@ -19,6 +19,9 @@ module abaqus_calls
   real(wp), parameter :: areas(points) = [20e-6_wp, 30e-6_wp, 10e-6_wp], area = 60e-6_wp    ! m2
   real(wp), parameter :: penalty = 5e12_wp                      ! Pa/m, of Abaqus beside FRIC
   real(wp), parameter :: no_limit = 1e36_wp
+  ! Arguments that the subroutines do not use, or not in these steps.
+  real(wp), parameter :: zeros(12) = 0, unit_matrix(4) = [1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp]
+  character(len=80), parameter :: name = 'contact'
   integer :: directions = 1
   integer :: lflags(7) = [1, 0, 1, 0, 0, 0, 0]
   real(wp) :: params(3) = 0
@@ -50,24 +53,17 @@ contains
     integer, intent(in) :: point
     real(wp), intent(in) :: x_start(:), x(:), before(:)
     real(wp), intent(out) :: after(:), force(:), tangent(:, :), dissipated, ratio
-    real(wp) :: rhs(6, 1), amatrx(6, 6), energy(8), props(16), coords(3, 2), du(6, 1), rates(6), none(2), predef(2, 1, 2)
-    integer :: no_loads(1, 1)
+    real(wp) :: rhs(6, 1), amatrx(6, 6), energy(8), props(16)
     external :: uel
 
     after = before
     props = [constants_of(point), interference, axes(:, point)]
-    coords = 0
-    du(:, 1) = x - x_start
-    rates = 0
-    none = 0
-    no_loads = 0
-    predef = 0
     energy = 0
     energy(4) = before(7)
     ratio = no_limit
-    call uel(rhs, amatrx, after, energy, 6, 1, size(after), props, size(props), coords, 3, 2, x, du, rates, rates, 1, none, &
-      0.01_wp, 1, 1, point, params, 0, no_loads, none, predef, 1, lflags, 6, none, 1, ratio, [int(MSLIP_RIGID_STRIP), directions], &
-      2, 1.0_wp)
+    call uel(rhs, amatrx, after, energy, 6, 1, size(after), props, size(props), zeros, 3, 2, x, x - x_start, zeros, zeros, &
+      1, zeros, 0.01_wp, 1, 1, point, params, 0, [0], zeros, zeros, 1, lflags, 6, zeros, 1, ratio, &
+      [int(MSLIP_RIGID_STRIP), directions], 2, 1.0_wp)
     force = -rhs(:, 1)
     tangent = amatrx
     dissipated = energy(4) - before(7)
@@ -98,27 +94,14 @@ contains
     integer, intent(in) :: linper
     real(wp), intent(inout) :: statev(:), stress(:), ddsddr(:, :), sfd, pnewdt
     integer, intent(inout) :: open_close
-    real(wp) :: damping(size(rdisp), size(rdisp), 2), flux(2), ddfddt(2, 2), ddsddt(size(rdisp), 2), ddfddr(2, size(rdisp))
-    real(wp) :: energies(4), none(2), local(3, 3), rotation(2, 2)
-    character(len=80) :: names(3)
     integer :: state, discontinuity
     external :: uinter
 
-    damping = 0
-    flux = 0
-    ddfddt = 0
-    ddsddt = 0
-    ddfddr = 0
-    energies = 0
-    none = 0
-    local = 0
-    rotation = reshape([1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [2, 2])
-    names = 'contact'
     state = -1
     discontinuity = 0
-    call uinter(stress, ddsddr, damping(:, :, 1), damping(:, :, 2), flux, ddfddt, ddsddt, ddfddr, statev, energies(1), sfd, &
-      energies(2), energies(3), energies(4), pnewdt, rdisp, drdisp, none, none, none, none, none, 0.01_wp, 0.0_wp, names(1), &
-      names(2), names(3), [flat, interference, area, real(MSLIP_RIGID_STRIP, wp)], local(:, 1), local, rotation, areas(1), &
+    call uinter(stress, ddsddr, zeros, zeros, zeros, zeros, zeros, zeros, statev, zeros(1), sfd, zeros(2), zeros(3), zeros(4), &
+      pnewdt, rdisp, drdisp, zeros, zeros, zeros, zeros, zeros, 0.01_wp, 0.0_wp, name, name, name, &
+      [flat, interference, area, real(MSLIP_RIGID_STRIP, wp)], zeros, zeros, unit_matrix, areas(1), &
       1e-3_wp, 1, size(rdisp), size(statev), 1, 12, 3, 1, 1, 1, linper, open_close, state, discontinuity, 0)
   end subroutine perturb_or_step
 
@@ -154,19 +137,11 @@ contains
     integer, intent(inout) :: lm
     real(wp), intent(in) :: dgam(:), press, dpress
     real(wp), intent(inout) :: statev(:), tau(:), ddtddg(:, :), ddtddp(:), sfd, pnewdt
-    real(wp) :: dslip(size(dgam)), ddtddt(size(dgam), 2), none(3), rotation(2, 2), sed
-    character(len=80) :: names(3)
     external :: fric
 
-    dslip = 0
-    ddtddt = 0
-    none = 0
-    sed = 0
-    rotation = reshape([1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [2, 2])
-    names = 'contact'
-    call fric(lm, tau, ddtddg, ddtddp, dslip, sed, sfd, ddtddt, pnewdt, statev, dgam, none, press, dpress, penalty, none, 1, 1, &
-      none, 0.01_wp, 1, names(1), names(2), names(3), 1, 1, 1, none, none, rotation, none, none, size(dgam), 3, 1, size(statev), &
-      1e-3_wp, [flat, area, real(MSLIP_RIGID_STRIP, wp)], 11)
+    call fric(lm, tau, ddtddg, ddtddp, zeros, zeros(1), sfd, zeros, pnewdt, statev, dgam, zeros, press, dpress, penalty, zeros, &
+      1, 1, zeros, 0.01_wp, 1, name, name, name, 1, 1, 1, zeros, zeros, unit_matrix, zeros, zeros, size(dgam), 3, 1, &
+      size(statev), 1e-3_wp, [flat, area, real(MSLIP_RIGID_STRIP, wp)], 11)
   end subroutine step_fric
 
   !> Counted only if it fails.

@@ -100,8 +100,8 @@ def read_matrix(name, n):
 
 
 def equilibrium(element, free, compliance, state):
-    """Equilibrium u = free - compliance*force of element and structure: Newton's method with the tangent of the element; a step that
-    does not reduce the residual is halved. Displacement, force and the new state."""
+    """Equilibrium u = free - compliance*force of element and structure by Newton's method; a step that does not reduce the residual
+    is halved. Displacement, force and the new state."""
     u, step, last = free, np.zeros(len(free)), np.inf
     for _ in range(200):
         try:
