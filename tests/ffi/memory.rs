@@ -181,6 +181,16 @@ fn filled_state(law: &Law, of_element: bool) -> (Memory, usize) {
     }
 }
 
+/// Takes a filled state as the old and the new one; returns the length in use.
+pub fn set_filled_state(call: &Call, law: &Law, arguments: &mut Arguments, place: usize) -> usize {
+    let (state, used) = filled_state(law, call.is_of_element());
+    let length = call.arguments.iter().position(|argument| argument.kind == Length).expect("a length");
+    arguments.slots[length] = Slot::Size(state.bytes / 8);
+    call.place(NewState).inspect(|new| arguments.set(*new, Memory::of(state.values::<f64>())));
+    arguments.set(place, state);
+    used
+}
+
 /// States of every history are valid: with reversals or pieces beyond the length, slip, gross slip and separation.
 #[test]
 fn states_of_histories_are_valid() {
@@ -204,6 +214,64 @@ fn states_of_histories_are_valid() {
                     [part * displacement * decaying, part * displacement * motion[1], normal],
                 );
                 assert_eq!(check(law, of_element, &state), MSLIP_OK, "step {i}: {:?}", state.values::<f64>());
+            }
+        }
+    }
+}
+
+/// Own states are valid in every rounding mode, also with a layer of the smallest N_c: the loads of neighbouring knots differ by the error
+/// of the polynomials of N(S), which is largest where two of them meet, at shifts S = 2^k (1 + q/4). Gross slip is at mu S.
+#[test]
+fn states_with_layers_are_valid() {
+    let update = call("mslip_element_update");
+    let of = |p: &microslip::Parameters| {
+        calls::element(false, |element| unsafe { mslip_element_init(p, 1, MSLIP_INPUT_NORMAL_FORCE, element) })
+    };
+    let alone = Memory::of(&of(&FLAT).bytes);
+    let stiffness = unsafe { (*alone.start.cast::<mslip_element>()).tangential_stiffness };
+    for share in 1..=8 {
+        let compliance = f64::from(share) / stiffness;
+        let layer = microslip::Layer {
+            normal_compliance: compliance,
+            tangential_compliance: compliance,
+            stiffening_load: 1e-3 * FLAT.normal_force,
+            reference_load: 0.0,
+        };
+        let law = of(&microslip::Parameters { layer, ..FLAT });
+        let element = Memory::of_law(&law, 1);
+        let slip_under = |load: f64| {
+            let (force, mut slip) = (FLAT.friction_coefficient * load, 0.0);
+            let none = null_mut();
+            let status =
+                unsafe { mslip_element_displacement(element.start.cast(), 0, 1, &force, &load, &mut slip, none) };
+            assert_eq!(status, MSLIP_OK);
+            slip
+        };
+        let shift = slip_under(FLAT.normal_force) / FLAT.friction_coefficient;
+        // The edges of the largest dyadic interval, where N/N_c is largest; one beyond the load is at its end.
+        for edge in [1.0, 1.25, 1.5, 1.75].map(|part| FLAT.friction_coefficient * part * shift.log2().floor().exp2()) {
+            let (mut low, mut high) = (0.0, FLAT.normal_force);
+            for _ in 0..60 {
+                let load = 0.5 * (low + high);
+                *(if slip_under(load) < edge { &mut low } else { &mut high }) = load;
+            }
+            for mode in 0..calls::MODES {
+                let mut arguments = Arguments::new(update, &law, Before::Filled);
+                let [state, new, input] = [State, NewState, Input].map(|kind| update.place(kind).expect("an argument"));
+                let (mut u, mut load) = (0.0, 0.0);
+                for (step, random) in numbers(u64::from(mode as u32), 2 * 800).chunks(2).enumerate() {
+                    u += edge * 10f64.powf(-11.0 - 3.0 * random[0]) * random[1].signum();
+                    load *= 1.0 + 5e-11 * (1.0 + random[1]);
+                    if step % 20 == 0 {
+                        (u, load) = (0.0, high * (1.0 + 1e-9 * step as f64 / 20.0));
+                        arguments.set(state, law.long_state(update, mslip_element_state_length(1, 200)));
+                        arguments.slots[1] = Slot::Size(arguments.memory(state).bytes / 8);
+                        arguments.slots[new] = arguments.slots[state];
+                    }
+                    arguments.set(input, Memory::of(&[u, load]));
+                    assert_eq!(update.make_rounding(mode, &arguments.slots), MSLIP_OK);
+                    assert_eq!(check(&law, true, arguments.memory(state)), MSLIP_OK, "share {share}, mode {mode}");
+                }
             }
         }
     }
@@ -269,20 +337,14 @@ fn invalid_states() {
 #[test]
 fn unused_memory() {
     for_each_call(|call, law| {
-        let of_element = call.is_of_element();
         let Some(input) = call.place(State).or(call.place(Workspace)) else { return };
         if call.has(Index) || !call.has(Output) || call.name.ends_with("_error") {
             return;
         }
         let mut arguments = Arguments::new(call, law, Before::Filled);
-        let length = call.arguments.iter().position(|argument| argument.kind == Length);
         let mut used = 3;
-        if let (Some(length), State) = (length, call.arguments[input].kind) {
-            let (state, state_used) = filled_state(law, of_element);
-            used = state_used;
-            arguments.slots[length] = Slot::Size(state.bytes / 8);
-            call.place(NewState).inspect(|new| arguments.set(*new, Memory::of(state.values::<f64>())));
-            arguments.set(input, state);
+        if call.has(State) {
+            used = set_filled_state(call, law, &mut arguments, input);
         } else if call.has(Workspace) {
             arguments.memory(input).fill(0);
             law.init_workspace(call, arguments.memory(input));

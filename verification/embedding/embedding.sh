@@ -188,8 +188,8 @@ sanitizers() {
     check 'AddressSanitizer: all calls' same_application clang $flags $application $instrumented $system
     check 'AddressSanitizer: every argument of every call' sanitized address test --test ffi
     for driver in c_tests/*.c; do
-        # The same calls in other rounding modes, in half a minute.
-        case $driver in c_tests/environment.c | c_tests/extremes.c) continue ;; esac
+        # Random calls in other rounding modes, in half a minute.
+        [ "$driver" != c_tests/extremes.c ] || continue
         check "AddressSanitizer: $driver" run_driver clang -std=c99 $flags $include "$driver"
     done
     first_application "$archive" -lm
