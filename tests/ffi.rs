@@ -2,8 +2,8 @@
 //! uninitialised.
 //!
 //! No call raises a floating-point exception that an application may trap, and a rejected one has the same status in four rounding
-//! modes. Under Miri (`tools/miri.sh`) every access outside an array, read of uninitialised memory, misaligned access, use of an
-//! invalidated reference and race between threads is an error.
+//! modes. Under Miri (`tools/miri.sh`) every access outside an array, read of uninitialised memory, misaligned access and use of
+//! an invalidated reference is an error.
 
 #![allow(
     clippy::undocumented_unsafe_blocks,
@@ -24,7 +24,7 @@ use microslip::ffi::*;
 use std::collections::HashSet;
 use std::ffi::CStr;
 use std::ops::Range;
-use std::ptr::{null, null_mut};
+use std::ptr::null_mut;
 
 fn is_available(call: &Call, law: &Law) -> bool {
     !(call.flat && law.is_elliptic || call.one_direction && law.directions == 2)
@@ -496,67 +496,5 @@ fn harmonic_motions() {
                 }
             }
         }
-    }
-}
-
-/// Any allowed number of periods, with one direction the same bits; the size call returns it.
-#[test]
-fn periods() {
-    let call = call("mslip_element_harmonic_force");
-    for law in Law::all(call) {
-        let mut expected = None;
-        for periods in [0, 1, 3, 1 << 16] {
-            if periods > 3 && law.directions == 2 {
-                continue;
-            }
-            let arguments = Arguments::new(call, &law, Before::Uninitialised);
-            let (workspace, drift) = (arguments.memory(1), arguments.memory(call.arguments.len() - 1));
-            let (length, start) = (workspace.bytes / 8, workspace.start.cast());
-            let (h, s, rule, mut found) = (HARMONICS, SAMPLES, MSLIP_UNIFORM_SAMPLING, 0);
-            unsafe {
-                assert_eq!(mslip_element_workspace_init(law.directions, h, s, rule, periods, length, start), MSLIP_OK);
-                let (none, no_size) = (null_mut(), null_mut());
-                assert_eq!(mslip_element_workspace_size(start, none, no_size, no_size, none, &raw mut found), MSLIP_OK);
-            }
-            let default = if law.directions == 2 { 3 } else { 1 };
-            assert_eq!(found, if periods == 0 { default } else { periods });
-            assert_eq!(call.make(&arguments.slots), MSLIP_OK);
-            let results = results(call, &arguments);
-            if law.directions == 1 {
-                assert_eq!(drift.values::<f64>(), [0.0]);
-                assert_eq!(expected.get_or_insert_with(|| results.clone()), &results);
-            }
-        }
-    }
-}
-
-/// Contacts are only read: threads share one, each with memory of its own.
-#[test]
-fn threads_share_a_contact() {
-    let [contact, ..] = calls::contacts();
-    let contact = Memory::of_law(contact, 1);
-    // SAFETY: the contact lives until the threads are joined.
-    let shared: &'static mslip_contact = unsafe { &*contact.start.cast() };
-    let threads = [0.4, 0.8].map(|part| {
-        std::thread::spawn(move || {
-            let [law, ..] = calls::contacts();
-            let (u, none) = (part * shared.slip_displacement, null_mut());
-            let force = call("mslip_harmonic_force");
-            let arguments = Arguments::new(force, law, Before::Uninitialised);
-            let state = law.state(call("mslip_masing_update"));
-            let s = state.start.cast();
-            unsafe {
-                let (workspace, coefficients) = (arguments.slots[1].get(), [0.0, u, 0.0]);
-                let mut result = [0.0; 3];
-                let (c, f) = (coefficients.as_ptr(), result.as_mut_ptr());
-                assert_eq!(mslip_harmonic_force(shared, workspace, c, f, none, none), MSLIP_OK);
-                assert_eq!(mslip_masing_update(shared, state.bytes / 8, s, u, s, none, none, none), MSLIP_OK);
-                assert_eq!(mslip_contact_check(null()), MSLIP_NULL_POINTER);
-                result[1] > 0.0
-            }
-        })
-    });
-    for thread in threads {
-        assert!(thread.join().unwrap());
     }
 }
