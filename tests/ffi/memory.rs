@@ -69,13 +69,13 @@ fn changed_contacts_and_elements() {
     }
 }
 
-/// Where the tags of an argument are, and their bits that no call accepts otherwise. The others are the geometry of a contact and
-/// of an element, the normal input and the directions of an element, and counts.
+/// Where the tags of an argument are, and their bits that no call accepts otherwise. The others are the geometry, the normal input and
+/// the directions of an element, and counts.
 fn tags(call: &Call, kind: Kind, length: usize) -> (Vec<usize>, u64) {
     let items = call.items();
     let each = |word: usize| (0..items).map(|i| i * length / items + word).collect();
     match kind {
-        Contact => (each(6), !1),
+        Contact => (each(6), !0),
         Element => (each(8), !7),
         State => (each(0), !COUNT),
         Workspace => (vec![0, 1, 2], !COUNT),
