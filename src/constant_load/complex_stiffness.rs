@@ -20,11 +20,12 @@
 //! singular there, too: ζ is a hyperbolic sine then. Gauss's rule converges for all amplitudes. Away
 //! from gross slip and for larger Λ, fewer points of the midpoint rule in θ, `x = ξ sin²(θ/2)`, are enough.
 
-use crate::constant_load::contact::{Contact, NODES_IN_SLIP};
+use crate::constant_load::contact::{BLOCKS_IN_SLIP, Contact};
 use crate::error::Error;
 use crate::limits::MAX_DISPLACEMENT;
 use crate::numerics::chebyshev::Interpolant;
 use crate::numerics::fp_class::in_0_to;
+use crate::numerics::polynomial::Rows;
 use crate::numerics::quadrature::gauss_legendre;
 use crate::simd::dispatch;
 use core::f64::consts::PI;
@@ -49,20 +50,19 @@ const IN_SLIP: f64 = -0.05;
 /// Smallest scale of the rule: the cube root of the rounding of ξ.
 const SMALLEST_SCALE: f64 = 1e-5;
 
-/// In gross slip, with `q = y²` and `y = 1 - ζ²`: ρ, x, and the weights of an integral over ρ.
-static RULE_IN_SLIP: [[f64; NODES_IN_SLIP]; 3] = {
-    let [zeta, mut weights] = gauss_legendre::<NODES_IN_SLIP>();
-    let (mut rho, mut x) = ([0.0; _], [0.0; _]);
-    let mut i = 0;
-    while i < NODES_IN_SLIP {
-        let square = zeta[i] * zeta[i];
+/// In gross slip, with `q = y²` and `y = 1 - ζ²`: blocks of ρ, x, and the weights of an integral over ρ.
+static RULE_IN_SLIP: [[[f64; 4]; 3]; BLOCKS_IN_SLIP] = {
+    let [nodes, weights] = gauss_legendre::<{ 4 * BLOCKS_IN_SLIP }>();
+    let (mut blocks, mut i) = ([[[0.0; 4]; 3]; _], 0);
+    while i < nodes.len() {
+        let (zeta, square) = (nodes[i], nodes[i] * nodes[i]);
         let y = 1.0 - square;
-        rho[i] = (y * y * y) * (y * y * y);
-        x[i] = square * (2.0 - square) * (1.0 + y * y + (y * y) * (y * y));
-        weights[i] *= 12.0 * zeta[i] * (y * y * y) * (y * y);
+        blocks[i / 4][0][i % 4] = (y * y * y) * (y * y * y);
+        blocks[i / 4][1][i % 4] = square * (2.0 - square) * (1.0 + y * y + (y * y) * (y * y));
+        blocks[i / 4][2][i % 4] = weights[i] * (12.0 * zeta * (y * y * y) * (y * y));
         i += 1;
     }
-    [rho, x, weights]
+    blocks
 };
 
 /// Blocks of four nodes and weights of Gauss's rules.
@@ -81,7 +81,7 @@ const fn blocks<const N: usize, const M: usize>(rule: &[[f64; N]; 2]) -> [[[f64;
 
 /// F and dF/dξ from the terms of F and `ρ - e` at blocks of nodes.
 #[inline(always)]
-fn sum<B>(blocks: &[B], at: impl Fn(&B) -> [[f64; 4]; 2]) -> [f64; 2] {
+fn sum<B>(blocks: impl Iterator<Item = B>, at: impl Fn(B) -> [[f64; 4]; 2]) -> [f64; 2] {
     let mut sums = [[0.0; 4]; 2];
     for block in blocks {
         let [terms, rest] = at(block);
@@ -151,12 +151,18 @@ impl Contact {
             let many = const { &Interpolant::<{ NODES_FAR_BELOW[1] }>::POINTS };
             return self.midpoint(if e >= FAR_BELOW[0] { few } else { many }, xi, e);
         }
-        let mut blocks = [[[0.0; 4]; 2]; NODES_IN_SLIP / 4];
-        for i in 0..NODES_IN_SLIP {
-            let rest = RULE_IN_SLIP[0][i] - e;
-            (blocks[i / 4][0][i % 4], blocks[i / 4][1][i % 4]) = (self.weights_in_slip[i] * rest.sqrt(), rest);
-        }
-        sum(&blocks, |block| *block)
+        sum(
+            self.weights_in_slip.iter().zip(&RULE_IN_SLIP),
+            #[inline(always)]
+            |(weights, [rho, ..])| {
+                let (mut terms, mut rest) = (*weights, *rho);
+                for k in 0..4 {
+                    rest[k] -= e;
+                    terms[k] *= rest[k].sqrt();
+                }
+                [terms, rest]
+            },
+        )
     }
 
     /// F and dF/dξ by the midpoint rule in θ, `x = ξ sin²(θ/2)`: the integrands are periodic and even.
@@ -164,7 +170,7 @@ impl Contact {
     fn midpoint(&self, cosines: &[f64], xi: f64, e: f64) -> [f64; 2] {
         let weight = PI / cosines.len() as f64;
         sum(
-            cosines.as_chunks::<4>().0,
+            cosines.as_chunks::<4>().0.iter(),
             #[inline(always)]
             |cosines| {
                 let [mut x, mut rho, mut rest] = [[0.0; 4]; 3];
@@ -194,7 +200,7 @@ impl Contact {
         let bend = (self.relative_distance_of_zero_compliance() / (3.0 * scale * end.sinh() * end)).sqrt();
         let largest = (1.0 / bend).asinh();
         sum(
-            rule,
+            rule.iter(),
             #[inline(always)]
             |[nodes, weights]| {
                 let (mut zeta, mut weights) = (*nodes, *weights);
@@ -256,21 +262,20 @@ impl Contact {
 
     /// The weights of F in gross slip; 0 without an interpolant, or if Λ is so small that the rule does not converge.
     #[inline(never)]
-    pub(crate) fn weights_of_curve(&self) -> [f64; NODES_IN_SLIP] {
+    pub(crate) fn weights_of_curve(&self) -> Rows<BLOCKS_IN_SLIP> {
         if self.has_no_interpolant() || self.relative_distance_of_zero_compliance() < 0.375 {
-            return [0.0; _];
+            return Rows::default();
         }
-        let [rho, x, weights] = &RULE_IN_SLIP;
-        let mut products = [0.0; NODES_IN_SLIP];
-        let blocks = products.as_chunks_mut::<4>().0.iter_mut().zip(x.as_chunks::<4>().0).zip(rho.as_chunks::<4>().0);
-        blocks.for_each(|((block, x), rho)| *block = self.relative_stiffnesses(x, rho));
-        products.iter_mut().zip(weights).zip(x).for_each(|((product, weight), x)| *product *= weight * x.sqrt());
-        products
+        RULE_IN_SLIP.map(|[rho, x, weights]| {
+            let mut products = self.relative_stiffnesses(&x, &rho);
+            products.iter_mut().zip(weights).zip(x).for_each(|((product, weight), x)| *product *= weight * x.sqrt());
+            products
+        })
     }
 
     #[inline(always)]
     fn has_weights_in_slip(&self) -> bool {
-        self.weights_in_slip[0] > 0.0
+        self.weights_in_slip[0][0] > 0.0
     }
 }
 

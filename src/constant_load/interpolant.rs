@@ -72,7 +72,7 @@ pub(crate) fn weighted(polynomial: &Polynomial, weights: &Polynomial) -> Polynom
 
 /// The interpolant of one curve.
 #[repr(C)]
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct ForceInterpolant {
     /// Λ τ/x over y = x/(2/5 x_s), or of the other fraction: the secant stiffness over the initial one.
     inner: Polynomial,
@@ -85,13 +85,6 @@ pub(crate) struct ForceInterpolant {
 }
 
 impl ForceInterpolant {
-    pub const NONE: ForceInterpolant = ForceInterpolant {
-        inner: [[0.0; 4]; _],
-        pieces: [[[0.0; 4]; _]; PIECES],
-        last: [[[0.0; 4]; _]; LAST_PIECES],
-        converged: 0,
-    };
-
     /// Marks it as that of the curve of the contact without its layer.
     pub fn mark_without_layer(&mut self) {
         self.converged *= WITHOUT_LAYER;

@@ -85,7 +85,7 @@ fn sum(table: &Table, chi: f64) -> f64 {
 }
 
 /// A contact, given by the half-width a of the flat and by w; lengths in any one unit.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct RoundedPunch {
     pub flat: f64,
     pub w: f64,

@@ -81,7 +81,7 @@ fn the_complex_stiffness() {
             });
         }
         let run = |amplitude: &[f64]| {
-            let mut table = StiffnessTable::EMPTY;
+            let mut table = StiffnessTable::default();
             table.init(&contact);
             let mut outputs = [(); 4].map(|()| vec![0.0; amplitude.len()]);
             table.write(&contact, amplitude, outputs.each_mut().map(|values| Some(values.as_mut_slice())));

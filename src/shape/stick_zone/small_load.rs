@@ -78,7 +78,7 @@ const D_DISSIPATION: Terms = factors(4.0, &[2]);
 
 /// The expansion of the monotonic curve for τ <= 1/2.
 #[repr(C)]
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct SmallLoadSeries {
     /// Λ, the compliance in full stick.
     pub(crate) compliance: f64,
