@@ -24,8 +24,9 @@ use crate::constant_load::contact::{BLOCKS_IN_SLIP, Contact};
 use crate::error::Error;
 use crate::limits::MAX_DISPLACEMENT;
 use crate::numerics::chebyshev::Interpolant;
+use crate::numerics::const_math::tabulate;
 use crate::numerics::fp_class::in_0_to;
-use crate::numerics::polynomial::Rows;
+use crate::numerics::polynomial::{Rows, rows};
 use crate::numerics::quadrature::gauss_legendre;
 use crate::simd::dispatch;
 use core::f64::consts::PI;
@@ -69,14 +70,9 @@ static RULE_IN_SLIP: [[[f64; 4]; 3]; BLOCKS_IN_SLIP] = {
 static RULE_BELOW: [[[f64; 4]; 2]; NODES_BELOW / 4] = blocks(&gauss_legendre::<NODES_BELOW>());
 static RULE_BEYOND: [[[f64; 4]; 2]; NODES_BEYOND / 4] = blocks(&gauss_legendre::<NODES_BEYOND>());
 
-const fn blocks<const N: usize, const M: usize>(rule: &[[f64; N]; 2]) -> [[[f64; 4]; 2]; M] {
-    let mut blocks = [[[0.0; 4]; 2]; M];
-    let mut i = 0;
-    while i < N {
-        (blocks[i / 4][0][i % 4], blocks[i / 4][1][i % 4]) = (rule[0][i], rule[1][i]);
-        i += 1;
-    }
-    blocks
+const fn blocks<const N: usize, const M: usize>([nodes, weights]: &[[f64; N]; 2]) -> [[[f64; 4]; 2]; M] {
+    let [nodes, weights]: [Rows<M>; 2] = [rows(nodes), rows(weights)];
+    tabulate!(M, |i| [nodes[i], weights[i]])
 }
 
 /// F and dF/dξ from the terms of F and `ρ - e` at blocks of nodes.

@@ -16,6 +16,7 @@
 //! scale with the curvature of the curve and not with the stiffness.
 
 use crate::numerics::chebyshev::{Interpolant, Polynomial, TERMS, Tangent, powers};
+use crate::numerics::const_math::tabulate;
 use crate::numerics::polynomial::{four_values_and_slopes, rows, sum, value_and_slope};
 use crate::shape::rounded_punch::TINY;
 use crate::shape::stick_zone::LoadPoint;
@@ -50,15 +51,7 @@ pub(crate) static CYCLE_WEIGHTS: Polynomial = {
 
 /// `-4n/(n+2)`: the energy of a cycle, eight times the work of the initial loading less four times force times displacement, of the power
 /// n of the secant stiffness.
-pub(crate) static ENERGY_WEIGHTS: Polynomial = {
-    let mut weights = [0.0; TERMS];
-    let mut n = 0;
-    while n < TERMS {
-        weights[n] = -4.0 * n as f64 / (n as f64 + 2.0);
-        n += 1;
-    }
-    rows(&weights)
-};
+pub(crate) static ENERGY_WEIGHTS: Polynomial = rows(&tabulate!(TERMS, |n| -4.0 * n as f64 / (n as f64 + 2.0)));
 
 /// A polynomial with weights on its powers.
 #[inline(always)]

@@ -7,6 +7,7 @@
 //! compliance is zero; for N_c far below N the nearest ones are 4 half-lengths from the middle.
 
 use crate::numerics::chebyshev::monic_powers;
+use crate::numerics::const_math::tabulate;
 use crate::shape::{ORDER, Series};
 use wide::f64x2;
 
@@ -237,15 +238,7 @@ fn middle_and_half_length(number: u64) -> [f64; 2] {
 }
 
 /// `1/(k+1)` and `1/(k+2)`.
-static INTEGRAL_WEIGHTS: [[f64; 2]; TERMS] = {
-    let mut weights = [[0.0; 2]; TERMS];
-    let mut k = 0;
-    while k < TERMS {
-        weights[k] = [1.0 / (k + 1) as f64, 1.0 / (k + 2) as f64];
-        k += 1;
-    }
-    weights
-};
+static INTEGRAL_WEIGHTS: [[f64; 2]; TERMS] = tabulate!(TERMS, |k| [1.0 / (k + 1) as f64, 1.0 / (k + 2) as f64]);
 
 /// y'' on a quarter: `Σ (k+1)(k+2)(c_(k+1) + s c_(k+2)) t^k` over the half-length, with the middle s in half-lengths.
 pub(crate) struct Curvature {

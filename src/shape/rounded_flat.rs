@@ -15,6 +15,7 @@
 
 use crate::error::Error;
 use crate::limits::{LARGEST_EXPONENT, exponent_of, in_range};
+use crate::numerics::const_math::tabulate;
 use crate::parameters::{CENTRE_POINT, Pair, Parameters};
 use crate::shape::rounded_punch::{RoundedPunch, TINY};
 use crate::shape::stick_zone::SurfacePoint;
@@ -289,15 +290,7 @@ impl Shape for RoundedFlat {
 }
 
 /// 1/(k + 1).
-const PER_ORDER: [f64; ORDER] = {
-    let mut reciprocals = [1.0; ORDER];
-    let mut k = 0;
-    while k < ORDER {
-        reciprocals[k] = 1.0 / (k + 1) as f64;
-        k += 1;
-    }
-    reciprocals
-};
+const PER_ORDER: [f64; ORDER] = tabulate!(ORDER, |k| 1.0 / (k + 1) as f64);
 
 /// Sets a coefficient that the next round requires, if there is one.
 fn set(series: &mut Series, k: usize, value: f64) {
