@@ -324,6 +324,8 @@ unsafe fn harmonic_forces<L: StepLaw, W>(
     check: impl Fn(&mut W, &L::Item, &[f64]) -> Result<(), Error>,
     compute: impl Fn(&L::Item, &mut W, &[f64], HarmonicOutput) -> Result<(), Error>,
 ) -> Result<(), Error> {
+    // The arrays of an element with another number of directions are shorter: no reference to them is created.
+    items.check::<L>(|_, _| Ok(()))?;
     let (all, square) = (items.n.checked_mul(one), items.n.checked_mul(one * one));
     let (all, square) = (all.ok_or(Error::BadArraySize)?, square.ok_or(Error::BadArraySize)?);
     let (force, jacobian, displacement) = (output(force, all)?, output(jacobian, square)?, input(displacement, all)?);
