@@ -133,32 +133,29 @@ impl Contact {
 
     /// F and dF/dξ at ξ = 1 - e, in units of the initial stiffness.
     pub(crate) fn cycle_integrals(&self, xi: f64, e: f64) -> [f64; 2] {
-        dispatch!(self.cycle_integrals_kernel(xi, e))
-    }
-
-    #[inline(always)]
-    fn cycle_integrals_kernel(&self, xi: f64, e: f64) -> [f64; 2] {
-        if !self.has_weights_in_slip() || (e > IN_SLIP && e < FAR_BELOW[1]) {
-            let is_beyond = e <= 0.0 || !self.has_weights_in_slip();
-            return self.integrals(if is_beyond { &RULE_BEYOND } else { &RULE_BELOW }, xi, e);
-        }
-        if e > 0.0 {
-            let few = const { &Interpolant::<{ NODES_FAR_BELOW[0] }>::POINTS };
-            let many = const { &Interpolant::<{ NODES_FAR_BELOW[1] }>::POINTS };
-            return self.midpoint(if e >= FAR_BELOW[0] { few } else { many }, xi, e);
-        }
-        sum(
-            self.weights_in_slip.iter().zip(&RULE_IN_SLIP),
-            #[inline(always)]
-            |(weights, [rho, ..])| {
-                let (mut terms, mut rest) = (*weights, *rho);
-                for k in 0..4 {
-                    rest[k] -= e;
-                    terms[k] *= rest[k].sqrt();
-                }
-                [terms, rest]
-            },
-        )
+        dispatch!({
+            if !self.has_weights_in_slip() || (e > IN_SLIP && e < FAR_BELOW[1]) {
+                let is_beyond = e <= 0.0 || !self.has_weights_in_slip();
+                return self.integrals(if is_beyond { &RULE_BEYOND } else { &RULE_BELOW }, xi, e);
+            }
+            if e > 0.0 {
+                let few = const { &Interpolant::<{ NODES_FAR_BELOW[0] }>::POINTS };
+                let many = const { &Interpolant::<{ NODES_FAR_BELOW[1] }>::POINTS };
+                return self.midpoint(if e >= FAR_BELOW[0] { few } else { many }, xi, e);
+            }
+            sum(
+                self.weights_in_slip.iter().zip(&RULE_IN_SLIP),
+                #[inline(always)]
+                |(weights, [rho, ..])| {
+                    let (mut terms, mut rest) = (*weights, *rho);
+                    for k in 0..4 {
+                        rest[k] -= e;
+                        terms[k] *= rest[k].sqrt();
+                    }
+                    [terms, rest]
+                },
+            )
+        })
     }
 
     /// F and dF/dξ by the midpoint rule in θ, `x = ξ sin²(θ/2)`: the integrands are periodic and even.

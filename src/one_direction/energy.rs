@@ -160,45 +160,42 @@ impl Slip {
     /// The inner integral is `R = N(S_b) - N(S_c) - N'(S_c)(S_b - S_c)`. Unless the slip zone is too narrow for this difference, the mean of
     /// R along the path follows from N and N', or by parts from N and M.
     fn integral(&self, element: &Element) -> f64 {
-        dispatch!(self.integral_kernel(element))
-    }
-
-    #[inline(always)]
-    fn integral_kernel(&self, element: &Element) -> f64 {
-        let [c0, c1] = self.inner;
-        let [b0, b1] = self.outer;
-        let (growth, swept) = (b1 - b0, c0 - c1);
-        if swept <= 0.0 {
-            return 0.0;
-        }
-        let widest = b0.max(b1);
-        let width = widest - c1;
-        if 2.5 * width < widest {
-            let room = room(element, c1, widest);
-            let path_rule = gauss_rule(if 16.0 * swept.max(growth.abs()) < room { 1 } else { 2 });
-            if 1.5 * width < room {
-                let zone_rule: &[Block] = if 8.0 * width < room { &ZONE_RULE } else { &WIDE_ZONE_RULE };
-                return self.integral_of_curvature(element, path_rule, zone_rule);
+        dispatch!({
+            let [c0, c1] = self.inner;
+            let [b0, b1] = self.outer;
+            let (growth, swept) = (b1 - b0, c0 - c1);
+            if swept <= 0.0 {
+                return 0.0;
             }
-            // A wider zone loses few digits, because N'' is large there.
-            if 8.0 * width < widest {
-                return self.integral_near_the_largest_size(element);
+            let widest = b0.max(b1);
+            let width = widest - c1;
+            if 2.5 * width < widest {
+                let room = room(element, c1, widest);
+                let path_rule = gauss_rule(if 16.0 * swept.max(growth.abs()) < room { 1 } else { 2 });
+                if 1.5 * width < room {
+                    let zone_rule: &[Block] = if 8.0 * width < room { &ZONE_RULE } else { &WIDE_ZONE_RULE };
+                    return self.integral_of_curvature(element, path_rule, zone_rule);
+                }
+                // A wider zone loses few digits, because N'' is large there.
+                if 8.0 * width < widest {
+                    return self.integral_near_the_largest_size(element);
+                }
             }
-        }
-        let inner = if 16.0 * swept < room(element, c1, c0) {
-            let [[nodes, weights]] = PATH_RULE;
-            let (loads, slopes) = element.loads_at::<true, 4>(&nodes.map(|node| c0 - node * swept));
-            let mut tangents = [0.0; 4];
-            for k in 0..4 {
-                tangents[k] = loads[k] + slopes[k] * self.width(nodes[k]);
-            }
-            dot(&weights, &tangents)
-        } else {
-            let at = |s: f64, width: f64| element.load_at_shift(s).0 * width;
-            let ends = at(c0, b0 - c0) - at(c1, b1 - c1);
-            ((growth + 2.0 * swept) * mean_load(element, [c0, c1]) + ends) / swept
-        };
-        swept * (mean_load(element, self.outer) - inner).max(0.0)
+            let inner = if 16.0 * swept < room(element, c1, c0) {
+                let [[nodes, weights]] = PATH_RULE;
+                let (loads, slopes) = element.loads_at::<true, 4>(&nodes.map(|node| c0 - node * swept));
+                let mut tangents = [0.0; 4];
+                for k in 0..4 {
+                    tangents[k] = loads[k] + slopes[k] * self.width(nodes[k]);
+                }
+                dot(&weights, &tangents)
+            } else {
+                let at = |s: f64, width: f64| element.load_at_shift(s).0 * width;
+                let ends = at(c0, b0 - c0) - at(c1, b1 - c1);
+                ((growth + 2.0 * swept) * mean_load(element, [c0, c1]) + ends) / swept
+            };
+            swept * (mean_load(element, self.outer) - inner).max(0.0)
+        })
     }
 
     /// Width of the slip zone after a fraction of the segment.
