@@ -103,66 +103,62 @@ impl<'a> NodalFourier<'a> {
     /// Adds the products of weights and values at the nodes of a panel with 1, cos t, sin t, cos 2t, ..., one for each of `sums`.
     #[inline(always)]
     pub fn add(&self, weights: &[[f64; 4]], values: &Nodes, sums: &mut [f64]) {
-        dispatch!(sums_kernel(self.rows, weights, values, sums));
+        dispatch!({
+            let total = |[one, two, three, four]: [f64; 4]| (one + two) + (three + four);
+            let Some((constant, pairs)) = sums.split_first_mut() else { return };
+            let mut products: Nodes = [[0.0; 4]; _];
+            let mut sum = [0.0; 4];
+            for ((product, weight), value) in products.iter_mut().zip(weights).zip(values) {
+                for k in 0..4 {
+                    product[k] = weight[k] * value[k];
+                    sum[k] += product[k];
+                }
+            }
+            *constant += total(sum);
+            let products = products.get(..weights.len()).unwrap_or(&[]);
+            for ([by_cosine, by_sine], [cosines, sines]) in
+                pairs.as_chunks_mut::<2>().0.iter_mut().zip(self.rows.iter())
+            {
+                let (mut c, mut s) = ([0.0; 4], [0.0; 4]);
+                for ((product, cosine), sine) in products.iter().zip(cosines).zip(sines) {
+                    for k in 0..4 {
+                        c[k] += product[k] * cosine[k];
+                        s[k] += product[k] * sine[k];
+                    }
+                }
+                *by_cosine += total(c);
+                *by_sine += total(s);
+            }
+        });
     }
 }
 
 /// Evaluates cos and sin of all orders up to `orders`, and the displacement, at the nodes of a panel.
 #[inline(always)]
 fn fill_rows(rows: &mut [[Nodes; 2]], motion: &Motion, orders: usize, times: &[[f64; 4]], displacement: &mut Nodes) {
-    dispatch!(rows_kernel(rows, motion, orders, times, displacement));
-}
-
-#[inline(always)]
-fn rows_kernel(rows: &mut [[Nodes; 2]], motion: &Motion, orders: usize, times: &[[f64; 4]], displacement: &mut Nodes) {
-    for (block, (times, displacement)) in times.iter().zip(displacement.iter_mut()).enumerate() {
-        let (mut cosine, mut sine) = ([0.0; 4], [0.0; 4]);
-        for k in 0..4 {
-            (sine[k], cosine[k]) = times[k].sin_cos();
-        }
-        let (mut c, mut s) = (cosine, sine);
-        let mut u = [motion.mean; 4];
-        let mut pairs = motion.pairs.iter();
-        for [cosines, sines] in rows.iter_mut().take(orders) {
-            if let (Some(cosines), Some(sines)) = (cosines.get_mut(block), sines.get_mut(block)) {
-                (*cosines, *sines) = (c, s);
+    dispatch!({
+        for (block, (times, displacement)) in times.iter().zip(displacement.iter_mut()).enumerate() {
+            let (mut cosine, mut sine) = ([0.0; 4], [0.0; 4]);
+            for k in 0..4 {
+                (sine[k], cosine[k]) = times[k].sin_cos();
             }
-            if let Some(&[a, b]) = pairs.next() {
+            let (mut c, mut s) = (cosine, sine);
+            let mut u = [motion.mean; 4];
+            let mut pairs = motion.pairs.iter();
+            for [cosines, sines] in rows.iter_mut().take(orders) {
+                if let (Some(cosines), Some(sines)) = (cosines.get_mut(block), sines.get_mut(block)) {
+                    (*cosines, *sines) = (c, s);
+                }
+                if let Some(&[a, b]) = pairs.next() {
+                    for k in 0..4 {
+                        u[k] += a * c[k] + b * s[k];
+                    }
+                }
                 for k in 0..4 {
-                    u[k] += a * c[k] + b * s[k];
+                    (c[k], s[k]) = (c[k] * cosine[k] - s[k] * sine[k], s[k] * cosine[k] + c[k] * sine[k]);
                 }
             }
-            for k in 0..4 {
-                (c[k], s[k]) = (c[k] * cosine[k] - s[k] * sine[k], s[k] * cosine[k] + c[k] * sine[k]);
-            }
+            *displacement = u;
         }
-        *displacement = u;
-    }
-}
-
-#[inline(always)]
-fn sums_kernel(rows: &[[Nodes; 2]], weights: &[[f64; 4]], values: &Nodes, sums: &mut [f64]) {
-    let total = |[one, two, three, four]: [f64; 4]| (one + two) + (three + four);
-    let Some((constant, pairs)) = sums.split_first_mut() else { return };
-    let mut products: Nodes = [[0.0; 4]; _];
-    let mut sum = [0.0; 4];
-    for ((product, weight), value) in products.iter_mut().zip(weights).zip(values) {
-        for k in 0..4 {
-            product[k] = weight[k] * value[k];
-            sum[k] += product[k];
-        }
-    }
-    *constant += total(sum);
-    let products = products.get(..weights.len()).unwrap_or(&[]);
-    for ([by_cosine, by_sine], [cosines, sines]) in pairs.as_chunks_mut::<2>().0.iter_mut().zip(rows) {
-        let (mut c, mut s) = ([0.0; 4], [0.0; 4]);
-        for ((product, cosine), sine) in products.iter().zip(cosines).zip(sines) {
-            for k in 0..4 {
-                c[k] += product[k] * cosine[k];
-                s[k] += product[k] * sine[k];
-            }
-        }
-        *by_cosine += total(c);
-        *by_sine += total(s);
-    }
+    });
 }
