@@ -18,7 +18,7 @@ const MIN_BLOCKS_TO_SLIP: usize = 4;
 pub(super) const PANEL: usize = 4 * MAX_GAUSS_BLOCKS;
 
 /// Values at the nodes of a panel.
-pub(super) type Nodes = [[f64; 4]; MAX_GAUSS_BLOCKS];
+type Nodes = [[f64; 4]; MAX_GAUSS_BLOCKS];
 
 /// The interval of time between two events.
 #[derive(Debug, Clone, Copy)]
@@ -81,28 +81,38 @@ impl<'a> NodalFourier<'a> {
         Ok(NodalFourier { nodes_per_period: size.samples, rows })
     }
 
-    /// Calls a function for each panel of a segment, with cos and sin up to an order, displacements and weights of its nodes.
+    /// Adds the integrals of functions of the displacement over a segment times 1, cos t, sin t, cos 2t, ... to their sums; those without
+    /// sums are not requested. `orders`: the highest order of all.
     #[inline(always)]
-    pub fn for_each_panel(
+    pub fn integrate<const K: usize>(
         &mut self,
         motion: &Motion,
         segment: Segment,
         orders: usize,
-        mut function: impl FnMut(&Self, &[[f64; 4]], &[[f64; 4]]),
+        functions: impl Fn(f64) -> [f64; K],
+        mut sums: [&mut [f64]; K],
     ) {
         let (panels, rule) = segment.panels(self.nodes_per_period);
         for panel in 0..panels {
             let [times, weights] = segment.nodes(panel, panels, rule);
             let mut displacement: Nodes = [[0.0; 4]; _];
             fill_rows(self.rows, motion, orders, times.get(..rule.len()).unwrap_or(&[]), &mut displacement);
-            let nodes = displacement.get(..rule.len()).zip(weights.get(..rule.len()));
-            nodes.into_iter().for_each(|(displacement, weights)| function(self, displacement, weights));
+            let mut values: [Nodes; K] = [[[0.0; 4]; _]; _];
+            for (block, displacement) in displacement.iter().enumerate().take(rule.len()) {
+                for lane in 0..4 {
+                    let at_node = functions(displacement[lane]);
+                    values.iter_mut().zip(at_node).for_each(|(values, value)| values[block][lane] = value);
+                }
+            }
+            for (values, sums) in values.iter().zip(&mut sums).filter(|(_, sums)| !sums.is_empty()) {
+                self.add(weights.get(..rule.len()).unwrap_or(&[]), values, sums);
+            }
         }
     }
 
     /// Adds the products of weights and values at the nodes of a panel with 1, cos t, sin t, cos 2t, ..., one for each of `sums`.
     #[inline(always)]
-    pub fn add(&self, weights: &[[f64; 4]], values: &Nodes, sums: &mut [f64]) {
+    fn add(&self, weights: &[[f64; 4]], values: &Nodes, sums: &mut [f64]) {
         dispatch!({
             let total = |[one, two, three, four]: [f64; 4]| (one + two) + (three + four);
             let Some((constant, pairs)) = sums.split_first_mut() else { return };
