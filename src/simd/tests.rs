@@ -77,7 +77,7 @@ fn the_complex_stiffness() {
         for amplitude in amplitudes {
             compare("complex stiffness", || {
                 let k = contact.complex_stiffness(amplitude).unwrap();
-                vec![k.real(), k.imaginary(), k.d_real(), k.d_imag()]
+                vec![k.real, k.imaginary, k.d_real, k.d_imag]
             });
         }
         let run = |amplitude: &[f64]| {
