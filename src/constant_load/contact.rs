@@ -5,7 +5,6 @@ use crate::constant_load::interpolant::{ForceInterpolant, INNER_FRACTION, KNEE_F
 use crate::error::Error;
 use crate::limits::check_displacement;
 use crate::limits::{exponent_of, in_range};
-use crate::numerics::polynomial::Rows;
 use crate::parameters::{self, Common, EllipticParameters, PARAMETERS, Parameters, Sensitivity};
 use crate::shape::rounded_flat::reference_slope;
 use crate::shape::stick_zone::rounded_flat::RoundedFlatZones;
@@ -57,7 +56,7 @@ pub struct Contact {
     pub(crate) per_slip_displacement: f64,
     interpolant: ForceInterpolant,
     /// Weights of K' in gross slip; 0 if there are none.
-    pub(crate) weights_in_slip: Rows<BLOCKS_IN_SLIP>,
+    pub(crate) weights_in_slip: [[f64; 4]; BLOCKS_IN_SLIP],
     zones: LayeredZones,
     /// mu N over each parameter; over b instead of a.
     pub(crate) sensitivity_scales: Sensitivity,
