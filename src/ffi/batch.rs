@@ -332,9 +332,9 @@ unsafe fn harmonic_forces<L: StepLaw, W>(
     let [dissipated, drift] = self::outputs([dissipated, drift], items.n)?;
     let mut outputs = Outputs { force, jacobian, dissipated, drift };
     let displacement_of = |i: usize| displacement.get(i * one..(i + 1) * one);
-    items.check::<L>(|i, law| check(workspace, law, displacement_of(i).unwrap_or(&[])))?;
-    let mut active = items.with(displacement_of);
-    active.try_for_each(|(i, law, displacement)| compute(law, workspace, displacement, outputs.of_item(i, one)))
+    let active = || items.with(displacement_of);
+    active().try_for_each(|(_, law, displacement)| check(workspace, law, displacement))?;
+    active().try_for_each(|(i, law, displacement)| compute(law, workspace, displacement, outputs.of_item(i, one)))
 }
 
 /// Outputs of a batch of harmonic forces.
