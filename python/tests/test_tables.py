@@ -75,6 +75,12 @@ def test_tractions(group):
     assert_allclose(found.shear, column(group, "shear"), rtol=0, atol=1e-7 * scale)
     state = contact.update(microslip.State(), contact.monotonic_displacement(group[0]["T"]).displacement).state
     assert_allclose(contact.tractions(state, column(group, "x")).shear, found.shear, rtol=0, atol=1e-6 * scale)
+    # An element under the same normal force.
+    element = microslip.Element(**contact.parameters, normal_input="normal_force")
+    steps = [[0, contact.normal_force], [contact.monotonic_displacement(group[0]["T"]).displacement, contact.normal_force]]
+    of_element = element.tractions(element.update(microslip.ElementState(), steps).state, column(group, "x"))
+    assert_allclose(of_element.pressure, found.pressure, rtol=0, atol=1e-7 * scale)
+    assert_allclose(of_element.shear, found.shear, rtol=0, atol=1e-6 * scale)
 
 
 @pytest.mark.parametrize("group", groups("slip", "contact", "T"))
