@@ -1,7 +1,7 @@
-/* The installed archive against the reference tables of contacts and histories: each history step by step, as a path, and in a batch,
- * with the same bits. Inputs of the tables are doubles, so that a difference is an error of the library. Then the ends of the curves,
- * and contacts without a tangential force. The other tables are read in Python, and the values of all functions are compared with
- * multi-precision by `verification/verify`.
+/* The installed archive against the reference tables of contacts and of their histories: each step by step, as a path, and in a batch,
+ * with the same bits. Inputs of the tables are doubles, so that a difference is an error of the library. Then motions in two directions,
+ * the ends of the curves, and contacts without a tangential force. The other tables are read in Python, and the values of all functions
+ * are compared with multi-precision by `verification/verify`.
  *
  *     tables [--trap] [DIRECTORY] */
 #include "check.h"
@@ -72,15 +72,9 @@ static const char *word(const table *t, const char *column)
     return "";
 }
 
-static int has(const table *t, const char *column)
-{
-    return *word(t, column) != '\0';
-}
-
-/* The value in a column; NaN without it. */
 static double get(const table *t, const char *column)
 {
-    return has(t, column) ? strtod(word(t, column), NULL) : (double)NAN;
+    return strtod(word(t, column), NULL);
 }
 
 static void compare(const table *t, const char *column, double got, double want, double tolerance)
@@ -97,21 +91,6 @@ static void relative(const table *t, const char *column, double got, double tole
 
 /* --- Contacts and elements of a row --- */
 
-static mslip_layer layer_of(const table *t)
-{
-    const mslip_layer none = { 0.0, 0.0, 0.0, 0.0 }, layer = { get(t, "c_n"), get(t, "c_t"), get(t, "N_c"), get(t, "N_layer") };
-    return has(t, "c_n") ? layer : none;
-}
-
-static void set_materials(const table *t, mslip_material material[2])
-{
-    const int same = !has(t, "E1");
-    for (int i = 0; i < 2; ++i) {
-        material[i].young_modulus = get(t, same ? "E" : i ? "E2" : "E1");
-        material[i].poisson_ratio = get(t, same ? "nu" : i ? "nu2" : "nu1");
-    }
-}
-
 static mslip_parameters line_of(const table *t, double normal_force)
 {
     mslip_parameters p;
@@ -120,44 +99,13 @@ static mslip_parameters line_of(const table *t, double normal_force)
     p.edge_radius = get(t, "R");
     p.length = get(t, "L");
     p.normal_force = normal_force;
-    p.friction_coefficient = has(t, "mu") ? get(t, "mu") : 0.5;
+    p.friction_coefficient = get(t, "mu");
     p.displacement_reference = MSLIP_CENTRE_POINT;
-    set_materials(t, p.material);
-    p.layer = layer_of(t);
-    return p;
-}
-
-/* Semi-axes, which are those under N_ref, or under the normal force of the row. */
-static mslip_elliptic_parameters ellipse_of(const table *t, double normal_force)
-{
-    mslip_elliptic_parameters p;
-    const int scaled = has(t, "N_ref");
-    const double scale = scaled && normal_force > 0.0 ? cbrt(normal_force / get(t, "N_ref")) : 1.0;
-    mslip_elliptic_parameters_default(&p);
-    p.semi_axis_x = scale * get(t, scaled ? "semi_x" : "semi_axis_x");
-    p.semi_axis_y = scale * get(t, scaled ? "semi_y" : "semi_axis_y");
-    p.normal_force = normal_force > 0.0 ? normal_force : get(t, "N_ref");
-    p.friction_coefficient = has(t, "mu") ? get(t, "mu") : 0.5;
-    set_materials(t, p.material);
-    p.layer = layer_of(t);
-    return p;
-}
-
-/* An element for loads up to this one, or for smaller loads if that is too large for the length, or for N_c. */
-static void init_element(const table *t, double normal_force, int32_t directions, int32_t normal_input, mslip_element *element)
-{
-    normal_force = has(t, "N_c") ? fmin(normal_force, 999.0 * get(t, "N_c")) : normal_force;
-    if (isnan(get(t, "a"))) {
-        const mslip_elliptic_parameters p = ellipse_of(t, normal_force);
-        OK(mslip_element_init_elliptic(&p, directions, normal_input, element));
-        return;
+    for (int i = 0; i < 2; ++i) {
+        p.material[i].young_modulus = get(t, i == 0 ? "E1" : "E2");
+        p.material[i].poisson_ratio = get(t, i == 0 ? "nu1" : "nu2");
     }
-    mslip_parameters p = line_of(t, normal_force);
-    int32_t status;
-    while ((status = mslip_element_init(&p, directions, normal_input, element)) == MSLIP_LENGTH_TOO_SHORT) {
-        p.normal_force /= 4.0;
-    }
-    CHECK(status == MSLIP_OK && mslip_element_check(element) == MSLIP_OK);
+    return p;
 }
 
 /* --- Steps, paths and batches of both laws --- */
@@ -353,91 +301,6 @@ static void check_histories(void)
 
 /* --- A varying normal force --- */
 
-enum { MOST_ROWS = 128, VALUES = 8 };
-static const char *const columns[VALUES] = { "delta", "u_n", "N", "T", "dissipated", "dT_ddelta", "dT_dun", "dN_dun" };
-enum { DELTA, APPROACH, LOAD, FORCE, ENERGY, BY_DELTA, BY_APPROACH, STIFFNESS };
-
-/* A history whose first row is the present one of a table: with this normal input and the tables of a multiple of its largest load.
-   Differences in units of mu N_max, N_max, mu N_max u_max, and of the stiffnesses at the largest load. */
-static void check_history(const table *t, size_t steps, double rows[][VALUES], int32_t normal_input, double factor, int is_rounded)
-{
-    static mslip_element element, at_largest;
-    static double u[2 * MOST_ROWS];
-    static results r;
-    const int by_force = normal_input == MSLIP_INPUT_NORMAL_FORCE;
-    const double mu = get(t, "mu"), energy_tolerance = is_rounded || has(t, "c_n") ? 1e-12 : 1e-13;
-    const double tolerance = is_rounded ? 1e-13 : 1e-14;
-    double largest = 0.0, farthest = 0.0;
-    for (size_t i = 0; i < steps; ++i) {
-        largest = fmax(largest, rows[i][LOAD]);
-        farthest = fmax(farthest, fabs(rows[i][DELTA]));
-        u[2 * i] = rows[i][DELTA];
-        u[2 * i + 1] = rows[i][by_force ? LOAD : APPROACH];
-    }
-    init_element(t, factor * largest, 1, normal_input, &element);
-    init_element(t, largest, 1, normal_input, &at_largest);
-    const law l = { NULL, &element };
-    run(&l, mslip_element_state_length(1, 64), steps, u, &r);
-    for (size_t i = 0; i < steps; ++i) {
-        const double *v = rows[i], slip_force = mu * largest, by_approach = by_force ? v[STIFFNESS] : 1.0;
-        const table at = { .name = t->name, .line = t->line + (int)i };
-        compare(&at, "T", r.force[i][0], v[FORCE], tolerance * slip_force);
-        compare(&at, "N", r.force[i][1], v[LOAD], tolerance * largest);
-        compare(&at, "dissipated", r.energy[i], v[ENERGY], energy_tolerance * slip_force * farthest);
-        CHECK(r.energy[i] >= 0.0 && fabs(r.force[i][0]) <= mu * r.force[i][1] * (1.0 + 4.0 * DBL_EPSILON));
-        CHECK(r.tangent[i][1] == 0.0 && isfinite(r.tangent[i][0]) && isfinite(r.tangent[i][2]));
-        if (!isnan(v[BY_DELTA])) { /* not at corners */
-            compare(&at, "dT_ddelta", r.tangent[i][0], v[BY_DELTA], 1e-11 * at_largest.tangential_stiffness);
-        }
-        if (!isnan(v[BY_APPROACH])) {
-            compare(&at, "dT_dun", r.tangent[i][2] * by_approach, v[BY_APPROACH], 1e-11 * mu * at_largest.normal_stiffness);
-        }
-        compare(&at, "dN_dun", r.tangent[i][3] * by_approach, v[STIFFNESS], 1e-11 * at_largest.normal_stiffness);
-    }
-}
-
-static void check_varying_load(const char *name)
-{
-    static double rows[MOST_ROWS][VALUES];
-    static table t, first;
-    double history = 0.0;
-    int opens = 0, histories = 0;
-    size_t steps = 0;
-    memset(&t, 0, sizeof t);
-    for (int more = 1; more;) {
-        more = next_row(&t, name);
-        if (steps > 0 && (!more || get(&t, "history") != history)) {
-            const int by_force = strcmp(word(&first, "control"), "N") == 0;
-            const int32_t given = MSLIP_INPUT_APPROACH + by_force;
-            /* Tables for a million times this load, or as large as the length and N_c allow, and for a thousandth. */
-            check_history(&first, steps, rows, given, 1.0, 0);
-            check_history(&first, steps, rows, given, 1e6, 0);
-            check_history(&first, steps, rows, given, 1e-3, 0);
-            /* The other input is rounded. */
-            if (!opens) check_history(&first, steps, rows, MSLIP_INPUT_NORMAL_FORCE - by_force, 1.0, 1);
-            ++histories;
-            steps = 0;
-        }
-        CHECK(steps < MOST_ROWS);
-        if (more) {
-            if (steps == 0) {
-                first = t;
-                for (int i = 0; i < t.columns; ++i) {
-                    first.cell[i] = first.text + (t.cell[i] - t.text);
-                    first.column[i] = first.header + (t.column[i] - t.header);
-                }
-                opens = 0;
-                history = get(&t, "history");
-            }
-            for (int i = 0; i < VALUES; ++i) {
-                rows[steps][i] = get(&t, columns[i]);
-            }
-            opens |= rows[steps++][LOAD] <= 0.0;
-        }
-    }
-    CHECK(histories == 60);
-}
-
 /* Two directions along motions of every contact: Coulomb's law and the normal law hold, and far in gross slip the force has the direction
    of slip. The displacement under a static force carries that force. Values are compared by `verification/validation`. */
 static void check_two_directions(void)
@@ -562,8 +425,6 @@ int main(int argc, char **argv)
     CHECK(strcmp(mslip_version(), version) == 0 && mslip_abi_version() == MSLIP_ABI_VERSION);
     check_contacts();
     check_histories();
-    check_varying_load("varying_load");
-    check_varying_load("layer_varying_load");
     check_two_directions();
     check_ends_of_the_curve();
     check_no_tangential_force();

@@ -227,8 +227,7 @@ fn states_with_layers_are_valid() {
     let of = |p: &microslip::Parameters| {
         calls::element(false, |element| unsafe { mslip_element_init(p, 1, MSLIP_INPUT_NORMAL_FORCE, element) })
     };
-    let alone = Memory::of(&of(&FLAT).bytes);
-    let stiffness = unsafe { (*alone.start.cast::<mslip_element>()).tangential_stiffness };
+    let stiffness = Memory::of_law(&of(&FLAT), 1).values::<mslip_element>()[0].tangential_stiffness;
     for share in 1..=8 {
         let compliance = f64::from(share) / stiffness;
         let layer = microslip::Layer {
@@ -241,9 +240,9 @@ fn states_with_layers_are_valid() {
         let element = Memory::of_law(&law, 1);
         let slip_under = |load: f64| {
             let (force, mut slip) = (FLAT.friction_coefficient * load, 0.0);
-            let none = null_mut();
+            let (e, none) = (element.start.cast(), null_mut());
             let status =
-                unsafe { mslip_element_displacement(element.start.cast(), 0, 1, &force, &load, &mut slip, none) };
+                unsafe { mslip_element_displacement(e, 0, 1, &raw const force, &raw const load, &raw mut slip, none) };
             assert_eq!(status, MSLIP_OK);
             slip
         };
