@@ -125,7 +125,6 @@ module microslip
     !! 2*length > b and a positive initial stiffness
   integer(mslip_int), parameter, public :: MSLIP_OUT_OF_RANGE = 13
     !! parameters out of range: a derived quantity would exceed 1e-150 .. 1e150
-  integer(mslip_int), parameter, public :: MSLIP_BAD_SPRINGS = 14  !! springs must be 0, 8, 12 or 16
   integer(mslip_int), parameter, public :: MSLIP_BAD_NORMAL_COMPLIANCE = 15  !! normal_compliance of a layer must be finite and >= 0
   integer(mslip_int), parameter, public :: MSLIP_BAD_TANGENTIAL_COMPLIANCE = 16
     !! tangential_compliance of a layer must be finite and >= 0
@@ -237,8 +236,7 @@ module microslip
     type(mslip_layer) :: layer  !! A layer in series with the contact; all zero: none.
     integer(mslip_int) :: displacement_reference = MSLIP_CENTRE_POINT
       !! `MSLIP_CENTRE_POINT`, as in the paper, or `MSLIP_RIGID_STRIP`.
-    integer(mslip_int) :: springs = 0
-      !! Springs of an element with two directions: 8, 12 or 16, more accurate and slower; 0: the default.
+    integer(mslip_int) :: reserved = 0  !! Leave 0.
   end type mslip_parameters
 
   type, bind(c), public :: mslip_elliptic_parameters
@@ -250,9 +248,6 @@ module microslip
     real(mslip_real) :: friction_coefficient = unset  !! Friction coefficient mu >= 0.
     type(mslip_material) :: material(2)  !! The two bodies.
     type(mslip_layer) :: layer  !! A layer in series with the contact; all zero: none.
-    integer(mslip_int) :: springs = 0
-      !! Springs of an element with two directions: 8, 12 or 16, more accurate and slower; 0: the default.
-    integer(mslip_int) :: reserved = 0  !! Leave 0.
   end type mslip_elliptic_parameters
 
   ! The reserved components are public, because `write` rejects types with private ones.
@@ -283,7 +278,7 @@ module microslip
     integer(mslip_int) :: directions = 0
       !! Number of tangential directions, 1 or 2: a displacement is [u, w] or [u, v, w], a force [T, N] or [Tx, Ty, N].
     integer(mslip_int) :: normal_input = 0  !! MSLIP_INPUT_APPROACH or MSLIP_INPUT_NORMAL_FORCE.
-    real(mslip_real) :: reserved(1855) = 0  !! Internal tables.
+    real(mslip_real) :: reserved(1854) = 0  !! Internal tables.
   end type mslip_element
   ! </generated>
 
@@ -868,14 +863,14 @@ contains
   ! Defaults, and sizes of workspaces
 
   subroutine mslip_parameters_default(parameters)
-    !! Every value unset (NaN, so that a forgotten one is rejected by name), `MSLIP_CENTRE_POINT`, default springs.
+    !! Every value unset (NaN, so that a forgotten one is rejected by name), `MSLIP_CENTRE_POINT`.
     type(mslip_parameters), intent(out) :: parameters  !! The parameters to reset.
 
     call c_parameters_default(parameters)
   end subroutine mslip_parameters_default
 
   subroutine mslip_elliptic_parameters_default(parameters)
-    !! Every value unset (NaN, so that a forgotten one is rejected by name), default springs.
+    !! Every value unset (NaN, so that a forgotten one is rejected by name).
     type(mslip_elliptic_parameters), intent(out) :: parameters  !! The parameters to reset.
 
     call c_elliptic_parameters_default(parameters)

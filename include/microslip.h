@@ -73,9 +73,6 @@
 // parameters out of range: a derived quantity would exceed 1e-150 .. 1e150
 #define MSLIP_OUT_OF_RANGE 13
 
-// springs must be 0, 8, 12 or 16
-#define MSLIP_BAD_SPRINGS 14
-
 // normal_compliance of a layer must be finite and >= 0
 #define MSLIP_BAD_NORMAL_COMPLIANCE 15
 
@@ -248,8 +245,8 @@ typedef struct mslip_parameters {
     struct mslip_layer layer;
     // `MSLIP_CENTRE_POINT` (0, as in the paper) or `MSLIP_RIGID_STRIP` (1, corrected to 3-D).
     int32_t displacement_reference;
-    // Springs of an element with two tangential directions: 8, 12 or 16, more accurate and slower; 0: the default.
-    int32_t springs;
+    // Not read; set to 0.
+    int32_t reserved;
 } mslip_parameters;
 
 // Elliptical Hertz contact (section 3.3); a sphere if both semi-axes are equal.
@@ -266,10 +263,6 @@ typedef struct mslip_elliptic_parameters {
     struct mslip_material material[2];
     // A layer in series with the contact; all zero: none.
     struct mslip_layer layer;
-    // Springs of an element with two tangential directions: 8, 12 or 16, more accurate and slower; 0: the default.
-    int32_t springs;
-    // Not read; set to 0.
-    int32_t reserved;
 } mslip_elliptic_parameters;
 
 // A contact under a constant normal force: initialised once and only read afterwards. Plain data of fixed size that may be copied,
@@ -313,7 +306,7 @@ typedef struct mslip_element {
     // MSLIP_INPUT_APPROACH or MSLIP_INPUT_NORMAL_FORCE.
     int32_t normal_input;
     // Internal tables.
-    double reserved[1855];
+    double reserved[1854];
 } mslip_element;
 
 #ifdef __cplusplus

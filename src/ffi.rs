@@ -119,7 +119,7 @@ pub struct mslip_element {
     /// MSLIP_INPUT_APPROACH or MSLIP_INPUT_NORMAL_FORCE.
     pub normal_input: i32,
     /// Internal tables.
-    pub reserved: [f64; 1855],
+    pub reserved: [f64; 1854],
 }
 
 const _: () = {
@@ -134,9 +134,9 @@ const _: () = {
     assert!(offset_of!(Contact, composite_modulus) == 0 && offset_of!(Contact, half_width) == 8);
     assert!(offset_of!(Contact, slip_force) == 16 && offset_of!(Contact, slip_displacement) == 24);
     assert!(offset_of!(Contact, initial_stiffness) == 32 && offset_of!(Contact, slip_energy) == 40);
-    assert!(size_of::<Parameters>() == 104 && size_of::<EllipticParameters>() == 96);
+    assert!(size_of::<Parameters>() == 104 && size_of::<EllipticParameters>() == 88);
     assert!(offset_of!(Parameters, material) == 40 && offset_of!(Parameters, layer) == 72);
-    assert!(offset_of!(Parameters, springs) == 100 && offset_of!(EllipticParameters, springs) == 88);
+    assert!(offset_of!(Parameters, reserved) == 100);
     assert!(offset_of!(EllipticParameters, material) == 32 && offset_of!(EllipticParameters, layer) == 64);
 };
 

@@ -32,7 +32,7 @@ const SPHERE: EllipticParameters = EllipticParameters {
     friction_coefficient: 0.5,
     material: [STEEL; 2],
     layer: Layer::none(),
-    springs: 0,
+    reserved: 0,
     reserved: 0,
 };
 

@@ -58,9 +58,6 @@ pub struct ContactArgs {
     /// Reference of the displacement [default: centre_point]
     #[arg(long, value_name = "NAME")]
     displacement_reference: Option<Reference>,
-    /// Springs of histories in two directions: 8, 12 or 16, more accurate and slower [default: 0, that of the library]
-    #[arg(long, value_name = "COUNT", allow_hyphen_values = true)]
-    springs: Option<i32>,
     /// Units of input and output; must agree with those of a parameter file [default: si]
     #[arg(long, value_name = "NAME")]
     units: Option<Units>,
@@ -224,7 +221,6 @@ impl ContactArgs {
             *to = values;
         }
         self.displacement_reference = self.displacement_reference.or(file.displacement_reference);
-        self.springs = self.springs.or(file.springs);
         self.units = self.units.or(file.units);
         Ok(())
     }
@@ -264,7 +260,6 @@ impl ContactArgs {
         // Missing numbers were reported; the library rejects NaN.
         let number = |value: Option<f64>| value.unwrap_or(f64::NAN);
         let [normal_force, friction_coefficient] = [self.normal_force, self.friction_coefficient].map(number);
-        let springs = self.springs.unwrap_or(0);
         let layer = Layer {
             normal_compliance: self.normal_compliance.unwrap_or(0.0),
             tangential_compliance: self.tangential_compliance.unwrap_or(0.0),
@@ -279,7 +274,6 @@ impl ContactArgs {
                 friction_coefficient,
                 material,
                 layer,
-                springs,
                 ..EllipticParameters::default()
             })
         } else {
@@ -295,7 +289,7 @@ impl ContactArgs {
                     Some(Reference::CentrePoint) | None => CENTRE_POINT,
                 },
                 layer,
-                springs,
+                reserved: 0,
             })
         })
     }
@@ -389,9 +383,6 @@ impl ContactArgs {
             numbers.map(|(name, values)| format!(" {} {}", option_name(name), format_list(&values))).collect();
         if self.displacement_reference == Some(Reference::RigidStrip) {
             options.push_str(" --displacement-reference rigid_strip");
-        }
-        if let Some(springs) = self.springs {
-            options.push_str(&format!(" --springs {springs}"));
         }
         if self.units == Some(Units::Mm) {
             options.push_str(" --units mm");

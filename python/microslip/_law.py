@@ -92,7 +92,7 @@ class _Law(Value):
             if name == "displacement_reference":
                 checked: float = choice(value, name, REFERENCES)
             else:
-                checked = integer(value, name) if name == "springs" else number(value, name)
+                checked = number(value, name)
             setattr(parameters, name, checked)
         for name, _ in ffi.typeof("mslip_layer").fields:
             setattr(parameters.layer, name, number(given[name], name))

@@ -33,7 +33,7 @@ TIME = np.linspace(0, 4 * np.pi, 160)
 LOOP = 2 * SLIP * np.cos(TIME), contact.update(state, 2 * SLIP * np.cos(TIME)).force
 LAYER = {"normal_compliance": 0.0, "tangential_compliance": 0.0, "stiffening_load": 100.0}
 REFERENCE = {"displacement_reference": 1}
-DIRECTIONS = {"springs": 12, "directions": 1, "normal_input": 0}
+DIRECTIONS = {"directions": 1, "normal_input": 0}
 MANY = {"index": [0, 1], "active": [1, 1]}
 
 

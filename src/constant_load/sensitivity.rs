@@ -168,7 +168,7 @@ pub(crate) mod tests {
                 material: BODIES.map(|body| Material { young_modulus: factor * body.young_modulus, ..body }),
                 layer: Layer { normal_compliance: 0.0, tangential_compliance, stiffening_load },
                 displacement_reference,
-                springs: 0,
+                reserved: 0,
             })
             .unwrap()
         }
