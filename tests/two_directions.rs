@@ -289,7 +289,7 @@ fn a_linear_layer_is_a_spring_in_series() {
                 from = to;
             }
             let error = energies[0] / energies[1] - 1.0;
-            assert!(error.abs() < 1e-3, "{k} {share}: {energies:?}, {error:e}");
+            assert!(error.abs() < 3e-3, "{k} {share}: {energies:?}, {error:e}");
         }
     }
 }
