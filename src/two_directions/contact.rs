@@ -1,6 +1,6 @@
 //! The springs under a present load: the shell at the edge, which ends at the present size, and the compliance of the points.
 
-use super::scalar::{Dual, Real};
+use super::scalar::{Dual, Real, both};
 use super::tables::{
     Both, END, FINE, FINE_STIFFNESS, LEAST_STIFFNESS, LOAD, MAP, MOST_PARTS, Matrix, N, POINTS, PRESSURE, Row, Rows,
     SECANT, SHIFT, SIZE, STIFFNESS, Tables, Units, WEIGHT, at_edge, root_difference, starts,
@@ -42,7 +42,7 @@ impl Pressed<f64> {
         };
         Pressed {
             load: of(self.load, slopes.load),
-            shift: [0, 1].map(|k| of(self.shift[k], slopes.shift[k])),
+            shift: both!(|k| of(self.shift[k], slopes.shift[k])),
             size: of(self.size, slopes.size),
         }
     }
@@ -150,11 +150,12 @@ impl<A: Real> Contact<A> {
             first_part,
             under_flat,
         };
-        let step = [0, 1].map(|k| now.shift[k] - t.at(SHIFT + k * FINE / N, first_part));
-        let per_step = step.map(A::inverse);
+        let step = both!(|k| now.shift[k] - t.at(SHIFT + k * FINE / N, first_part));
+        let per_step = both!(|k| step[k].inverse());
         // At its own point the last shell carries all, in any unit.
         contact.per_pressure[last] = one;
-        (0..2).for_each(|k| contact.edge[k][last] = per_step[k]);
+        contact.edge[0][last] = per_step[0];
+        contact.edge[1][last] = per_step[1];
         let (weight, lower) = (t.at(WEIGHT, last), t.at(SIZE, last));
         for i in 0..last {
             let mut traction = weight * root_difference(now.size, lower, t.at(POINTS, i));
@@ -163,23 +164,23 @@ impl<A: Real> Contact<A> {
                 traction = if bound.value() < traction.value() { bound } else { traction };
             }
             contact.per_pressure[i] = (t.at(PRESSURE + last, i) + traction).inverse();
-            (0..2).for_each(|k| contact.edge[k][i] = traction * per_step[k]);
+            contact.edge[0][i] = traction * per_step[0];
+            contact.edge[1][i] = traction * per_step[1];
         }
         for k in 0..2 {
-            let [load, shift] = [LOAD, SHIFT + k * FINE / N];
+            let (load, shift) = (LOAD, SHIFT + k * FINE / N);
             let own = (now.load - t.at(load, first_part)) * per_step[k];
             let inner = if last > 0 { t.at(SECANT + k, before) } else { zero };
             let (rise, least) = (own - inner, own.scale(LEAST_STIFFNESS));
             contact.stiffness[k] = if rise.value() > least.value() { rise } else { least };
-            let secant = |from: usize| {
-                let rise = |row: usize| t.at(row, from + 1) - t.at(row, from);
-                rise(load) * rise(shift).inverse()
-            };
-            let mut fine_before = if first { zero } else { secant(first_part.max(1) - 1) };
+            let mut fine_before = if first { zero } else { secant(t, k, first_part.max(1) - 1) };
             let mut less = own - if first { zero } else { inner };
             for (f, place) in (first_part..=part).zip(&mut contact.fine[k]) {
-                let at_edge = || (now.load - t.at(load, f)) * (now.shift[k] - t.at(shift, f)).inverse();
-                let own = if f < part { secant(f) } else { at_edge() };
+                let own = if f < part {
+                    secant(t, k, f)
+                } else {
+                    (now.load - t.at(load, f)) * (now.shift[k] - t.at(shift, f)).inverse()
+                };
                 *place = own - fine_before - less;
                 (fine_before, less) = (own, zero);
             }
@@ -212,4 +213,11 @@ impl<A: Real> Contact<A> {
     pub fn limit(&self, t: &impl Tables<A>, k: usize, f: usize) -> A {
         self.now.shift[k] - t.at(SHIFT + k * FINE / N, f)
     }
+}
+
+/// Secant stiffness of a whole part.
+#[inline(always)]
+fn secant<A: Real>(t: &impl Tables<A>, k: usize, f: usize) -> A {
+    let shift = SHIFT + k * FINE / N;
+    (t.at(LOAD, f + 1) - t.at(LOAD, f)) * (t.at(shift, f + 1) - t.at(shift, f)).inverse()
 }

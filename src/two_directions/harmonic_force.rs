@@ -323,12 +323,19 @@ impl Columns<'_> {
     #[inline(always)]
     fn of(&self, x: &Dual<{ PADDED + BLOCK }>) -> [f64; BLOCK] {
         let mut columns = [0.0; BLOCK];
-        columns.iter_mut().zip(x.slopes.iter().skip(PADDED)).for_each(|(place, slope)| *place = *slope);
-        for p in 0..PARAMETERS {
-            if x.slopes[p] != 0.0 {
+        for c in 0..BLOCK {
+            columns[c] = x.slopes[PADDED + c];
+        }
+        let [end, start, alignment, ..] = x.slopes;
+        if end != 0.0 || start != 0.0 || alignment != 0.0 {
+            for p in 0..PARAMETERS {
                 for c in 0..BLOCK {
                     columns[c] += x.slopes[p] * self.parameters[p][c];
                 }
+            }
+            // Memory that fades would end in subnormal numbers, which are slow.
+            for c in 0..BLOCK {
+                columns[c] = if columns[c].abs() > LEAST_SLOPE { columns[c] } else { 0.0 };
             }
         }
         columns
@@ -344,7 +351,9 @@ impl Springs<Dual<{ PADDED + BLOCK }>> for Columns<'_> {
         let mut dual = Dual { slopes: [0.0; PADDED + BLOCK], value: 0.0 };
         if let (Some(value), Some(columns)) = (self.values.as_flattened().get(place), self.columns.get(place)) {
             dual.value = *value;
-            dual.slopes.iter_mut().skip(PADDED).zip(columns).for_each(|(slope, column)| *slope = *column);
+            for c in 0..BLOCK {
+                dual.slopes[PADDED + c] = columns[c];
+            }
         }
         dual
     }
@@ -357,6 +366,9 @@ impl Springs<Dual<{ PADDED + BLOCK }>> for Columns<'_> {
         }
     }
 }
+
+/// Derivatives below are 0.
+const LEAST_SLOPE: f64 = 1e-200;
 
 /// A step in columns: the derivatives of both forces.
 fn columns(

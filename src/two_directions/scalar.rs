@@ -2,6 +2,24 @@
 
 use core::ops::{Add, Mul, Sub};
 
+/// An array of the values of an expression for 0 and 1. In kernels, in place of `map`: closures would be compiled for the baseline.
+macro_rules! both {
+    (|$k:pat_param| $value:expr) => {
+        [
+            {
+                let $k = 0;
+                $value
+            },
+            {
+                let $k = 1;
+                $value
+            },
+        ]
+    };
+}
+
+pub(crate) use both;
+
 /// A number of the law. Guards and choices depend on the value only.
 pub(crate) trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
     fn constant(value: f64) -> Self;
@@ -11,10 +29,7 @@ pub(crate) trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Outp
     fn chain(self, value: f64, slope: f64) -> Self;
 
     /// `self += x factor`
-    #[inline(always)]
-    fn add_scaled(&mut self, x: &Self, factor: f64) {
-        *self = *self + x.scale(factor);
-    }
+    fn add_scaled(&mut self, x: &Self, factor: f64);
 
     /// 1/x of a number that is not 0.
     #[inline(always)]
@@ -45,10 +60,7 @@ pub(crate) trait Over<A>: Real {
     fn times(self, a: A) -> Self;
 
     /// `self += x a`
-    #[inline(always)]
-    fn add_product(&mut self, x: &Self, a: A) {
-        *self = *self + x.times(a);
-    }
+    fn add_product(&mut self, x: &Self, a: A);
 }
 
 impl Real for f64 {
@@ -71,6 +83,11 @@ impl Real for f64 {
     fn chain(self, value: f64, _: f64) -> f64 {
         value
     }
+
+    #[inline(always)]
+    fn add_scaled(&mut self, x: &f64, factor: f64) {
+        *self += x * factor;
+    }
 }
 
 impl Over<f64> for f64 {
@@ -82,6 +99,11 @@ impl Over<f64> for f64 {
     #[inline(always)]
     fn times(self, a: f64) -> f64 {
         self * a
+    }
+
+    #[inline(always)]
+    fn add_product(&mut self, x: &f64, a: f64) {
+        *self += x * a;
     }
 }
 
@@ -124,6 +146,14 @@ impl<const M: usize> Real for Dual<M> {
     fn chain(self, value: f64, slope: f64) -> Self {
         Dual { slopes: slopes!(|k| self.slopes[k] * slope), value }
     }
+
+    #[inline(always)]
+    fn add_scaled(&mut self, x: &Self, factor: f64) {
+        for k in 0..M {
+            self.slopes[k] += x.slopes[k] * factor;
+        }
+        self.value += x.value * factor;
+    }
 }
 
 impl<const M: usize> Add for Dual<M> {
@@ -155,14 +185,26 @@ impl<const M: usize, const P: usize> Over<Dual<P>> for Dual<M> {
     #[inline(always)]
     fn lift(a: Dual<P>) -> Self {
         let mut dual = Self::constant(a.value);
-        dual.slopes.iter_mut().zip(a.slopes).for_each(|(slope, a)| *slope = a);
+        for k in 0..P.min(M) {
+            dual.slopes[k] = a.slopes[k];
+        }
         dual
     }
 
     #[inline(always)]
     fn times(self, a: Dual<P>) -> Self {
         let mut product = self.scale(a.value);
-        product.slopes.iter_mut().zip(a.slopes).for_each(|(slope, a)| *slope += self.value * a);
+        for k in 0..P.min(M) {
+            product.slopes[k] += self.value * a.slopes[k];
+        }
         product
+    }
+
+    #[inline(always)]
+    fn add_product(&mut self, x: &Self, a: Dual<P>) {
+        self.add_scaled(x, a.value);
+        for k in 0..P.min(M) {
+            self.slopes[k] += x.value * a.slopes[k];
+        }
     }
 }

@@ -276,7 +276,8 @@ impl Slip {
     #[inline(always)]
     fn review(&mut self, problem: Problem, done: bool) -> bool {
         let before = self.set;
-        (0..2).for_each(|k| self.relax(problem, k));
+        self.relax(problem, 0);
+        self.relax(problem, 1);
         for i in 0..=problem.trial.last.min(N - 1) {
             let (x, y) = (self.r[0][i], self.r[1][i]);
             let square = x * x + y * y;
@@ -308,7 +309,8 @@ fn find_kernel(slip: &mut Slip, trial: &Trial, compliance: &Both<Matrix>, start:
     slip.set = if slip.lost { 0 } else { slip.set };
     slip.r = trial.r;
     if !slip.lost {
-        (0..2).for_each(|k| slip.relax(problem, k));
+        slip.relax(problem, 0);
+        slip.relax(problem, 1);
     }
     slip.start = *start;
 }
@@ -344,7 +346,7 @@ fn invert(matrix: &mut Matrix, set: Set, [first, last]: [usize; 2]) {
         }
         for i in first..=last {
             let old = matrix[i];
-            let (factor, mut values) = (old[p], [0.0; N]);
+            let (factor, mut values) = (matrix[i][p], [0.0; N]);
             for j in 0..N {
                 values[j] = old[j] * others[j] - factor * row[j];
             }

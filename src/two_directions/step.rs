@@ -6,9 +6,9 @@
 //! derivatives. The fine springs have limits of their own.
 
 use super::contact::{Contact, Pressed};
-use super::scalar::{Over, Real};
+use super::scalar::{Over, Real, both};
 use super::slip::{SLIPPED, Slip};
-use super::tables::{Both, FINE, Matrix, N, Row, Rows, SHIFT, Tables, starts};
+use super::tables::{Both, FINE, FINE_STIFFNESS, MOST_PARTS, Matrix, N, Row, Rows, SHIFT, Tables, starts};
 use super::trial::{FINE_SPRING, Motion, TRACTION, Values, moved};
 use crate::shape::TINY;
 use crate::simd::dispatch;
@@ -63,7 +63,7 @@ pub(crate) fn step<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     s: &mut S,
 ) -> Both<X> {
     let (zero, start, last) = (X::constant(0.0), starts(c.under_flat), c.last.min(N - 1));
-    let rise = [0, 1].map(|k| c.now.shift[k] - motion.before[k]);
+    let rise = both!(|k| c.now.shift[k] - motion.before[k]);
     let mut force = [zero; 2];
     let mut v = [[zero; N]; 2];
     for k in 0..2 {
@@ -95,21 +95,19 @@ pub(crate) fn step<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
         }
     }
     let part = c.part.min(FINE - 1);
-    for f in 0..=part {
-        let mut v = [0, 1].map(|k| s.get(FINE_SPRING + k * FINE + f) + moved(c.limit(t, k, f), rise[k], motion.by[k]));
-        let [x, y] = [0, 1].map(|k| c.limit(t, k, f).value());
-        let (across, along, bound) = (v[0].value() * y, v[1].value() * x, x * y);
-        if across * across + along * along > bound * bound {
-            let scale = shortening(t, c, f, v);
-            v = v.map(|v| v * scale);
-        }
-        for k in 0..2 {
-            force[k].add_product(&v[k], c.fine(t, k, f));
-            s.put(FINE_SPRING + k * FINE + f, v[k]);
-        }
+    for f in 0..c.first_part {
+        let w = both!(|k| t.at(FINE_STIFFNESS + k * FINE / N, f));
+        fine_spring(t, c, motion, &rise, f, &w, s, &mut force);
+    }
+    for r in 0..=part - c.first_part.min(part) {
+        let w = both!(|k| c.fine[k][r.min(MOST_PARTS - 1)]);
+        fine_spring(t, c, motion, &rise, c.first_part + r, &w, s, &mut force);
     }
     if S::KEPT {
-        (part + 1..FINE).for_each(|f| (0..2).for_each(|k| s.put(FINE_SPRING + k * FINE + f, zero)));
+        for f in part + 1..FINE {
+            s.put(FINE_SPRING + f, zero);
+            s.put(FINE_SPRING + FINE + f, zero);
+        }
     }
     // Coulomb's bound.
     let bound = c.now.load;
@@ -117,15 +115,41 @@ pub(crate) fn step<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     if square.value() > bound.value() * bound.value() {
         let per_bound = bound.inverse();
         let scale = square.times(per_bound * per_bound).shortening();
-        force = force.map(|force| force * scale);
+        force = both!(|k| force[k] * scale);
     }
     force
+}
+
+/// A step of a fine spring, whose force is added.
+#[inline(always)]
+#[expect(clippy::too_many_arguments, reason = "parts of one step")]
+fn fine_spring<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
+    t: &T,
+    c: &Contact<A>,
+    motion: &Motion<A, X>,
+    rise: &Both<A>,
+    f: usize,
+    w: &Both<A>,
+    s: &mut S,
+    force: &mut Both<X>,
+) {
+    let mut v = both!(|k| s.get(FINE_SPRING + k * FINE + f) + moved(c.limit(t, k, f), rise[k], motion.by[k]));
+    let [x, y] = both!(|k| c.limit(t, k, f).value());
+    let (across, along, bound) = (v[0].value() * y, v[1].value() * x, x * y);
+    if across * across + along * along > bound * bound {
+        let scale = shortening(t, c, f, v);
+        v = both!(|k| v[k] * scale);
+    }
+    for k in 0..2 {
+        force[k].add_product(&v[k], w[k]);
+        s.put(FINE_SPRING + k * FINE + f, v[k]);
+    }
 }
 
 /// The factor that returns a spring to its limit, 1 within.
 #[inline(always)]
 fn shortening<A: Real, X: Over<A>>(t: &impl Tables<A>, c: &Contact<A>, f: usize, v: Both<X>) -> X {
-    let [x, y] = [0, 1].map(|k| v[k].times(c.limit(t, k, f).inverse()));
+    let [x, y] = both!(|k| v[k].times(c.limit(t, k, f).inverse()));
     (x * x + y * y).shortening()
 }
 
@@ -162,14 +186,18 @@ fn slide<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     let start = starts(c.under_flat);
     let mut sigma = [[zero; N]; 2];
     // r0, and β of the trial state without the cosine.
-    let r =
-        [0, 1].map(|k| core::array::from_fn::<X, N, _>(|i| if i < first { zero } else { s.get(TRACTION + k * N + i) }));
+    let mut r = [[zero; N]; 2];
+    for k in 0..2 {
+        for i in first..=last {
+            r[k][i] = s.get(TRACTION + k * N + i);
+        }
+    }
     let mut bend = [zero; N];
     for i in first..=last {
         let u = (r[0][i] * r[0][i] + r[1][i] * r[1][i]).scale(2.0) - X::constant(1.0);
         if slip.contains(i) && slip.bends && u.value() > 0.0 {
             bend[i] = u * u;
-            let [x, y] = [0, 1].map(|k| v[k][i].times(c.limit(t, k, start[i]).inverse()));
+            let [x, y] = both!(|k| v[k][i].times(c.limit(t, k, start[i]).inverse()));
             let square = x * x + y * y;
             if square.value() > 1.0 {
                 let length = square * square.shortening();
@@ -311,7 +339,7 @@ fn dissipated(
     slip: &Slip,
     [old, new]: [&Values; 2],
 ) -> f64 {
-    let rise = [0, 1].map(|k| c.now.shift[k] - motion.before[k]);
+    let rise = both!(|k| c.now.shift[k] - motion.before[k]);
     let mut energy = if rise[0] < 0.0 { separated(t, from, &c.now, motion.by, old) } else { 0.0 };
     let start = starts(c.under_flat);
     if slip.set != 0 || slip.lost {
@@ -320,18 +348,18 @@ fn dissipated(
             let along = slip.e[0][j] * r_x + slip.e[1][j] * r_y;
             let u = 2.0 * (r_x * r_x + r_y * r_y) - 1.0;
             let bends = slip.contains(j) && slip.bends && u > 0.0 && along > 0.0;
-            let w = [0, 1].map(|k| c.stiffness(&t, k, j));
-            let places = [old, new].map(|springs| [springs[0][j], springs[1][j]]);
+            let w = both!(|k| c.stiffness(&t, k, j));
+            let places = [[old[0][j], old[1][j]], [new[0][j], new[1][j]]];
             energy += slipped(t, c, start[j], w, places, motion, if bends { u * u * along } else { 0.0 });
         }
     }
     // The shell at the edge of a constant load has no resolution but these.
     if motion.constant_load {
-        let at = |springs: &Values, f: usize| [0, 1].map(|k| springs.as_flattened()[FINE_SPRING + k * FINE + f]);
+        let at = |springs: &Values, f: usize| both!(|k| springs.as_flattened()[FINE_SPRING + k * FINE + f]);
         for f in c.first_part..=c.part.min(FINE - 1) {
-            let [x, y] = [0, 1].map(|k| at(new, f)[k] / c.limit(&t, k, f));
+            let [x, y] = both!(|k| at(new, f)[k] / c.limit(&t, k, f));
             if x * x + y * y > SLIPPED {
-                let w = [0, 1].map(|k| c.fine(&t, k, f));
+                let w = both!(|k| c.fine(&t, k, f));
                 energy += slipped(t, c, f, w, [at(old, f), at(new, f)], motion, 0.0);
             }
         }
@@ -354,9 +382,9 @@ fn slipped(
     motion: &Motion<f64, f64>,
     bend: f64,
 ) -> f64 {
-    let limit = [0, 1].map(|k| c.limit(&t, k, f));
-    let per_limit = limit.map(|limit| 1.0 / if limit > LEAST_LIMIT { limit } else { LEAST_LIMIT });
-    let trial = [0, 1].map(|k| old[k] + moved(limit[k], c.now.shift[k] - motion.before[k], motion.by[k]));
+    let limit = both!(|k| c.limit(&t, k, f));
+    let per_limit = both!(|k| 1.0 / if limit[k] > LEAST_LIMIT { limit[k] } else { LEAST_LIMIT });
+    let trial = both!(|k| old[k] + moved(limit[k], c.now.shift[k] - motion.before[k], motion.by[k]));
     let before = motion.before[0] - Tables::<f64>::at(&t, SHIFT, f);
     let ratio: f64 = if before > 0.0 { before * per_limit[0] } else { 0.0 };
     let (x, y) = (old[0] * per_limit[0], old[1] * per_limit[1]);
@@ -374,7 +402,7 @@ fn slipped(
 /// part `limit/fall` of the motion, to nothing.
 pub(crate) fn separated(t: &Rows, from: &Contact<f64>, now: &Pressed<f64>, by: Both<f64>, old: &Values) -> f64 {
     let (start, mut energy) = (starts(from.under_flat), 0.0);
-    let fall = [0, 1].map(|k| from.now.shift[k] - now.shift[k]);
+    let fall = both!(|k| from.now.shift[k] - now.shift[k]);
     for j in 0..=from.last.min(N - 1) {
         let at_node: f64 = t.at(SHIFT, start[j]);
         if now.load > 0.0 && at_node < now.shift[0] {

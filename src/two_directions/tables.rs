@@ -288,8 +288,13 @@ pub(crate) fn fill(rows: &mut Rows, element: &Element, units: &Units, reference:
 /// `sqrt(upper - point) - sqrt(lower - point)`, the second one 0 if negative, free of cancellation.
 #[inline(always)]
 pub(crate) fn root_difference<A: Real>(upper: A, lower: A, point: A) -> A {
-    let at_least_tiny = |x: A| if x.value() > TINY { x } else { A::constant(TINY) };
     let (high, low) = (upper - point, lower - point);
-    let root = at_least_tiny(high).sqrt();
-    if low.value() > 0.0 { (upper - lower) * (root + at_least_tiny(low).sqrt()).inverse() } else { root }
+    let root = root_of(high);
+    if low.value() > 0.0 { (upper - lower) * (root + root_of(low)).inverse() } else { root }
+}
+
+/// The root of a number that is at least tiny.
+#[inline(always)]
+fn root_of<A: Real>(x: A) -> A {
+    if x.value() > TINY { x } else { A::constant(TINY) }.sqrt()
 }
