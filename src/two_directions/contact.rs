@@ -208,6 +208,12 @@ impl<A: Real> Contact<A> {
         }
     }
 
+    /// Stiffness of all springs together: the secant at the edge.
+    #[inline(always)]
+    pub fn total(&self, t: &impl Tables<A>, k: usize) -> A {
+        (self.now.load - t.at(LOAD, self.part)) * self.limit(t, k, self.part).inverse()
+    }
+
     /// S_b - S of the first size that a fine spring carries.
     #[inline(always)]
     pub fn limit(&self, t: &impl Tables<A>, k: usize, f: usize) -> A {

@@ -15,9 +15,9 @@ use super::contact::{Contact, Pressed, derive};
 use super::path::Path;
 use super::scalar::Dual;
 use super::slip::Slip;
-use super::step::{Springs, advance, separated, step};
+use super::step::{advance, separated, step};
 use super::tables::{ALIGNMENT, Both, END, N, PARAMETERS, ROWS, Rows, START, Units, fill, under_flat};
-use super::trial::{Motion, SPRINGS, Values, tractions, trial};
+use super::trial::{Motion, SPRINGS, Springs, Values, trial};
 use crate::element::{Element, Normal};
 use crate::error::Error;
 use crate::fourier::workspace::{HEADER, Parts, Size, WorkspaceLayout, padded};
@@ -282,9 +282,10 @@ impl Walk<'_> {
         let motion = path.motion(&from, &self.contact, same);
         let trial = trial(self.tables[0], &self.contact, &motion, &old);
         if trial.sticks {
-            self.slip.stick(&trial, tractions(&old));
+            self.slip.stick(&trial, &old);
         } else {
-            self.slip.find(&trial, &self.compliance, tractions(&old), requested.tangent);
+            let (tables, compliance) = (self.tables[0], &self.compliance);
+            self.slip.find(tables, &self.contact, compliance, &motion, &trial, &old, requested.tangent);
         }
         let contacts = [&from, &self.contact];
         let (force, dissipated) =

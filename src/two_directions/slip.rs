@@ -1,12 +1,14 @@
-//! Coulomb's law at the points: `r = r* - A σ` with |r| <= 1 and σ = 0, or |r| = 1 and σ parallel to `n = r + β r0`.
+//! Coulomb's law at the points: `r = r* - A σ` with |r| <= 1 and σ = 0, or |r| = 1 and σ parallel to r.
 //!
-//! r* is the traction of the trial state, in which all springs stick, r0 that at the start of the step, and σ the slip. β turns the
-//! direction of slip to its mean over the step: `β = u² (r·r0)/(1 + τ/3)`, `u = 2|r0|² - 1` (0 if negative), with the excess τ of the trial
-//! state of the spring over its own limit. With K the inverse of A among the points that slip, `σ = K (r* - r)`, and the residual is
-//! `n × σ`: Newton's method for the angles of r.
+//! r* is the traction of the trial state, from which the predicted part of the slip is released, and σ the slip: the minimum of the strictly
+//! convex `σ'Aσ/2 - σ·r* + Σ|σ_i|`. There is one solution, which depends continuously on r*. With K the inverse of A among the points that
+//! slip, `σ = K (r* - r)`, and the residual is `r × σ`: Newton's method for the angles of r. Sweeps of the points, each to its own minimum,
+//! find the points that slip if Newton's method does not.
 
-use super::tables::{Both, Matrix, N, Row};
-use super::trial::{ROUNDING, Trial};
+use super::contact::Contact;
+use super::predict::{predict, release};
+use super::tables::{Both, Matrix, N, Row, Rows};
+use super::trial::{Motion, ROUNDING, Trial, Values, tractions};
 use crate::shape::TINY;
 use crate::simd::dispatch;
 
@@ -23,6 +25,9 @@ const RENEWED: f64 = 1e-2;
 const LARGEST_TURN: f64 = 0.8;
 /// Beyond this a guess is lost.
 const LOST: f64 = 1e4;
+/// Sweeps of the points before Newton's method is tried again, at first, and the most: the first ones have always been enough.
+const SWEEPS: usize = 30;
+const MOST_SWEEPS: usize = 100_000;
 /// Newton steps after which points that slip backwards stick: the angle of a point that hardly slips is undetermined.
 const REVIEW: usize = 15;
 /// Excess of |r|² from which on a point slips, and slip against the traction, over its scale, from which on it sticks: rounding errors.
@@ -38,21 +43,19 @@ const TURNS_BACK: f64 = -0.6;
 /// Points that slip in a step, and what its derivatives need.
 #[repr(align(32))]
 pub(crate) struct Slip {
-    /// The points; none if no solution was found.
+    /// The points, and those of which a part of the slip is predicted, with its share.
     pub set: Set,
+    pub predicted: Set,
+    pub shares: Row<f64>,
     /// r and σ of points that slip.
     pub e: Both<Row<f64>>,
     pub sigma: Both<Row<f64>>,
     /// K, and the inverse of the derivative of the residual by the angles as `[m][i]`.
     pub k: Both<Matrix>,
     pub inverse: Matrix,
-    /// r of points that stick, r at the start of the step before, and τ.
+    /// r of points that stick, and r at the start of the step before.
     pub r: Both<Row<f64>>,
     pub start: Both<Row<f64>>,
-    pub over: Row<f64>,
-    pub bends: bool,
-    /// Whether each spring returns to its own limit, as no solution was found.
-    pub lost: bool,
     /// The points and the load of K.
     known: (Set, f64),
 }
@@ -62,29 +65,28 @@ pub(crate) struct Slip {
 struct Guess {
     e: Both<Row<f64>>,
     set: Set,
-    bends: bool,
 }
 
 /// What a solution starts from.
 #[derive(Clone, Copy)]
 struct Problem<'a> {
-    trial: &'a Trial,
+    r: Both<Row<f64>>,
     compliance: &'a Both<Matrix>,
-    start: &'a Both<Row<f64>>,
+    last: usize,
+    load: f64,
 }
 
 impl Slip {
     pub const NONE: Slip = Slip {
         set: 0,
+        predicted: 0,
+        shares: [0.0; N],
         e: [[0.0; N]; 2],
         sigma: [[0.0; N]; 2],
         k: [[[0.0; N]; N]; 2],
         inverse: [[0.0; N]; N],
         r: [[0.0; N]; 2],
         start: [[0.0; N]; 2],
-        over: [0.0; N],
-        bends: true,
-        lost: false,
         known: (0, 0.0),
     };
 
@@ -93,25 +95,37 @@ impl Slip {
         self.set >> i & 1 == 1
     }
 
-    /// The slip of a step, from r at its start.
-    pub fn find(&mut self, trial: &Trial, compliance: &Both<Matrix>, start: &Both<Row<f64>>, derivatives: bool) {
+    /// The slip of a step whose trial state does not stick, from the springs at its start. The inverse of the derivatives is computed if they
+    /// are requested.
+    #[expect(clippy::too_many_arguments, reason = "parts of one step")]
+    pub fn find(
+        &mut self,
+        t: &Rows,
+        contact: &Contact<f64>,
+        compliance: &Both<Matrix>,
+        motion: &Motion<f64, f64>,
+        trial: &Trial,
+        old: &Values,
+        derivatives: bool,
+    ) {
         let slip = self;
         dispatch!(
             find_kernel,
-            slip: &mut Slip, trial: &Trial, compliance: &Both<Matrix>, start: &Both<Row<f64>>, derivatives: bool => ()
+            slip: &mut Slip, t: &Rows, contact: &Contact<f64>, compliance: &Both<Matrix>, motion: &Motion<f64, f64>,
+            trial: &Trial, old: &Values, derivatives: bool => ()
         );
     }
 
     /// A step without slip.
-    pub fn stick(&mut self, trial: &Trial, start: &Both<Row<f64>>) {
-        (self.set, self.lost, self.r, self.start) = (0, false, trial.r, *start);
+    pub fn stick(&mut self, trial: &Trial, old: &Values) {
+        (self.set, self.predicted, self.r, self.start) = (0, 0, trial.r, [old[2], old[3]]);
     }
 
     /// r of all points, from σ.
     #[inline(always)]
-    fn relax(&mut self, Problem { trial, compliance, .. }: Problem, k: usize) {
-        let mut r = trial.r[k];
-        for m in 0..=trial.last.min(N - 1) {
+    fn relax(&mut self, Problem { r, compliance, last, .. }: &Problem, k: usize) {
+        let mut r = r[k];
+        for m in 0..=(*last).min(N - 1) {
             if self.contains(m) {
                 let sigma = self.sigma[k][m];
                 for i in 0..N {
@@ -122,11 +136,12 @@ impl Slip {
         self.r[k] = r;
     }
 
-    /// A contact that slips on hardly turns; otherwise slip begins from the trial state. If neither converges, slip without β does.
+    /// A contact that slips on hardly turns; otherwise slip begins from the trial state.
     #[inline(always)]
-    fn guesses(&mut self, Problem { trial, start, .. }: Problem) -> [Guess; 3] {
-        let Trial { r, over_limit, by, last, .. } = trial;
-        let (mut e, mut from_trial, mut continues, mut beyond) = (*r, *r, [0.0; N], [0.0; N]);
+    fn guesses(&self, trial: &Trial, start: &Both<Row<f64>>, by: &Both<f64>, last: usize) -> [Guess; 2] {
+        let Trial { r, over_limit, .. } = trial;
+        let (mut e, mut from_trial, mut continues) = (*r, *r, [0.0; N]);
+        let (mut beyond, mut over) = ([0.0; N], [0.0; N]);
         let backwards = TURNS_BACK * (by[0] * by[0] + by[1] * by[1]).sqrt();
         for i in 0..N {
             let square = r[0][i] * r[0][i] + r[1][i] * r[1][i];
@@ -134,11 +149,11 @@ impl Slip {
             let (x, y) = (over_limit[0][i], over_limit[1][i]);
             let of_spring = x * x + y * y;
             let outside = of_spring > 1.0;
+            over[i] = if outside { 1.0 } else { 0.0 };
             let (x, y) = if outside { (x, y) } else { (r[0][i], r[1][i]) };
             let square = if outside { of_spring } else { square };
             let length = (if square > TINY { square } else { TINY }).sqrt();
             let (x, y) = (x / length, y / length);
-            self.over[i] = if outside { length - 1.0 } else { 0.0 };
             (from_trial[0][i], from_trial[1][i]) = (x, y);
             let (r_x, r_y) = (start[0][i], start[1][i]);
             let slipped = r_x * r_x + r_y * r_y > SLIPPED;
@@ -146,8 +161,7 @@ impl Slip {
             // A point that slipped in the step before as well turns on.
             let (b_x, b_y) = (self.start[0][i], self.start[1][i]);
             let (cos, sin) = (b_x * r_x + b_y * r_y, b_x * r_y - b_y * r_x);
-            let square = cos * cos + sin * sin;
-            let turns = slipped && cos > NEAR && square > SLIPPED;
+            let turns = slipped && cos > NEAR && cos * cos + sin * sin > SLIPPED;
             let (cos, sin) = if turns { (cos, sin) } else { (1.0, 0.0) };
             let (on_x, on_y) = (cos * r_x - sin * r_y, cos * r_y + sin * r_x);
             let square = on_x * on_x + on_y * on_y;
@@ -156,28 +170,21 @@ impl Slip {
             continues[i] = if slipped && r_x * by[0] + r_y * by[1] >= backwards { 1.0 } else { 0.0 };
         }
         let (mut set, mut outside) = (0, 0);
-        for i in (0..=(*last).min(N - 1)).rev() {
+        for i in (0..=last.min(N - 1)).rev() {
             outside |= Set::from(beyond[i] > 0.0) << i;
             // A point that slipped before continues if the next one outside does.
             let outer = set >> (i + 1) & 1 == 1;
-            set |= Set::from(beyond[i] > 0.0 || self.over[i] > 0.0 || (continues[i] > 0.0 && outer)) << i;
+            set |= Set::from(beyond[i] > 0.0 || over[i] > 0.0 || (continues[i] > 0.0 && outer)) << i;
         }
-        let of_trial = Guess { e: from_trial, set: outside, bends: true };
-        [Guess { e, set, bends: true }, of_trial, Guess { bends: false, ..of_trial }]
+        [Guess { e, set }, Guess { e: from_trial, set: outside }]
     }
 
     /// Newton's method from a guess; whether it converged. The inverse at the end is computed if derivatives are requested.
     #[inline(always)]
-    fn solve(&mut self, problem: Problem, guess: &Guess, derivatives: bool) -> bool {
-        let Problem { trial: Trial { r: r_trial, last, load, .. }, compliance, start } = problem;
+    fn solve(&mut self, problem: &Problem, guess: &Guess, derivatives: bool) -> bool {
+        let Problem { r: r_trial, compliance, last, load } = problem;
         let last = (*last).min(N - 1);
-        (self.set, self.e, self.bends) = (guess.set, guess.e, guess.bends);
-        let mut factor = [0.0; N];
-        for i in 0..N {
-            let u = 2.0 * (start[0][i] * start[0][i] + start[1][i] * start[1][i]) - 1.0;
-            let u = if guess.bends && u > 0.0 { u } else { 0.0 };
-            factor[i] = u * u / (1.0 + self.over[i] * (1.0 / 3.0));
-        }
+        (self.set, self.e) = (guess.set, guess.e);
         let mut steps = 0;
         'sets: for _ in 0..CHANGES {
             let set = self.set;
@@ -208,16 +215,11 @@ impl Slip {
                         self.sigma[k][i] = slips[i] * (constant[k][i] - own[i]);
                     }
                 }
-                let (mut residual, mut diagonal, mut n) = ([0.0; N], [0.0; N], [[0.0; N]; 2]);
+                let (mut residual, mut diagonal) = ([0.0; N], [0.0; N]);
                 let ([e_x, e_y], [s_x, s_y]) = (self.e, self.sigma);
                 for i in 0..N {
-                    let (x, y, r_x, r_y) = (e_x[i], e_y[i], start[0][i], start[1][i]);
-                    let along = x * r_x + y * r_y;
-                    let f = if along > 0.0 { factor[i] } else { 0.0 };
-                    let (beta, slope) = (f * along, f * (x * r_y - y * r_x));
-                    (n[0][i], n[1][i]) = (x + beta * r_x, y + beta * r_y);
-                    residual[i] = n[0][i] * s_y[i] - n[1][i] * s_x[i];
-                    diagonal[i] = s_x[i] * (slope * r_y + x) - s_y[i] * (slope * r_x - y);
+                    residual[i] = e_x[i] * s_y[i] - e_y[i] * s_x[i];
+                    diagonal[i] = e_x[i] * s_x[i] + e_y[i] * s_y[i];
                 }
                 if done || (turn <= 0.1 && !reviewed) {
                     reviewed = true;
@@ -230,7 +232,7 @@ impl Slip {
                         for i in 0..N {
                             let own = if i == m { diagonal[i] } else { 0.0 };
                             let (k_x, k_y) = (self.k[0][m][i], self.k[1][m][i]);
-                            self.inverse[m][i] = slips[i] * (n[0][i] * e_x[m] * k_y + n[1][i] * e_y[m] * k_x + own);
+                            self.inverse[m][i] = slips[i] * (e_x[i] * e_x[m] * k_y + e_y[i] * e_y[m] * k_x + own);
                         }
                     }
                     invert(&mut self.inverse, set, [first, last]);
@@ -272,13 +274,50 @@ impl Slip {
         false
     }
 
+    /// From sweeps of the points.
+    #[cold]
+    #[inline(never)]
+    fn descend(&mut self, problem: &Problem, derivatives: bool) {
+        let Problem { r, compliance, last, .. } = problem;
+        let (mut guess, mut sigma, mut sweeps, mut r) = (Guess { e: *r, set: 0 }, [[0.0; N]; 2], 0, *r);
+        while sweeps < MOST_SWEEPS {
+            for _ in 0..sweeps.max(SWEEPS) {
+                for i in (0..=(*last).min(N - 1)).rev() {
+                    let a = [compliance[0][i][i], compliance[1][i][i]];
+                    let g = [r[0][i] + a[0] * sigma[0][i], r[1][i] + a[1] * sigma[1][i]];
+                    guess.set &= !(1 << i);
+                    let mut size = 0.0;
+                    if g[0] * g[0] + g[1] * g[1] > 1.0 {
+                        size = own_slip(g, a);
+                        guess.set |= 1 << i;
+                        let e = [g[0] / (1.0 + a[0] * size), g[1] / (1.0 + a[1] * size)];
+                        let length = (e[0] * e[0] + e[1] * e[1]).sqrt();
+                        (guess.e[0][i], guess.e[1][i]) = (e[0] / length, e[1] / length);
+                    }
+                    for k in 0..2 {
+                        let now = size * g[k] / (1.0 + a[k] * size);
+                        let change = now - sigma[k][i];
+                        sigma[k][i] = now;
+                        for m in 0..N {
+                            r[k][m] -= compliance[k][i][m] * change;
+                        }
+                    }
+                }
+            }
+            if self.solve(problem, &guess, derivatives) {
+                return;
+            }
+            sweeps = 4 * sweeps.max(SWEEPS);
+        }
+    }
+
     /// Points beyond the limit slip; at the end of an iteration, those whose slip is against the traction stick. Whether any has changed.
     #[inline(always)]
-    fn review(&mut self, problem: Problem, done: bool) -> bool {
+    fn review(&mut self, problem: &Problem, done: bool) -> bool {
         let before = self.set;
         self.relax(problem, 0);
         self.relax(problem, 1);
-        for i in 0..=problem.trial.last.min(N - 1) {
+        for i in 0..=problem.last.min(N - 1) {
             let (x, y) = (self.r[0][i], self.r[1][i]);
             let square = x * x + y * y;
             if before >> i & 1 == 1 {
@@ -296,23 +335,45 @@ impl Slip {
 }
 
 #[inline(always)]
-fn find_kernel(slip: &mut Slip, trial: &Trial, compliance: &Both<Matrix>, start: &Both<Row<f64>>, derivatives: bool) {
-    let problem = Problem { trial, compliance, start };
-    let guesses = slip.guesses(problem);
-    slip.lost = true;
-    for guess in guesses {
-        if slip.solve(problem, &guess, derivatives) {
-            slip.lost = false;
-            break;
+#[expect(clippy::too_many_arguments, reason = "parts of one step")]
+fn find_kernel(
+    slip: &mut Slip,
+    t: &Rows,
+    contact: &Contact<f64>,
+    compliance: &Both<Matrix>,
+    motion: &Motion<f64, f64>,
+    trial: &Trial,
+    old: &Values,
+    derivatives: bool,
+) {
+    let start = [old[2], old[3]];
+    let guesses = slip.guesses(trial, &start, &motion.by, contact.last);
+    let predicted = predict(&t, contact, motion, &old, &trial.v, &mut slip.shares);
+    slip.predicted = 0;
+    for i in 0..N {
+        slip.predicted |= Set::from(slip.shares[i] > 0.0) << i;
+    }
+    let mut problem = Problem { r: trial.r, compliance, last: contact.last, load: contact.now.load };
+    if slip.predicted != 0 {
+        for k in 0..2 {
+            let (mut released, mut v) = (trial.v[k], [0.0; N + 1]);
+            release(&t, contact, k, &predicted[k], slip.predicted, &mut released);
+            for j in 0..N {
+                v[j] = released[j];
+            }
+            problem.r[k] = tractions(t, contact, k, &v);
         }
     }
-    slip.set = if slip.lost { 0 } else { slip.set };
-    slip.r = trial.r;
-    if !slip.lost {
-        slip.relax(problem, 0);
-        slip.relax(problem, 1);
+    let mut converged = false;
+    for guess in &guesses {
+        converged = converged || slip.solve(&problem, guess, derivatives);
     }
-    slip.start = *start;
+    if !converged {
+        slip.descend(&problem, derivatives);
+    }
+    slip.relax(&problem, 0);
+    slip.relax(&problem, 1);
+    slip.start = start;
 }
 
 /// Σ x_m matrix[m][i] over the points of a set.
@@ -354,4 +415,21 @@ fn invert(matrix: &mut Matrix, set: Set, [first, last]: [usize; 2]) {
         }
         matrix[p] = row;
     }
+}
+
+/// |σ| of a point on its own, whose traction without slip is g: the root of `Σ (g/(1 + a |σ|))² = 1`, of which the inverse root is concave and
+/// rises.
+fn own_slip(g: Both<f64>, a: Both<f64>) -> f64 {
+    let mut size = 0.0;
+    for _ in 0..40 {
+        let d = [1.0 / (1.0 + a[0] * size), 1.0 / (1.0 + a[1] * size)];
+        let q = [g[0] * g[0] * d[0] * d[0], g[1] * g[1] * d[1] * d[1]];
+        let (square, slope) = (q[0] + q[1], q[0] * a[0] * d[0] + q[1] * a[1] * d[1]);
+        let by = (square.sqrt() - 1.0) * square / slope.max(TINY);
+        size += by;
+        if by.abs() <= 1e-14 * size {
+            break;
+        }
+    }
+    size
 }

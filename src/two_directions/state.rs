@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! [tag, v, u, normal component, key of the element, units of the springs (3), springs under the flat, last shell and part,
-//!  N, N, S, w² of the present size in the units of the springs (4), stiffnesses at the edge (2) | rows of the edge | compliance | springs
+//!  N, N, S, w² of the present size in the units of the springs (4), stiffnesses at the edge (2), force of the springs (2) | rows of the edge | compliance | springs
 //!  | tables]
 //! ```
 //!
@@ -15,8 +15,9 @@ use super::path::{LONGEST, Path};
 use super::scalar::Dual;
 use super::slip::Slip;
 use super::step::{advance, separated, step};
+use super::stick;
 use super::tables::{Both, END, FINE, MOST_PARTS, Matrix, N, ROWS, Row, Rows, Units, fill, starts, under_flat};
-use super::trial::{FINE_SPRING, Motion, SPRINGS, TRACTION, Values, tractions, trial};
+use super::trial::{FINE_SPRING, Motion, SPRINGS, TRACTION, Values, trial};
 use super::{Requested, Step};
 use crate::element::{Element, Normal};
 use crate::error::Error;
@@ -89,14 +90,14 @@ pub fn state_check(state: &[f64]) -> Result<(), Error> {
     if header.normal_force == 0.0 {
         return Ok(());
     }
-    let [x, y] = tractions(memory.springs);
+    let (x, y) = (memory.springs[2], memory.springs[3]);
     let bounded = |x: f64, y: f64| x.abs() <= 2.0 && y.abs() <= 2.0 && x * x + y * y <= 1.0 + 1e-9;
     let Units { load, shift, size } = header.units;
     let positive =
         [header.normal_force, load, shift, size, contact.now.load, contact.now.shift[0], contact.now.shift[1]];
     let held = memory.springs.as_flattened().iter().all(|value| value.abs() <= LONGEST);
     let edge = contact.edge.as_flattened().iter().chain(&contact.per_pressure).all(|value| *value >= 0.0);
-    let within = x.iter().zip(y).all(|(x, y)| bounded(*x, *y)) && positive.iter().all(|value| *value > 0.0);
+    let within = x.iter().zip(y).all(|(x, y)| bounded(*x, y)) && positive.iter().all(|value| *value > 0.0);
     if within && held && edge { Ok(()) } else { Err(Error::BadState) }
 }
 
@@ -116,6 +117,8 @@ struct Header {
     /// Of the element whose tables these are.
     key: f64,
     units: Units,
+    /// Of the springs, in their units.
+    force: Both<f64>,
 }
 
 /// The parts of a state.
@@ -142,7 +145,7 @@ impl Memory<'_> {
     fn read(&self) -> (Header, Contact<f64>) {
         let [
             [_, v, u, input, key, unit_load, unit_shift, unit_size, flat, last, part, normal_force],
-            [load, x, y, size, w_x, w_y, ..],
+            [load, x, y, size, w_x, w_y, force_x, force_y, ..],
         ] = *self.header;
         let [edge_x, edge_y, per_pressure, fine_x, fine_y] = &*self.edge;
         let under_flat = if flat > 0.0 { 2 } else { 0 };
@@ -162,12 +165,12 @@ impl Memory<'_> {
             under_flat,
         };
         let units = Units { load: unit_load, shift: unit_shift, size: unit_size };
-        (Header { displacement: [u, v, input], normal_force, key, units }, contact)
+        (Header { displacement: [u, v, input], normal_force, key, units, force: [force_x, force_y] }, contact)
     }
 
     #[inline(always)]
     fn write(&mut self, header: &Header, contact: &Contact<f64>) {
-        let Header { displacement: [u, v, input], normal_force, key, units } = *header;
+        let Header { displacement: [u, v, input], normal_force, key, units, force } = *header;
         let Units { load, shift, size } = units;
         let [flat, last, part] = [contact.under_flat, contact.last, contact.part].map(|count| count as f64);
         let tag = Kind::TwoDirectionsState.tag(0);
@@ -175,7 +178,7 @@ impl Memory<'_> {
         let [w_x, w_y] = contact.stiffness;
         *self.header = [
             [tag, v, u, input, key, load, shift, size, flat, last, part, normal_force],
-            [now, x, y, area, w_x, w_y, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+            [now, x, y, area, w_x, w_y, force[0], force[1], 0.0, 0.0, 0.0, 0.0],
         ];
         let [edge_x, edge_y, per_pressure, fine_x, fine_y] = &mut *self.edge;
         (*edge_x, *edge_y, *per_pressure) = (contact.edge[0], contact.edge[1], contact.per_pressure);
@@ -194,6 +197,23 @@ impl Memory<'_> {
         }
         let tag = Kind::TwoDirectionsState.tag(0);
         [self.header[0][0], self.header[0][1], self.header[0][2], self.header[0][3]] = [tag, v, u, input];
+    }
+
+    /// A step to a displacement under the same load, unless something slips.
+    fn stick(&mut self, contact: &Contact<f64>, path: &Path, header: &mut Header) -> bool {
+        let force = [0, 1].map(|k| header.force[k] + path.by[k] * contact.total(&&*self.tables, k));
+        let bound = contact.now.load * contact.now.load;
+        if path.scale > 1.0 || force[0] * force[0] + force[1] * force[1] > bound {
+            return false;
+        }
+        header.force = force;
+        stick::stick(self.tables, contact, &path.by, self.springs)
+    }
+
+    /// The place of a state in which nothing slipped.
+    fn move_to(&mut self, [u, v, _]: [f64; 3], force: &Both<f64>) {
+        let [[_, v_place, u_place, ..], [_, _, _, _, _, _, x, y, ..]] = &mut *self.header;
+        (*v_place, *u_place, *x, *y) = (v, u, force[0], force[1]);
     }
 
     /// Aligns the springs with a load. Those of another element are relaxed.
@@ -322,6 +342,17 @@ pub(super) fn advance_state(element: &Element, state: &mut [f64], to: [f64; 3], 
             contact = Contact::press(memory.tables, &now, from.under_flat, memory.compliance);
         }
     }
+    if same && memory.stick(&contact, &path, &mut header) {
+        result.force = [force_unit * header.force[0], force_unit * header.force[1], normal.load];
+        if requested.tangent {
+            let [stiffness, by_normal] = stick::tangent(memory.tables, &contact, &slopes, memory.springs);
+            let [x, y] = stiffness.map(|stiffness| force_unit * path.per_distance * stiffness);
+            let [w_x, w_y] = by_normal.map(|slope| force_unit * slope);
+            result.tangent = [x, 0.0, 0.0, 0.0, y, 0.0, w_x, w_y, normal.load_slope];
+        }
+        memory.move_to(to, &header.force);
+        return result;
+    }
     let motion = path.motion(&from, &contact, same);
     let trial = trial(memory.tables, &contact, &motion, memory.springs);
     let mut found;
@@ -329,7 +360,8 @@ pub(super) fn advance_state(element: &Element, state: &mut [f64], to: [f64; 3], 
         &Slip::NONE
     } else {
         found = Slip::NONE;
-        found.find(&trial, memory.compliance, tractions(memory.springs), requested.tangent);
+        let (tables, springs) = (&*memory.tables, &*memory.springs);
+        found.find(tables, &contact, memory.compliance, &motion, &trial, springs, requested.tangent);
         &found
     };
     if requested.tangent {
@@ -351,7 +383,7 @@ pub(super) fn advance_state(element: &Element, state: &mut [f64], to: [f64; 3], 
     let (force, energy) = advance(memory.tables, contacts, &motion, slip, r, requested.energy, memory.springs);
     result.force = [force_unit * force[0], force_unit * force[1], normal.load];
     result.dissipated = energy_unit * energy;
-    let header = Header { displacement: to, normal_force: normal.load, ..header };
+    let header = Header { displacement: to, normal_force: normal.load, force, ..header };
     memory.write(&header, &contact);
     result
 }

@@ -6,52 +6,13 @@
 //! derivatives. The fine springs have limits of their own.
 
 use super::contact::{Contact, Pressed};
+use super::predict::{predict, release};
 use super::scalar::{Over, Real, both};
 use super::slip::{SLIPPED, Slip};
 use super::tables::{Both, FINE, FINE_STIFFNESS, MOST_PARTS, Matrix, N, Row, Rows, SHIFT, Tables, starts};
-use super::trial::{FINE_SPRING, Motion, TRACTION, Values, moved};
+use super::trial::{FINE_SPRING, Motion, Springs, TRACTION, Values, moved};
 use crate::shape::TINY;
 use crate::simd::dispatch;
-
-/// Springs as numbers of a kind.
-pub(crate) trait Springs<X> {
-    /// Whether the springs are kept, and r of points that stick: with values, the trial state gives it.
-    const KEPT: bool;
-    const TRACTIONS: bool;
-    fn get(&self, place: usize) -> X;
-    fn put(&mut self, place: usize, x: X);
-}
-
-/// Before a step, without derivatives.
-impl<X: Real> Springs<X> for &Values {
-    const KEPT: bool = false;
-    const TRACTIONS: bool = false;
-
-    #[inline(always)]
-    fn get(&self, place: usize) -> X {
-        X::constant(self.as_flattened().get(place).copied().unwrap_or(0.0))
-    }
-
-    #[inline(always)]
-    fn put(&mut self, _: usize, _: X) {}
-}
-
-impl Springs<f64> for &mut Values {
-    const KEPT: bool = true;
-    const TRACTIONS: bool = false;
-
-    #[inline(always)]
-    fn get(&self, place: usize) -> f64 {
-        self.as_flattened().get(place).copied().unwrap_or(0.0)
-    }
-
-    #[inline(always)]
-    fn put(&mut self, place: usize, x: f64) {
-        if let Some(there) = self.as_flattened_mut().get_mut(place) {
-            *there = x;
-        }
-    }
-}
 
 /// Advances the springs by a step whose slip is known; the force.
 #[inline(always)]
@@ -71,13 +32,12 @@ pub(crate) fn step<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
             v[k][j] = s.get(k * N + j) + moved(c.limit(t, k, start[j]), rise[k], motion.by[k]);
         }
     }
-    if slip.lost {
-        // Each spring returns to its own limit.
-        for j in 0..=last {
-            let scale = shortening(t, c, start[j], [v[0][j], v[1][j]]);
-            (v[0][j], v[1][j]) = (v[0][j] * scale, v[1][j] * scale);
-        }
-    } else if slip.set != 0 {
+    if slip.predicted != 0 {
+        let predicted = predict(t, c, motion, s, &v, &mut [0.0; N]);
+        release(t, c, 0, &predicted[0], slip.predicted, &mut v[0]);
+        release(t, c, 1, &predicted[1], slip.predicted, &mut v[1]);
+    }
+    if slip.set != 0 {
         slide(t, c, &mut v, slip, s);
     }
     for k in 0..2 {
@@ -183,28 +143,7 @@ fn slide<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
 ) {
     let (zero, last) = (X::constant(0.0), c.last.min(N - 1));
     let first = (slip.set.trailing_zeros() as usize).min(last);
-    let start = starts(c.under_flat);
     let mut sigma = [[zero; N]; 2];
-    // r0, and β of the trial state without the cosine.
-    let mut r = [[zero; N]; 2];
-    for k in 0..2 {
-        for i in first..=last {
-            r[k][i] = s.get(TRACTION + k * N + i);
-        }
-    }
-    let mut bend = [zero; N];
-    for i in first..=last {
-        let u = (r[0][i] * r[0][i] + r[1][i] * r[1][i]).scale(2.0) - X::constant(1.0);
-        if slip.contains(i) && slip.bends && u.value() > 0.0 {
-            bend[i] = u * u;
-            let [x, y] = both!(|k| v[k][i].times(c.limit(t, k, start[i]).inverse()));
-            let square = x * x + y * y;
-            if square.value() > 1.0 {
-                let length = square * square.shortening();
-                bend[i] = bend[i] * (length.scale(1.0 / 3.0) + X::constant(2.0 / 3.0)).inverse();
-            }
-        }
-    }
     for k in 0..2 {
         // Springs after the slip σ, and the residual of r* - A σ = e.
         let mut excess = v[k];
@@ -239,11 +178,6 @@ fn slide<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
         if slip.contains(i) {
             let (e_x, e_y) = (slip.e[0][i], slip.e[1][i]);
             residual[i] = sigma[1][i].scale(e_x) - sigma[0][i].scale(e_y);
-            let along = r[0][i].scale(e_x) + r[1][i].scale(e_y);
-            if along.value() > 0.0 && bend[i].value() > 0.0 {
-                let beta = bend[i] * along;
-                residual[i] = residual[i] + beta * (r[0][i] * sigma[1][i] - r[1][i] * sigma[0][i]);
-            }
         }
     }
     let mut turn = [zero; N];
@@ -258,20 +192,10 @@ fn slide<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
             }
         }
         add_product(&slip.k[k], slip, [first, last], &change, &mut sigma[k]);
-        let mut before = zero;
         for i in first..=last {
             sigma[k][i] = sigma[k][i].times(c.per_pressure[i]);
         }
-        for j in first..=last {
-            let mut sum = zero;
-            for i in first..=j {
-                if slip.contains(i) {
-                    sum.add_product(&sigma[k][i], c.map(t, k, j, i));
-                }
-            }
-            v[k][j] = v[k][j] - (sum - before).times(c.stiffness(t, k, j).inverse());
-            before = sum;
-        }
+        release(t, c, k, &sigma[k], slip.set, &mut v[k]);
     }
 }
 
@@ -342,15 +266,11 @@ fn dissipated(
     let rise = both!(|k| c.now.shift[k] - motion.before[k]);
     let mut energy = if rise[0] < 0.0 { separated(t, from, &c.now, motion.by, old) } else { 0.0 };
     let start = starts(c.under_flat);
-    if slip.set != 0 || slip.lost {
+    if slip.set != 0 || slip.predicted != 0 {
         for j in 0..=c.last.min(N - 1) {
-            let (r_x, r_y) = (old[2][j], old[3][j]);
-            let along = slip.e[0][j] * r_x + slip.e[1][j] * r_y;
-            let u = 2.0 * (r_x * r_x + r_y * r_y) - 1.0;
-            let bends = slip.contains(j) && slip.bends && u > 0.0 && along > 0.0;
             let w = both!(|k| c.stiffness(&t, k, j));
             let places = [[old[0][j], old[1][j]], [new[0][j], new[1][j]]];
-            energy += slipped(t, c, start[j], w, places, motion, if bends { u * u * along } else { 0.0 });
+            energy += slipped(t, c, start[j], w, places, motion, 2.0 * slip.shares[j]);
         }
     }
     // The shell at the edge of a constant load has no resolution but these.
@@ -371,7 +291,7 @@ fn dissipated(
 const LEAST_LIMIT: f64 = 1e-40;
 
 /// Energy of a spring of stiffness w: it follows its trial path until it reaches its limit, which changes evenly on the way, and slips from
-/// there to its end; the share of the path on which it sticks is less by β.
+/// there to its end; points that slipped before slip on that share of the path too.
 #[inline(always)]
 fn slipped(
     t: &Rows,
@@ -391,9 +311,7 @@ fn slipped(
     let (t_x, t_y) = (trial[0] * per_limit[0], trial[1] * per_limit[1]);
     let (dx, dy, change) = (t_x - x, t_y - y, ratio - 1.0);
     let (qa, qb) = (dx * dx + dy * dy - change * change, x * dx + y * dy + ratio * change);
-    let over = (t_x * t_x + t_y * t_y).sqrt() - 1.0;
-    let sticks = 1.0 - bend / (1.0 + (if over > 0.0 { over } else { 0.0 }) / 3.0);
-    let part = sticks * exit(qa, qb, x * x + y * y - ratio * ratio);
+    let part = (1.0 - bend) * exit(qa, qb, x * x + y * y - ratio * ratio);
     let of = |k: usize| w[k] * (old[k] + part * (trial[k] - old[k]) + new[k]) * (trial[k] - new[k]);
     0.5 * (of(0) + of(1))
 }

@@ -13,6 +13,46 @@ pub(crate) const SPRINGS: usize = FINE_SPRING + 2 * FINE;
 /// The springs as values.
 pub(crate) type Values = [Row<f64>; SPRINGS / N];
 
+/// Springs as numbers of a kind.
+pub(crate) trait Springs<X> {
+    /// Whether the springs are kept, and r of points that stick: with values, the trial state gives it.
+    const KEPT: bool;
+    const TRACTIONS: bool;
+    fn get(&self, place: usize) -> X;
+    fn put(&mut self, place: usize, x: X);
+}
+
+/// Before a step, without derivatives.
+impl<X: Real> Springs<X> for &Values {
+    const KEPT: bool = false;
+    const TRACTIONS: bool = false;
+
+    #[inline(always)]
+    fn get(&self, place: usize) -> X {
+        X::constant(self.as_flattened().get(place).copied().unwrap_or(0.0))
+    }
+
+    #[inline(always)]
+    fn put(&mut self, _: usize, _: X) {}
+}
+
+impl Springs<f64> for &mut Values {
+    const KEPT: bool = true;
+    const TRACTIONS: bool = false;
+
+    #[inline(always)]
+    fn get(&self, place: usize) -> f64 {
+        self.as_flattened().get(place).copied().unwrap_or(0.0)
+    }
+
+    #[inline(always)]
+    fn put(&mut self, place: usize, x: f64) {
+        if let Some(there) = self.as_flattened_mut().get_mut(place) {
+            *there = x;
+        }
+    }
+}
+
 /// A step, straight in S and in the displacement: S at the start, the displacement, and whether the load is that of the start.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Motion<A, X> {
@@ -33,15 +73,12 @@ pub(crate) const ROUNDING: f64 = 1.0 + 1e-12;
 /// The state in which all springs stick.
 #[repr(align(32))]
 pub(crate) struct Trial {
-    /// r*, and the springs over their limits.
+    /// v*, r*, and the springs over their limits.
+    pub v: Both<Row<f64>>,
     pub r: Both<Row<f64>>,
     pub over_limit: Both<Row<f64>>,
     /// Whether |r| exceeds 1 at no point.
     pub sticks: bool,
-    pub by: Both<f64>,
-    /// The last point.
-    pub last: usize,
-    pub load: f64,
 }
 
 /// The trial state of a step of values.
@@ -52,7 +89,7 @@ pub(crate) fn trial(t: &Rows, c: &Contact<f64>, motion: &Motion<f64, f64>, old: 
 #[inline(always)]
 fn trial_kernel(t: &Rows, c: &Contact<f64>, motion: &Motion<f64, f64>, old: &Values) -> Trial {
     let (last, start) = (c.last.min(N - 1), starts(c.under_flat));
-    let (mut r, mut over_limit) = ([[0.0; N]; 2], [[0.0; N]; 2]);
+    let (mut all, mut r, mut over_limit) = ([[0.0; N]; 2], [[0.0; N]; 2], [[0.0; N]; 2]);
     for k in 0..2 {
         let (mut limit, mut v) = ([1.0; N], [0.0; N + 1]);
         let rise = c.now.shift[k] - motion.before[k];
@@ -60,16 +97,9 @@ fn trial_kernel(t: &Rows, c: &Contact<f64>, motion: &Motion<f64, f64>, old: &Val
             limit[j] = c.limit(&t, k, start[j]);
             v[j] = old[k][j] + moved(limit[j], rise, motion.by[k]);
         }
-        let mut q = [0.0; N];
-        for j in 0..=last {
-            let (d, row) = (v[j] - v[j + 1], if j < last { &t[MAP + k * N + j] } else { &c.edge[k] });
-            for i in 0..N {
-                q[i] += d * row[i];
-            }
-        }
+        r[k] = tractions(t, c, k, &v);
         for i in 0..N {
-            r[k][i] = q[i] * c.per_pressure[i];
-            over_limit[k][i] = v[i] / limit[i];
+            (all[k][i], over_limit[k][i]) = (v[i], v[i] / limit[i]);
         }
     }
     let mut largest = 0.0;
@@ -77,10 +107,21 @@ fn trial_kernel(t: &Rows, c: &Contact<f64>, motion: &Motion<f64, f64>, old: &Val
         let square = r[0][i] * r[0][i] + r[1][i] * r[1][i];
         largest = if square > largest { square } else { largest };
     }
-    Trial { r, over_limit, sticks: largest <= ROUNDING, by: motion.by, last, load: c.now.load }
+    Trial { v: all, r, over_limit, sticks: largest <= ROUNDING }
 }
 
-/// r of the springs.
-pub(crate) fn tractions(springs: &Values) -> &Both<Row<f64>> {
-    springs.last_chunk::<10>().and_then(|rows| rows.first_chunk()).unwrap_or(&[[0.0; N]; 2])
+/// r of displacements of the springs, 0 behind the last one.
+#[inline(always)]
+pub(crate) fn tractions(t: &Rows, c: &Contact<f64>, k: usize, v: &[f64; N + 1]) -> Row<f64> {
+    let mut r = [0.0; N];
+    for j in 0..=c.last.min(N - 1) {
+        let (d, row) = (v[j] - v[j + 1], if j < c.last { &t[MAP + k * N + j] } else { &c.edge[k] });
+        for i in 0..N {
+            r[i] += d * row[i];
+        }
+    }
+    for i in 0..N {
+        r[i] *= c.per_pressure[i];
+    }
+    r
 }
