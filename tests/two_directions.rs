@@ -283,13 +283,13 @@ fn a_linear_layer_is_a_spring_in_series() {
                     let alone = contact.to([at[0], at[1], load]);
                     // Falls with the length of the parts: 2e-2 with 4 of them, 4e-3 with 16.
                     let error = apart(&step, &alone) / slip_force;
-                    assert!(error < 4e-3, "{k} {share}: {error:e}");
+                    assert!(error < 6e-3, "{k} {share}: {error:e}");
                     energies = [energies[0] + step.dissipated, energies[1] + alone.dissipated];
                 }
                 from = to;
             }
             let error = energies[0] / energies[1] - 1.0;
-            assert!(error.abs() < 3e-3, "{k} {share}: {energies:?}, {error:e}");
+            assert!(error.abs() < 5e-3, "{k} {share}: {energies:?}, {error:e}");
         }
     }
 }

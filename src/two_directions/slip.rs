@@ -6,9 +6,9 @@
 //! find the points that slip if Newton's method does not.
 
 use super::contact::Contact;
-use super::predict::{predict, release};
+use super::predict::predict;
 use super::tables::{Both, Matrix, N, Row, Rows};
-use super::trial::{Motion, ROUNDING, Trial, Values, tractions};
+use super::trial::{Motion, ROUNDING, Trial, Values};
 use crate::shape::TINY;
 use crate::simd::dispatch;
 
@@ -354,14 +354,14 @@ fn find_kernel(
         slip.predicted |= Set::from(slip.shares[i] > 0.0) << i;
     }
     let mut problem = Problem { r: trial.r, compliance, last: contact.last, load: contact.now.load };
-    if slip.predicted != 0 {
-        for k in 0..2 {
-            let (mut released, mut v) = (trial.v[k], [0.0; N + 1]);
-            release(&t, contact, k, &predicted[k], slip.predicted, &mut released);
-            for j in 0..N {
-                v[j] = released[j];
+    for m in 0..N {
+        if slip.predicted >> m & 1 == 1 {
+            for k in 0..2 {
+                let sigma = predicted[k][m] / contact.per_pressure[m];
+                for i in 0..N {
+                    problem.r[k][i] -= compliance[k][m][i] * sigma;
+                }
             }
-            problem.r[k] = tractions(t, contact, k, &v);
         }
     }
     let mut converged = false;

@@ -267,7 +267,7 @@ fn transfer(
             new[k][j] = if inner { ratio * old[k][j] } else { fine(limit) + ratio * polygon(limit / ratio, corners) };
         }
     }
-    let still = Motion { before: to.now.shift, by: [0.0; 2], constant_load: true };
+    let still = Motion { before: to.now.shift, by: [0.0; 2], constant_load: false };
     let r = trial(tables, to, &still, new).r;
     for i in 0..N {
         let over = (r[0][i] * r[0][i] + r[1][i] * r[1][i]).sqrt().max(1.0);

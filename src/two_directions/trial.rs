@@ -70,7 +70,8 @@ pub(crate) fn moved<A: Real, X: Over<A>>(limit: A, rise: A, by: X) -> X {
 /// The largest |r|² of a trial state that sticks: a state that has slipped may round.
 pub(crate) const ROUNDING: f64 = 1.0 + 1e-12;
 
-/// The state in which all springs stick.
+/// The state in which all springs stick. Under a constant load r changes by the motion of the last shell; of springs it would have the
+/// rounding errors of their differences.
 #[repr(align(32))]
 pub(crate) struct Trial {
     /// v*, r*, and the springs over their limits.
@@ -97,8 +98,10 @@ fn trial_kernel(t: &Rows, c: &Contact<f64>, motion: &Motion<f64, f64>, old: &Val
             limit[j] = c.limit(&t, k, start[j]);
             v[j] = old[k][j] + moved(limit[j], rise, motion.by[k]);
         }
-        r[k] = tractions(t, c, k, &v);
+        r[k] = if motion.constant_load { old[2 + k] } else { tractions(t, c, k, &v) };
+        let moved = if motion.constant_load { motion.by[k] } else { 0.0 };
         for i in 0..N {
+            r[k][i] += c.edge[k][i] * c.per_pressure[i] * moved;
             (all[k][i], over_limit[k][i]) = (v[i], v[i] / limit[i]);
         }
     }
