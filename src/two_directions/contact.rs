@@ -2,7 +2,7 @@
 
 use super::scalar::{Dual, Real, both};
 use super::tables::{
-    Both, END, FINE, FINE_STIFFNESS, LEAST_STIFFNESS, LOAD, MAP, MOST_PARTS, Matrix, N, POINTS, PRESSURE, Row, Rows,
+    Both, END, FINE, FINE_STIFFNESS, FLEXIBILITY, LEAST_STIFFNESS, LOAD, MAP, MOST_PARTS, Matrix, N, PER_MAP, POINTS, PRESSURE, Row, Rows,
     SECANT, SHIFT, SIZE, STIFFNESS, Tables, Units, WEIGHT, at_edge, root_difference, starts,
 };
 use crate::element::{Element, Normal};
@@ -56,8 +56,9 @@ pub(crate) struct Contact<A> {
     pub edge: Both<Row<A>>,
     /// 1/p_i; 0 outside.
     pub per_pressure: Row<A>,
-    /// Stiffnesses of the last spring, and of the fine ones in its shell.
+    /// Stiffnesses of the last spring, their reciprocals, and those of the fine springs in its shell.
     pub stiffness: Both<A>,
+    pub flexibility: Both<A>,
     pub fine: Both<[A; MOST_PARTS]>,
     pub now: Pressed<A>,
     /// The last shell and part, the first part of that shell, and the springs under the flat.
@@ -72,6 +73,7 @@ impl Contact<f64> {
         edge: [[0.0; N]; 2],
         per_pressure: [0.0; N],
         stiffness: [0.0; 2],
+        flexibility: [0.0; 2],
         fine: [[0.0; MOST_PARTS]; 2],
         now: Pressed::NONE,
         last: 0,
@@ -143,6 +145,7 @@ impl<A: Real> Contact<A> {
             edge: [[zero; N]; 2],
             per_pressure: [zero; N],
             stiffness: [zero; 2],
+            flexibility: [zero; 2],
             fine: [[zero; MOST_PARTS]; 2],
             now: *now,
             last,
@@ -173,6 +176,7 @@ impl<A: Real> Contact<A> {
             let inner = if last > 0 { t.at(SECANT + k, before) } else { zero };
             let (rise, least) = (own - inner, own.scale(LEAST_STIFFNESS));
             contact.stiffness[k] = if rise.value() > least.value() { rise } else { least };
+            contact.flexibility[k] = contact.stiffness[k].inverse();
             let mut fine_before = if first { zero } else { secant(t, k, first_part.max(1) - 1) };
             let mut less = own - if first { zero } else { inner };
             for (f, place) in (first_part..=part).zip(&mut contact.fine[k]) {
@@ -197,6 +201,18 @@ impl<A: Real> Contact<A> {
     #[inline(always)]
     pub fn stiffness(&self, t: &impl Tables<A>, k: usize, j: usize) -> A {
         if j < self.last { t.at(STIFFNESS + k, j) } else { self.stiffness[k] }
+    }
+
+    /// 1/w_j.
+    #[inline(always)]
+    pub fn flexibility(&self, t: &impl Tables<A>, k: usize, j: usize) -> A {
+        if j < self.last { t.at(FLEXIBILITY + k, j) } else { self.flexibility[k] }
+    }
+
+    /// 1/G_jj.
+    #[inline(always)]
+    pub fn per_map(&self, t: &impl Tables<A>, k: usize, j: usize) -> A {
+        if j < self.last { t.at(PER_MAP + k, j) } else { self.limit(t, k, self.first_part) }
     }
 
     /// Stiffness of a fine spring.

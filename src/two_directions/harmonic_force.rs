@@ -48,20 +48,22 @@ pub fn workspace_init(harmonics: usize, samples: usize, periods: usize, workspac
 /// nodes are close, and a rounding error over it.
 const NEIGHBOUR: f64 = 1e-6;
 
-/// Columns that are advanced at once.
-const BLOCK: usize = 12;
+/// Columns that are advanced at once: for one harmonic, and for more.
+const NARROW: usize = 12;
+const WIDE: usize = 36;
 
 pub(crate) struct Layout(Size);
 
 impl Layout {
-    /// Blocks of columns, one for each coefficient of the motion.
-    fn blocks(&self) -> usize {
-        (3 * self.0.coefficients()).div_ceil(BLOCK)
+    /// Columns, one for each coefficient of the motion, in whole blocks.
+    fn columns(&self) -> usize {
+        let columns = 3 * self.0.coefficients();
+        if columns <= NARROW { NARROW } else { columns.next_multiple_of(WIDE) }
     }
 
     /// Sums of the derivatives of both forces times 1, cos t, sin t, ...
     fn sums_length(&self) -> usize {
-        2 * self.0.coefficients() * self.blocks() * BLOCK
+        2 * self.0.coefficients() * self.columns()
     }
 }
 
@@ -92,7 +94,7 @@ impl WorkspaceLayout for Layout {
             + self.tables_length()
             + SAMPLE * self.0.samples
             + 3 * N * ROWS
-            + (SPRINGS + 2) * BLOCK * self.blocks()
+            + (SPRINGS + 2) * self.columns()
             + self.sums_length()
     }
 
@@ -120,8 +122,8 @@ pub struct Workspace<'a> {
     /// Tables of the springs, their derivatives by the logarithm of the reference size, and those of a slightly smaller one.
     tables: &'a mut [Rows],
     /// Derivatives of the springs, and those of both forces, block after block of columns.
-    derivatives: &'a mut [[f64; BLOCK]],
-    forces: &'a mut [[f64; BLOCK]],
+    derivatives: &'a mut [f64],
+    forces: &'a mut [f64],
     sums: &'a mut [f64],
 }
 
@@ -132,15 +134,15 @@ impl<'a> Workspace<'a> {
     /// `BadWorkspace` if uninitialised or too short.
     pub fn new(memory: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
         let (layout, mut parts) = Layout::open(memory)?;
-        let (size, blocks) = (layout.0, layout.blocks());
+        let (size, columns) = (layout.0, layout.columns());
         let basis = parts.take(size.coefficients() * size.samples)?;
         Ok(Workspace {
             size,
             basis,
             samples: parts.take(SAMPLE * size.samples)?.as_chunks_mut().0,
             tables: parts.take(3 * N * ROWS)?.as_chunks_mut::<N>().0.as_chunks_mut().0,
-            derivatives: parts.take(SPRINGS * BLOCK * blocks)?.as_chunks_mut().0,
-            forces: parts.take(2 * BLOCK * blocks)?.as_chunks_mut().0,
+            derivatives: parts.take(SPRINGS * columns)?,
+            forces: parts.take(2 * columns)?,
             sums: parts.take(layout.sums_length())?,
         })
     }
@@ -312,30 +314,29 @@ impl Walk<'_> {
 const PADDED: usize = 4;
 
 /// Columns of the springs in the workspace, beside their values at the start of a step.
-struct Columns<'a> {
+struct Columns<'a, const L: usize> {
     values: &'a Values,
-    columns: &'a mut [[f64; BLOCK]; SPRINGS],
+    columns: &'a mut [[f64; L]; SPRINGS],
     /// Derivatives of the parameters of a contact by the coefficients.
-    parameters: &'a [[f64; BLOCK]; PARAMETERS],
+    parameters: &'a [[f64; L]; PARAMETERS],
 }
 
-impl Columns<'_> {
+impl<const L: usize> Columns<'_, L> {
     /// Columns of a number: derivatives by the parameters are added.
     #[inline(always)]
-    fn of(&self, x: &Dual<{ PADDED + BLOCK }>) -> [f64; BLOCK] {
-        let mut columns = [0.0; BLOCK];
-        for c in 0..BLOCK {
+    fn of<const M: usize>(&self, x: &Dual<M>) -> [f64; L] {
+        let mut columns = [0.0; L];
+        for c in 0..L {
             columns[c] = x.slopes[PADDED + c];
         }
-        let [end, start, alignment, ..] = x.slopes;
-        if end != 0.0 || start != 0.0 || alignment != 0.0 {
+        if x.slopes[END] != 0.0 || x.slopes[START] != 0.0 || x.slopes[ALIGNMENT] != 0.0 {
             for p in 0..PARAMETERS {
-                for c in 0..BLOCK {
+                for c in 0..L {
                     columns[c] += x.slopes[p] * self.parameters[p][c];
                 }
             }
             // Memory that fades would end in subnormal numbers, which are slow.
-            for c in 0..BLOCK {
+            for c in 0..L {
                 columns[c] = if columns[c].abs() > LEAST_SLOPE { columns[c] } else { 0.0 };
             }
         }
@@ -343,16 +344,17 @@ impl Columns<'_> {
     }
 }
 
-impl Springs<Dual<{ PADDED + BLOCK }>> for Columns<'_> {
+/// With lanes of the parameters: M = L + 4.
+impl<const L: usize, const M: usize> Springs<Dual<M>> for Columns<'_, L> {
     const KEPT: bool = true;
     const TRACTIONS: bool = true;
 
     #[inline(always)]
-    fn get(&self, place: usize) -> Dual<{ PADDED + BLOCK }> {
-        let mut dual = Dual { slopes: [0.0; PADDED + BLOCK], value: 0.0 };
+    fn get(&self, place: usize) -> Dual<M> {
+        let mut dual = Dual { slopes: [0.0; M], value: 0.0 };
         if let (Some(value), Some(columns)) = (self.values.as_flattened().get(place), self.columns.get(place)) {
             dual.value = *value;
-            for c in 0..BLOCK {
+            for c in 0..L {
                 dual.slopes[PADDED + c] = columns[c];
             }
         }
@@ -360,7 +362,7 @@ impl Springs<Dual<{ PADDED + BLOCK }>> for Columns<'_> {
     }
 
     #[inline(always)]
-    fn put(&mut self, place: usize, x: Dual<{ PADDED + BLOCK }>) {
+    fn put(&mut self, place: usize, x: Dual<M>) {
         let columns = self.of(&x);
         if let Some(place) = self.columns.get_mut(place) {
             *place = columns;
@@ -372,28 +374,29 @@ impl Springs<Dual<{ PADDED + BLOCK }>> for Columns<'_> {
 const LEAST_SLOPE: f64 = 1e-200;
 
 /// A step in columns: the derivatives of both forces.
-fn columns(
+fn columns<const L: usize, const M: usize>(
     tables: [&Rows; 2],
     contact: &Contact<Dual<PADDED>>,
-    motion: &Motion<Dual<PADDED>, Dual<{ PADDED + BLOCK }>>,
+    motion: &Motion<Dual<PADDED>, Dual<M>>,
     slip: &Slip,
-    springs: &mut Columns,
-) -> Both<[f64; BLOCK]> {
+    springs: &mut Columns<L>,
+) -> Both<[f64; L]> {
     dispatch!(
         columns_kernel,
-        tables: [&Rows; 2], contact: &Contact<Dual<PADDED>>, motion: &Motion<Dual<PADDED>, Dual<{ PADDED + BLOCK }>>,
-        slip: &Slip, springs: &mut Columns => Both<[f64; BLOCK]>
+        [const L: usize, const M: usize]
+        tables: [&Rows; 2], contact: &Contact<Dual<PADDED>>, motion: &Motion<Dual<PADDED>, Dual<M>>, slip: &Slip,
+        springs: &mut Columns<L> => Both<[f64; L]>
     )
 }
 
 #[inline(always)]
-fn columns_kernel(
+fn columns_kernel<const L: usize, const M: usize>(
     tables: [&Rows; 2],
     contact: &Contact<Dual<PADDED>>,
-    motion: &Motion<Dual<PADDED>, Dual<{ PADDED + BLOCK }>>,
+    motion: &Motion<Dual<PADDED>, Dual<M>>,
     slip: &Slip,
-    springs: &mut Columns,
-) -> Both<[f64; BLOCK]> {
+    springs: &mut Columns<L>,
+) -> Both<[f64; L]> {
     let force = step(&tables, contact, motion, slip, springs);
     [springs.of(&force[0]), springs.of(&force[1])]
 }
@@ -421,7 +424,7 @@ fn walk(element: &Element, workspace: &mut Workspace, output: HarmonicOutput) {
             for (slope, smaller) in slopes.as_flattened_mut().iter_mut().zip(smaller.as_flattened()) {
                 *slope = (*slope - *smaller) * (0.5 / NEIGHBOUR);
             }
-            workspace.derivatives.fill([0.0; BLOCK]);
+            workspace.derivatives.fill(0.0);
             workspace.sums.fill(0.0);
         }
         let mut walk = Walk {
@@ -448,16 +451,21 @@ fn walk(element: &Element, workspace: &mut Workspace, output: HarmonicOutput) {
             let taken = walk.advance(workspace.place(index), asked);
             if requested.tangent {
                 if taken.closed != [true, true] {
-                    workspace.derivatives.fill([0.0; BLOCK]);
+                    workspace.derivatives.fill(0.0);
                 }
                 if taken.closed[1] {
-                    differentiate(workspace, &mut walk, &taken, [before, Some(index), Some(largest)], by_top);
+                    let samples = [before, Some(index), Some(largest)];
+                    if workspace.forces.len() == 2 * NARROW {
+                        differentiate::<NARROW, { NARROW + PADDED }>(workspace, &mut walk, &taken, samples, by_top);
+                    } else {
+                        differentiate::<WIDE, { WIDE + PADDED }>(workspace, &mut walk, &taken, samples, by_top);
+                    }
                 } else {
-                    workspace.forces.fill([0.0; BLOCK]);
+                    workspace.forces.fill(0.0);
                 }
                 if counts {
                     let basis = row(workspace.basis, workspace.size.coefficients(), index);
-                    accumulate(workspace.sums, basis, workspace.forces.as_flattened());
+                    accumulate(workspace.sums, basis, workspace.forces);
                 }
             }
             before = Some(index);
@@ -509,7 +517,7 @@ fn write_force(workspace: &Workspace, force: &mut [f64]) {
 /// The Jacobian from the sums, and that of the normal force.
 fn write_jacobian(workspace: &Workspace, unit: Option<f64>, jacobian: &mut [f64]) {
     let (n, per_sample) = (workspace.coefficients(), 1.0 / workspace.size.samples as f64);
-    let columns = workspace.forces.len() / 2 * BLOCK;
+    let columns = workspace.forces.len() / 2;
     let weight = |c: usize| if c == 0 { per_sample } else { 2.0 * per_sample };
     for (j, column) in jacobian.chunks_exact_mut(3 * n).enumerate() {
         for (c, place) in column.iter_mut().enumerate().take(2 * n) {
@@ -554,7 +562,13 @@ fn accumulate_kernel(sums: &mut [f64], basis: &[f64], forces: &[f64]) {
 }
 
 /// Derivatives of the springs and of the tangential forces at the end of a step between samples.
-fn differentiate(workspace: &mut Workspace, walk: &mut Walk, taken: &Taken, samples: [Option<usize>; 3], by_top: f64) {
+fn differentiate<const L: usize, const M: usize>(
+    workspace: &mut Workspace,
+    walk: &mut Walk,
+    taken: &Taken,
+    samples: [Option<usize>; 3],
+    by_top: f64,
+) {
     let n = workspace.coefficients();
     let [start, end, top] = samples.map(|index| index.map_or(&[][..], |index| row(workspace.basis, n, index)));
     let at = |basis: &[f64], c: usize| basis.get(c).copied().unwrap_or(0.0);
@@ -566,12 +580,13 @@ fn differentiate(workspace: &mut Workspace, walk: &mut Walk, taken: &Taken, samp
     let mut shift = motion.before.map(|shift| Dual { slopes: [0.0; PADDED], value: shift });
     shift.iter_mut().zip(before.shift).for_each(|(shift, slope)| shift.slopes[START] = slope);
     let (forces_x, forces_y) = workspace.forces.split_at_mut(workspace.forces.len() / 2);
-    let memories = workspace.derivatives.as_chunks_mut::<SPRINGS>().0.iter_mut();
-    for (block, (memory, (x, y))) in memories.zip(forces_x.iter_mut().zip(forces_y)).enumerate() {
-        let mut by = motion.by.map(|by| Dual { slopes: [0.0; PADDED + BLOCK], value: by });
-        let mut parameters = [[0.0; BLOCK]; PARAMETERS];
-        let (mut component, mut coefficient) = (block * BLOCK / n, block * BLOCK % n);
-        for c in 0..BLOCK {
+    let memories = workspace.derivatives.as_chunks_mut::<L>().0.as_chunks_mut::<SPRINGS>().0.iter_mut();
+    let forces = forces_x.as_chunks_mut().0.iter_mut().zip(forces_y.as_chunks_mut().0);
+    for (block, (memory, (x, y))) in memories.zip(forces).enumerate() {
+        let mut by = motion.by.map(|by| Dual { slopes: [0.0; M], value: by });
+        let mut parameters = [[0.0; L]; PARAMETERS];
+        let (mut component, mut coefficient) = (block * L / n, block * L % n);
+        for c in 0..L {
             let (from, to) = (at(start, coefficient), at(end, coefficient));
             match component {
                 0 | 1 => by[component.min(1)].slopes[PADDED + c] = path.per_distance * (to - from),

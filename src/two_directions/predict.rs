@@ -83,7 +83,7 @@ pub(crate) fn predict<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
             for i in first..j {
                 sum = sum - sigma[k][i].times(c.map(t, k, j, i));
             }
-            sigma[k][j] = sum.times(c.map(t, k, j, j).inverse());
+            sigma[k][j] = sum.times(c.per_map(t, k, j));
         }
         let along = r[0][j] * sigma[0][j] + r[1][j] * sigma[1][j];
         if weight.value() > 0.0 && along.value() > 0.0 {
@@ -130,7 +130,7 @@ pub(crate) fn release<A: Real, X: Over<A>, T: Tables<A>>(
                 sum.add_product(&sigma[i], c.map(t, k, j, i));
             }
         }
-        v[j] = v[j] - (sum - before).times(c.stiffness(t, k, j).inverse());
+        v[j] = v[j] - (sum - before).times(c.flexibility(t, k, j));
         before = sum;
     }
 }

@@ -157,6 +157,7 @@ impl Memory<'_> {
             edge: [*edge_x, *edge_y],
             per_pressure: *per_pressure,
             stiffness: [w_x, w_y],
+            flexibility: [1.0 / w_x.max(TINY), 1.0 / w_y.max(TINY)],
             fine: [fine(fine_x), fine(fine_y)],
             now: Pressed { load, shift: [x, y], size },
             last,

@@ -144,6 +144,13 @@ fn slide<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     let (zero, last) = (X::constant(0.0), c.last.min(N - 1));
     let first = (slip.set.trailing_zeros() as usize).min(last);
     let mut sigma = [[zero; N]; 2];
+    let per_slip = both!(|k| {
+        let mut row = [A::constant(0.0); N];
+        for i in first..=last {
+            row[i] = c.per_pressure[i].scale(slip.sigma[k][i]);
+        }
+        row
+    });
     for k in 0..2 {
         // Springs after the slip σ, and the residual of r* - A σ = e.
         let mut excess = v[k];
@@ -152,10 +159,10 @@ fn slide<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
             let mut sum = A::constant(0.0);
             for i in first..=j {
                 if slip.contains(i) {
-                    sum.add_scaled(&(c.map(t, k, j, i) * c.per_pressure[i]), slip.sigma[k][i]);
+                    sum = sum + c.map(t, k, j, i) * per_slip[k][i];
                 }
             }
-            excess[j] = v[k][j] - X::lift((sum - before) * c.stiffness(t, k, j).inverse());
+            excess[j] = v[k][j] - X::lift((sum - before) * c.flexibility(t, k, j));
             before = sum;
         }
         let mut residual = [zero; N];
@@ -182,20 +189,37 @@ fn slide<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     }
     let mut turn = [zero; N];
     add_product(&slip.inverse, slip, [first, last], &residual, &mut turn);
+    let every = slip.set.count_ones() as usize == last + 1 - first;
     for k in 0..2 {
         let (across, sign) = if k == 0 { (&slip.e[1], -1.0) } else { (&slip.e[0], 1.0) };
-        let mut change = [zero; N];
+        let (mut change, mut r) = ([zero; N], [zero; N]);
         for i in first..=last {
             if slip.contains(i) {
                 change[i] = turn[i].scale(-sign * across[i]);
-                s.put(TRACTION + k * N + i, X::constant(slip.e[k][i]) - change[i]);
+                r[i] = X::constant(slip.e[k][i]) - change[i];
+                s.put(TRACTION + k * N + i, r[i]);
             }
         }
-        add_product(&slip.k[k], slip, [first, last], &change, &mut sigma[k]);
-        for i in first..=last {
-            sigma[k][i] = sigma[k][i].times(c.per_pressure[i]);
+        if every {
+            // From the tractions, from outside: without gaps they determine the springs.
+            let mut d = [zero; N];
+            let mut above = zero;
+            for j in (first..=last).rev() {
+                let mut sum = r[j].times(c.per_pressure[j].inverse());
+                for m in j + 1..=last {
+                    sum = sum - d[m].times(c.map(t, k, m, j));
+                }
+                d[j] = sum.times(c.per_map(t, k, j));
+                above = above + d[j];
+                v[k][j] = above;
+            }
+        } else {
+            add_product(&slip.k[k], slip, [first, last], &change, &mut sigma[k]);
+            for i in first..=last {
+                sigma[k][i] = sigma[k][i].times(c.per_pressure[i]);
+            }
+            release(t, c, k, &sigma[k], slip.set, &mut v[k]);
         }
-        release(t, c, k, &sigma[k], slip.set, &mut v[k]);
     }
 }
 

@@ -64,14 +64,16 @@ const LEAST_REFERENCE: f64 = 1.0 / 4096.0;
 pub(crate) const LOAD: usize = 0;
 pub(crate) const SHIFT: usize = LOAD + FINE / N;
 pub(crate) const FINE_STIFFNESS: usize = SHIFT + 2 * FINE / N;
-/// Rows of w_j², x_i² - a² and ψ_j, of W_j and w_j in both directions.
+/// Rows of w_j², x_i² - a² and ψ_j; in both directions of W_j, w_j, 1/w_j and 1/G_jj.
 pub(crate) const SIZE: usize = FINE_STIFFNESS + 2 * FINE / N;
 pub(crate) const POINTS: usize = SIZE + 1;
 pub(crate) const WEIGHT: usize = SIZE + 2;
 pub(crate) const SECANT: usize = SIZE + 3;
 pub(crate) const STIFFNESS: usize = SECANT + 2;
+pub(crate) const FLEXIBILITY: usize = STIFFNESS + 2;
+pub(crate) const PER_MAP: usize = FLEXIBILITY + 2;
 /// First rows of the pressure that the shells within one carry, as `[shell][point]`, and of G as `[direction][shell][point]`.
-pub(crate) const PRESSURE: usize = STIFFNESS + 2;
+pub(crate) const PRESSURE: usize = PER_MAP + 2;
 pub(crate) const MAP: usize = PRESSURE + N;
 pub(crate) const ROWS: usize = MAP + 2 * N;
 
@@ -274,6 +276,9 @@ pub(crate) fn fill(rows: &mut Rows, element: &Element, units: &Units, reference:
         (rows[SECANT + k], rows[STIFFNESS + k]) = (secants[k], stiffness[k]);
         for j in 0..N {
             rows[MAP + k * N + j] = map[k][j];
+            if j + 1 < N {
+                (rows[FLEXIBILITY + k][j], rows[PER_MAP + k][j]) = (1.0 / stiffness[k][j], 1.0 / map[k][j][j]);
+            }
         }
         for (row, values) in rows[FINE_STIFFNESS + k * FINE / N..].iter_mut().zip(fine_stiffness[k].as_chunks::<N>().0)
         {
