@@ -28,7 +28,7 @@ pub(crate) fn predict<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     let (zero, one, last, start) = (X::constant(0.0), X::constant(1.0), c.last.min(N - 1), starts(c.under_flat));
     let (mut slip, mut r, mut turn) = ([[zero; N]; 2], [[zero; N]; 2], [zero; N]);
     *shares = [0.0; N];
-    for i in 0..=last {
+    for i in 0..(last + 1).min(N) {
         (r[0][i], r[1][i]) = (s.get(TRACTION + i), s.get(TRACTION + N + i));
         let u = (r[0][i] * r[0][i] + r[1][i] * r[1][i]).scale(2.0) - one;
         turn[i] = if u.value() > 0.0 { u } else { zero };
@@ -36,7 +36,8 @@ pub(crate) fn predict<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     // Whether all points from there on rest at the limit, in directions that turn slowly.
     let mut rests = [zero; N];
     let (mut rest, mut outer) = (one, last + 1);
-    for j in (0..=last).rev() {
+    // The compiler cannot know that a decreasing index is within bounds.
+    for j in (0..=last).rev().map(|j| j.min(N - 1)) {
         let before = motion.before[0].value() - c.now.shift[0].value() + c.limit(t, 0, start[j]).value();
         if before > 0.0 {
             let square = turn[j] * turn[j];
@@ -44,7 +45,8 @@ pub(crate) fn predict<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
             let eighth = fourth * fourth;
             rest = rest * (eighth * eighth);
             if outer <= last {
-                let along = r[0][j] * r[0][outer] + r[1][j] * r[1][outer];
+                let next = outer.min(N - 1);
+                let along = r[0][j] * r[0][next] + r[1][j] * r[1][next];
                 let slowly = along * (X::constant(2.0) - along);
                 rest = if along.value() > 0.0 { rest * slowly } else { zero };
             }
@@ -54,7 +56,7 @@ pub(crate) fn predict<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     }
     let (mut total, mut sigma) = ([zero; 2], [[zero; N]; 2]);
     let mut first = N;
-    for j in 0..=last {
+    for j in 0..(last + 1).min(N) {
         let limit = both!(|k| c.limit(t, k, start[j]));
         let length = length(&both!(|k| v[k][j]), &limit);
         let mut over = length;

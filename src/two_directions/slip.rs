@@ -170,7 +170,7 @@ impl Slip {
             continues[i] = if slipped && r_x * by[0] + r_y * by[1] >= backwards { 1.0 } else { 0.0 };
         }
         let (mut set, mut outside) = (0, 0);
-        for i in (0..=last.min(N - 1)).rev() {
+        for i in (0..=last.min(N - 1)).rev().map(|i| i.min(N - 1)) {
             outside |= Set::from(beyond[i] > 0.0) << i;
             // A point that slipped before continues if the next one outside does.
             let outer = set >> (i + 1) & 1 == 1;
@@ -282,7 +282,7 @@ impl Slip {
         let (mut guess, mut sigma, mut sweeps, mut r) = (Guess { e: *r, set: 0 }, [[0.0; N]; 2], 0, *r);
         while sweeps < MOST_SWEEPS {
             for _ in 0..sweeps.max(SWEEPS) {
-                for i in (0..=(*last).min(N - 1)).rev() {
+                for i in (0..=(*last).min(N - 1)).rev().map(|i| i.min(N - 1)) {
                     let a = [compliance[0][i][i], compliance[1][i][i]];
                     let g = [r[0][i] + a[0] * sigma[0][i], r[1][i] + a[1] * sigma[1][i]];
                     guess.set &= !(1 << i);

@@ -263,7 +263,7 @@ fn transfer(
         }
         for j in 0..=to.last.min(N - 1) {
             let limit = to.limit(&tables, k, to_start[j]);
-            let corners = (from.under_flat..=from.last.min(N - 1)).rev().map(own);
+            let corners = (from.under_flat..=from.last).rev().map(|j| own(j.min(N - 1)));
             let inner = j < from.under_flat && j < to.under_flat;
             new[k][j] = if inner { ratio * old[k][j] } else { fine(limit) + ratio * polygon(limit / ratio, corners) };
         }

@@ -204,7 +204,7 @@ fn slide<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
             // From the tractions, from outside: without gaps they determine the springs.
             let mut d = [zero; N];
             let mut above = zero;
-            for j in (first..=last).rev() {
+            for j in (first..=last).rev().map(|j| j.min(N - 1)) {
                 let mut sum = r[j].times(c.per_pressure[j].inverse());
                 for m in j + 1..=last {
                     sum = sum - d[m].times(c.map(t, k, m, j));
@@ -291,7 +291,7 @@ fn dissipated(
     let mut energy = if rise[0] < 0.0 { separated(t, from, &c.now, motion.by, old) } else { 0.0 };
     let start = starts(c.under_flat);
     if slip.set != 0 || slip.predicted != 0 {
-        for j in 0..=c.last.min(N - 1) {
+        for j in 0..(c.last + 1).min(N) {
             let w = both!(|k| c.stiffness(&t, k, j));
             let places = [[old[0][j], old[1][j]], [new[0][j], new[1][j]]];
             energy += slipped(t, c, start[j], w, places, motion, 2.0 * slip.shares[j]);
@@ -299,7 +299,9 @@ fn dissipated(
     }
     // The shell at the edge of a constant load has no resolution but these.
     if motion.constant_load {
-        let at = |springs: &Values, f: usize| both!(|k| springs.as_flattened()[FINE_SPRING + k * FINE + f]);
+        let at = |springs: &Values, f: usize| {
+            both!(|k| springs.as_flattened().get(FINE_SPRING + k * FINE + f).copied().unwrap_or(0.0))
+        };
         for f in c.first_part..=c.part.min(FINE - 1) {
             let [x, y] = both!(|k| at(new, f)[k] / c.limit(&t, k, f));
             if x * x + y * y > SLIPPED {
@@ -345,7 +347,7 @@ fn slipped(
 pub(crate) fn separated(t: &Rows, from: &Contact<f64>, now: &Pressed<f64>, by: Both<f64>, old: &Values) -> f64 {
     let (start, mut energy) = (starts(from.under_flat), 0.0);
     let fall = both!(|k| from.now.shift[k] - now.shift[k]);
-    for j in 0..=from.last.min(N - 1) {
+    for j in 0..(from.last + 1).min(N) {
         let at_node: f64 = t.at(SHIFT, start[j]);
         if now.load > 0.0 && at_node < now.shift[0] {
             continue;

@@ -161,7 +161,7 @@ pub(crate) fn at_edge(rows: &Rows, under_flat: usize, shift: f64) -> [usize; 2] 
     let (start, inside) = (starts(under_flat), shift * (1.0 - THINNEST));
     let nodes = &rows[SHIFT..SHIFT + FINE / N].as_flattened();
     let part = nodes.iter().skip(1).take(start[N] - 1).filter(|node| **node < inside).count();
-    let last = start[under_flat + 1..N].iter().filter(|first| **first <= part).count() + under_flat;
+    let last = start.iter().take(N).skip(under_flat + 1).filter(|first| **first <= part).count() + under_flat;
     [last.min(N - 1), part.min(FINE - 1)]
 }
 
