@@ -83,23 +83,23 @@ uninstall:
 	@for file in $(files) $(shared) lib/libmicroslip.so; do rm -f "$(DESTDIR)$(PREFIX)/$$file"; done
 	@rmdir "$(DESTDIR)$(PREFIX)/$(cmakedir)" "$(DESTDIR)$(PREFIX)/$(docdir)" 2>/dev/null || true
 
-## demo: run the Fortran examples and draw their figures
+## demo: run the Fortran examples and draw their figures (as root on Debian, installs missing packages)
 demo: demo-dependencies all
 	$(MAKE) -C fortran_examples demo PREFIX=../dist
 
 demo-dependencies:
-	@tools/dependencies.sh demo
+	@tools/dependencies.sh --install demo
 
 ## parallel: check that OpenMP threads and MPI ranks give the same bits for any number of them
 parallel: all
 	@tools/dependencies.sh parallel
 	$(MAKE) -C fortran_examples parallel PREFIX=../dist
 
-## test: the regular tests, in Rust, C, C++ and Fortran: some minutes
+## test: the regular tests, in Rust, C, C++ and Fortran: some minutes (as root on Debian, installs missing packages)
 test:
 	tools/test.sh
 
-## check: all other tests: lints, sanitizers, embedding, fuzzing, Miri, coverage, packages, stress, audit
+## check: all other tests: lints, sanitizers, embedding, fuzzing, Miri, coverage, packages, stress, audit; random tests with a new seed
 check:
 	tools/check.sh
 
@@ -119,7 +119,7 @@ audit:
 accuracy:
 	@tools/dependencies.sh accuracy
 	$(CARGO) run --locked --package accuracy -- \
-		--points $(or $(POINTS),1e7) --regions docs/accuracy.csv --document docs/accuracy.md
+		--points $(or $(POINTS),1e7) --replay docs/accuracy.csv --regions docs/accuracy.csv --document docs/accuracy.md
 
 ## instructions: count the instructions of each call and check the relations between the counts
 instructions:
@@ -146,7 +146,7 @@ host: all
 	@tools/dependencies.sh host
 	examples/calculix/run.sh dist
 
-## stress: adversarial histories, for some minutes; ARGUMENTS="--only bank --seed 2 --scale 0.1"
+## stress: adversarial histories, for some minutes; ARGUMENTS="--only bank --scale 0.1", MICROSLIP_SEED=2 in the environment
 stress:
 	@tools/dependencies.sh accuracy
 	$(CARGO) run --quiet --locked --package stress -- $(ARGUMENTS)

@@ -216,7 +216,8 @@ static double *workspace_of(int harmonics, int samples)
     const size_t h = (size_t)harmonics, s = (size_t)samples,
                  length = mslip_element_workspace_length(2, h, s, MSLIP_UNIFORM_SAMPLING);
     double *workspace = allocate(length * sizeof *workspace);
-    require(mslip_element_workspace_init(2, h, s, MSLIP_UNIFORM_SAMPLING, 0, length, workspace));
+    /* As many periods as the points are walked through. */
+    require(mslip_element_workspace_init(2, h, s, MSLIP_UNIFORM_SAMPLING, 1, length, workspace));
     return workspace;
 }
 

@@ -333,9 +333,9 @@ module microslip
 
   interface mslip_element_displacement
     !! The monotonic curve of an element at a constant normal force: the displacement [m] that carries force(n) [N], at
-    !! most mu N in magnitude, under normal_force(n) [N] in a direction, 0 (x) or 1 (y), and the compliance [m/N] there.
-    !! At mu N the compliance of a cylinder and of an ellipse is infinite; so it is without friction and without a
-    !! normal force.
+    !! most mu N in magnitude, under normal_force(n) [N], and the compliance [m/N] there, in the direction 0 (x) or, of
+    !! an element with two directions, 1 (y). At mu N the compliance of a cylinder and of an ellipse is infinite; so it
+    !! is without friction and without a normal force.
     module procedure element_displacement_array, element_displacement_scalar
   end interface mslip_element_displacement
   ! </generated>
@@ -1869,18 +1869,18 @@ contains
 
   subroutine element_displacement_array(element, direction, force, normal_force, status, displacement, compliance)
     !! The monotonic curve of an element at a constant normal force: the displacement [m] that carries force(n) [N], at
-    !! most mu N in magnitude, under normal_force(n) [N] in a direction, 0 (x) or 1 (y), and the compliance [m/N] there.
-    !! At mu N the compliance of a cylinder and of an ellipse is infinite; so it is without friction and without a
-    !! normal force.
+    !! most mu N in magnitude, under normal_force(n) [N], and the compliance [m/N] there, in the direction 0 (x) or, of
+    !! an element with two directions, 1 (y). At mu N the compliance of a cylinder and of an ellipse is infinite; so it
+    !! is without friction and without a normal force.
     type(mslip_element), intent(in) :: element  !! An initialised element.
-    integer(mslip_int), intent(in) :: direction  !! The tangential direction, 0 (x) or 1 (y).
+    integer(mslip_int), intent(in) :: direction  !! The tangential direction, 0 (x) or, of an element with two directions, 1 (y).
     real(mslip_real), intent(in) :: force(:)
       !! Tangential force [N]; its magnitude is at most the friction coefficient times `normal_force`.
     real(mslip_real), intent(in) :: normal_force(:)  !! Normal force [N], >= 0.
     integer(mslip_int), intent(out) :: status
-      !! `MSLIP_OK`, MSLIP_BAD_ELEMENT, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_FORCE, MSLIP_LENGTH_TOO_SHORT for a
-      !! normal force under which the contact would be too wide for its length, MSLIP_BAD_FORCE or
-      !! MSLIP_FORCE_EXCEEDS_SLIP.
+      !! `MSLIP_OK`, MSLIP_BAD_ELEMENT, MSLIP_BAD_DIRECTIONS for another direction, MSLIP_BAD_NORMAL_FORCE,
+      !! MSLIP_LENGTH_TOO_SHORT for a normal force under which the contact would be too wide for its length,
+      !! MSLIP_BAD_FORCE or MSLIP_FORCE_EXCEEDS_SLIP.
     real(mslip_real), intent(inout), optional, target, contiguous :: displacement(:)  !! Displacement that carries the force [m].
     real(mslip_real), intent(inout), optional, target, contiguous :: compliance(:)
       !! Derivative of the displacement with respect to the force [m/N].
@@ -1900,18 +1900,18 @@ contains
 
   subroutine element_displacement_scalar(element, direction, force, normal_force, status, displacement, compliance)
     !! The monotonic curve of an element at a constant normal force: the displacement [m] that carries force(n) [N], at
-    !! most mu N in magnitude, under normal_force(n) [N] in a direction, 0 (x) or 1 (y), and the compliance [m/N] there.
-    !! At mu N the compliance of a cylinder and of an ellipse is infinite; so it is without friction and without a
-    !! normal force.
+    !! most mu N in magnitude, under normal_force(n) [N], and the compliance [m/N] there, in the direction 0 (x) or, of
+    !! an element with two directions, 1 (y). At mu N the compliance of a cylinder and of an ellipse is infinite; so it
+    !! is without friction and without a normal force.
     type(mslip_element), intent(in) :: element  !! An initialised element.
-    integer(mslip_int), intent(in) :: direction  !! The tangential direction, 0 (x) or 1 (y).
+    integer(mslip_int), intent(in) :: direction  !! The tangential direction, 0 (x) or, of an element with two directions, 1 (y).
     real(mslip_real), intent(in) :: force
       !! Tangential force [N]; its magnitude is at most the friction coefficient times `normal_force`.
     real(mslip_real), intent(in) :: normal_force  !! Normal force [N], >= 0.
     integer(mslip_int), intent(out) :: status
-      !! `MSLIP_OK`, MSLIP_BAD_ELEMENT, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_FORCE, MSLIP_LENGTH_TOO_SHORT for a
-      !! normal force under which the contact would be too wide for its length, MSLIP_BAD_FORCE or
-      !! MSLIP_FORCE_EXCEEDS_SLIP.
+      !! `MSLIP_OK`, MSLIP_BAD_ELEMENT, MSLIP_BAD_DIRECTIONS for another direction, MSLIP_BAD_NORMAL_FORCE,
+      !! MSLIP_LENGTH_TOO_SHORT for a normal force under which the contact would be too wide for its length,
+      !! MSLIP_BAD_FORCE or MSLIP_FORCE_EXCEEDS_SLIP.
     real(mslip_real), intent(inout), optional, target :: displacement  !! Displacement that carries the force [m].
     real(mslip_real), intent(inout), optional, target :: compliance
       !! Derivative of the displacement with respect to the force [m/N].
@@ -2138,12 +2138,13 @@ contains
   subroutine mslip_element_workspace_init(directions, harmonics, samples, periods, workspace, status, rule)
     !! Initialises a workspace of elements: tables for one (directions, harmonics, samples, rule), and scratch memory.
     !! Each thread needs its own. periods is the number of periods that are walked before the one that counts, at most
-    !! 65536; 0 is the default, 1. With one direction more than one changes nothing, and costs nothing.
+    !! 65536. 0 is the default: 3 with two directions; 1 with one, where more change nothing and cost nothing.
     integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1 or 2.
     integer(mslip_size), intent(in) :: harmonics  !! Highest harmonic H, >= 1.
     integer(mslip_size), intent(in) :: samples  !! Samples per period, > 2H.
     integer(mslip_size), intent(in) :: periods
-      !! Periods that are walked before the one that counts, at most 65536; 0 is the default, 1.
+      !! Periods that are walked before the one that counts, at most 65536; 0 is the default: 3 with two directions, 1
+      !! with one.
     real(mslip_real), intent(inout), target, contiguous :: workspace(:)
       !! The workspace, of at least `mslip_element_workspace_length(directions, harmonics, samples, rule)` values.
     integer(mslip_int), intent(out) :: status
@@ -2173,8 +2174,8 @@ contains
     !! With one direction the period that counts is the steady state. With two, a mean tangential force beside a
     !! vibration across it is shaken out over many periods: drift is the largest difference of the tangential force
     !! between the last period and the one before, over mu times the largest normal force; 0 with one direction, and for
-    !! a contact that opens, because it forgets. With the default number of periods the one before is the first, and the
-    !! drift contains the first loading. A drift is not an error.
+    !! a contact that opens, because it forgets. With 1 period before the one that counts, the drift contains the first
+    !! loading. A drift is not an error.
     type(mslip_element), intent(in) :: element  !! An initialised element.
     real(mslip_real), intent(inout), target, contiguous :: workspace(:)
       !! An initialised workspace; it decides H, and that of an element m.

@@ -586,8 +586,8 @@ size_t mslip_element_workspace_length(int32_t directions,
                                       int32_t rule);
 
 // Initialises a workspace of elements: tables for one (directions, harmonics, samples, rule), and scratch memory. Each thread
-// needs its own. periods is the number of periods that are walked before the one that counts, at most 65536; 0 is the default, 1.
-// With one direction more than one changes nothing, and costs nothing.
+// needs its own. periods is the number of periods that are walked before the one that counts, at most 65536. 0 is the default:
+// 3 with two directions; 1 with one, where more change nothing and cost nothing.
 //
 // Returns MSLIP_BAD_DIRECTIONS, MSLIP_BAD_RULE, MSLIP_NOT_AVAILABLE for MSLIP_EVENT_DRIVEN, MSLIP_BAD_HARMONICS,
 // MSLIP_BAD_SAMPLES, MSLIP_BAD_PERIODS, MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
@@ -622,9 +622,9 @@ int32_t mslip_element_workspace_size(const double *workspace,
 // another sample, and the mean tangential force may depend on the start.
 //
 // With one direction the period that counts is the steady state. With two, a mean tangential force beside a vibration across it is
-// shaken out over many periods: drift is the largest difference of the tangential force between the last period and the one before,
-// over mu times the largest normal force; 0 with one direction, and for a contact that opens, because it forgets. With the default
-// number of periods the one before is the first, and the drift contains the first loading. A drift is not an error.
+// shaken out over many periods: drift is the largest difference of the tangential force between the last period and the one
+// before, over mu times the largest normal force; 0 with one direction, and for a contact that opens, because it forgets. With 1
+// period before the one that counts, the drift contains the first loading. A drift is not an error.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_WORKSPACE, MSLIP_BAD_DIRECTIONS for the workspace of another number of
 // directions, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE if the normal force of a sample is negative, or
@@ -729,12 +729,14 @@ int32_t mslip_normal_approach(const struct mslip_element *element,
                               double *compliance,
                               double *half_width);
 
-// The monotonic curve of an element at a constant normal force: the displacement [m] that carries force[n] [N], at most mu N in
-// magnitude, under normal_force[n] [N] in a direction, 0 (x) or 1 (y), and the compliance [m/N] there. At mu N the compliance of
-// a cylinder and of an ellipse is infinite; so it is without friction and without a normal force.
+// The monotonic curve of an element at a constant normal force: the displacement [m] that carries force[n] [N], at most mu N
+// in magnitude, under normal_force[n] [N], and the compliance [m/N] there, in the direction 0 (x) or, of an element with two
+// directions, 1 (y). At mu N the compliance of a cylinder and of an ellipse is infinite; so it is without friction and without a
+// normal force.
 //
-// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_FORCE, MSLIP_LENGTH_TOO_SHORT for a normal
-// force under which the contact would be too wide for its length, MSLIP_BAD_FORCE or MSLIP_FORCE_EXCEEDS_SLIP.
+// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_DIRECTIONS for another direction, MSLIP_BAD_NORMAL_FORCE,
+// MSLIP_LENGTH_TOO_SHORT for a normal force under which the contact would be too wide for its length, MSLIP_BAD_FORCE or
+// MSLIP_FORCE_EXCEEDS_SLIP.
 int32_t mslip_element_displacement(const struct mslip_element *element,
                                    int32_t direction,
                                    size_t n,

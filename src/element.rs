@@ -4,7 +4,7 @@
 mod table;
 
 use crate::error::Error;
-use crate::limits::{check_displacement, in_range};
+use crate::limits::{MAX_DISPLACEMENT, check_displacement, in_range};
 use crate::numerics::fp_class::{in_0_to, is_finite, le};
 use crate::numerics::quadrature::gauss_nodes;
 use crate::parameters::{EllipticParameters, Pair, Parameters, check_moduli};
@@ -241,6 +241,10 @@ impl Element {
         }
         let (approach, shift) = (shape.approach(w), shape.shift(w));
         for value in [approach, shift, normal_force] {
+            // The element accepts its own load and approach.
+            if !in_0_to(MAX_DISPLACEMENT, value) {
+                return Err(Error::OutOfRange);
+            }
             in_range(&[value], &[])?;
             if friction_coefficient > 0.0 {
                 in_range(&[value, friction_coefficient], &[])?;
@@ -551,7 +555,7 @@ impl Element {
     /// its length.
     #[inline(always)]
     pub fn check_normal_force(&self, normal_force: f64) -> Result<(), Error> {
-        if !in_0_to(1e150, normal_force) {
+        if !in_0_to(MAX_DISPLACEMENT, normal_force) {
             return Err(Error::BadNormalForce);
         }
         if le(normal_force, self.largest_load) { Ok(()) } else { Err(Error::LengthTooShort) }

@@ -122,6 +122,30 @@ fn valid_arguments() {
     }
 }
 
+/// The results at several points are those at each alone.
+#[test]
+fn points_are_independent() {
+    for_each_call(|call, law| {
+        let of_points = |place: &usize| call.arguments[*place].extents == "n";
+        let (Some(count), false) = (call.place(Count), call.has(State) || !call.has(Input)) else { return };
+        let arrays: Vec<usize> = places(call, Input).chain(places(call, Output)).collect();
+        if call.has(Index) || !arrays.iter().all(of_points) {
+            return;
+        }
+        let all = Arguments::new(call, law, Before::Filled);
+        assert_eq!((call.function)(&all.slots), MSLIP_OK, "{}", call.name);
+        let expected = results(call, &all);
+        for i in 0..calls::N {
+            let mut slots = all.slots.clone();
+            slots[count] = Slot::Size(1);
+            let one = |place: usize| Slot::Pointer(all.memory(place).start.wrapping_add(8 * i));
+            arrays.iter().for_each(|place| slots[*place] = one(*place));
+            assert_eq!((call.function)(&slots), MSLIP_OK, "{}", call.name);
+        }
+        assert_eq!(results(call, &all), expected, "{}", call.name);
+    });
+}
+
 /// The check functions accept what was initialised.
 fn check_initialised(call: &Call, arguments: &Arguments) {
     let status = |place: usize| unsafe {
@@ -194,6 +218,9 @@ fn invalid_length(call: &Call, arguments: &mut Arguments, place: usize) {
             let words = vec![0x7777_7777_7777_7777; length];
             rejected_with(call, arguments, array, &words, argument.status);
         }
+        // NULL of no length is NULL.
+        arguments.slots[place] = Slot::Size(0);
+        rejected(call, arguments, array, Slot::Pointer(null_mut()), MSLIP_NULL_POINTER);
         arguments.slots[place] = Slot::Size(valid);
     }
 }
@@ -399,29 +426,27 @@ fn harmonic_motions() {
                 ([0.0, 0.6, 0.3, 0.2, 0.6], 8),
                 ([0.2, 9.0, 1.0, -0.7, 0.6], SAMPLES),
             ] {
-                {
-                    let mut arguments = Arguments::new(call, &law, Before::Uninitialised);
-                    let (n, workspace) = (2 * HARMONICS + 1, arguments.memory(1));
-                    let (length, start) = (workspace.bytes / 8, workspace.start.cast());
-                    let status = if call.has(Element) {
-                        unsafe { mslip_element_workspace_init(law.directions, 1, samples, law.rule, 0, length, start) }
-                    } else {
-                        unsafe { mslip_harmonic_workspace_init(1, samples, law.rule, length, start) }
-                    };
-                    assert_eq!(status, MSLIP_OK);
-                    let mut values: Vec<f64> = motion[..n].iter().map(|part| part * law.displacement).collect();
-                    if call.has(Element) {
-                        values.resize(n * law.directions as usize, 0.1 * law.displacement);
-                        values.extend([motion[3] * law.normal, motion[4] * law.normal, 0.0]);
-                    }
-                    arguments.set(2, Memory::of(&values));
-                    let by_force = call.has(Element) && law.normal_input == MSLIP_INPUT_NORMAL_FORCE;
-                    let is_negative = by_force && motion[4] > motion[3];
-                    let expected = if is_negative { MSLIP_BAD_NORMAL_FORCE } else { MSLIP_OK };
-                    assert_eq!((call.function)(&arguments.slots), expected, "{}: {motion:?}", call.name);
-                    if !is_negative {
-                        results(call, &arguments);
-                    }
+                let mut arguments = Arguments::new(call, &law, Before::Uninitialised);
+                let (n, workspace) = (2 * HARMONICS + 1, arguments.memory(1));
+                let (length, start) = (workspace.bytes / 8, workspace.start.cast());
+                let status = if call.has(Element) {
+                    unsafe { mslip_element_workspace_init(law.directions, 1, samples, law.rule, 0, length, start) }
+                } else {
+                    unsafe { mslip_harmonic_workspace_init(1, samples, law.rule, length, start) }
+                };
+                assert_eq!(status, MSLIP_OK);
+                let mut values: Vec<f64> = motion[..n].iter().map(|part| part * law.displacement).collect();
+                if call.has(Element) {
+                    values.resize(n * law.directions as usize, 0.1 * law.displacement);
+                    values.extend([motion[3] * law.normal, motion[4] * law.normal, 0.0]);
+                }
+                arguments.set(2, Memory::of(&values));
+                let by_force = call.has(Element) && law.normal_input == MSLIP_INPUT_NORMAL_FORCE;
+                let is_negative = by_force && motion[4] > motion[3];
+                let expected = if is_negative { MSLIP_BAD_NORMAL_FORCE } else { MSLIP_OK };
+                assert_eq!((call.function)(&arguments.slots), expected, "{}: {motion:?}", call.name);
+                if !is_negative {
+                    results(call, &arguments);
                 }
             }
         }
@@ -447,7 +472,8 @@ fn periods() {
                 let (none, no_size) = (null_mut(), null_mut());
                 assert_eq!(mslip_element_workspace_size(start, none, no_size, no_size, none, &raw mut found), MSLIP_OK);
             }
-            assert_eq!(found, periods.max(1));
+            let default = if law.directions == 2 { 3 } else { 1 };
+            assert_eq!(found, if periods == 0 { default } else { periods });
             assert_eq!((call.function)(&arguments.slots), MSLIP_OK);
             let results = results(call, &arguments);
             if law.directions == 1 {

@@ -82,7 +82,7 @@ impl<'a> Stepper<'a> {
 const ROUNDING: f64 = 1e-13;
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(common::random_cases(400))]
 
     #[test]
     fn steps_may_be_divided(contact in contact(), path in path(20), parts in 2..7usize) {

@@ -6,7 +6,7 @@ mod table;
 
 use microslip::element::{Directions, Element, NormalInput};
 use microslip::one_direction::tractions::tractions;
-use microslip::one_direction::{Step, advance, state_init, state_length};
+use microslip::one_direction::{Step, advance, force_error, state_init, state_length};
 use microslip::{Contact, EllipticParameters, Error, Layer, Material, Parameters};
 use proptest::prelude::*;
 use table::{Row, geometry, table};
@@ -178,6 +178,8 @@ fn random_history() -> impl Strategy<Value = Vec<(f64, f64)>> {
 }
 
 proptest! {
+    #![proptest_config(common::random_cases(256))]
+
     /// A step is straight in (S, u): steps through points of that line change nothing, and dissipate the same in sum.
     #[test]
     fn substeps_change_nothing(history in random_history(), parts in 2..5_u32) {
@@ -289,6 +291,18 @@ fn loads_up_to_the_largest_for_the_length_are_exact() {
     }
 }
 
+/// In units in which the load is about 1e150: an element that is accepted takes its own load.
+#[test]
+fn the_load_of_the_parameters_is_accepted() {
+    for (normal_force, accepted) in [(0.99e150, true), (1.01e150, false), (4e150, false)] {
+        let (flat_half_width, edge_radius, length) = (1e49, 1e50, 1e50);
+        let material = [Material { young_modulus: 4e-100 * normal_force, poisson_ratio: 0.3 }; 2];
+        let parameters = Parameters { edge_radius, length, normal_force, material, ..parameters(flat_half_width) };
+        let element = Element::rounded_flat(&parameters, Directions::One, NormalInput::Force);
+        assert_eq!(element.map(|element| element.check_normal_force(normal_force)).ok(), accepted.then_some(Ok(())));
+    }
+}
+
 #[test]
 fn tiny_loads_and_repeated_steps_are_regular() {
     for input in [NormalInput::Approach, NormalInput::Force] {
@@ -347,11 +361,19 @@ fn a_falling_load_dissipates_at_a_constant_displacement() {
 
 #[test]
 fn tractions_satisfy_coulomb_and_integrate_to_the_forces() {
-    for element in &elements(NormalInput::Force)[..3] {
+    const VARYING: [(f64, f64); 6] = [(0.1, 0.4), (0.3, 0.9), (0.7, 0.8), (0.5, 1.1), (-0.2, 0.9), (0.3, 1.0)];
+    // Six pieces in a state of four, and slip zones that cut back to knots beyond the merged ones.
+    const MERGED: [(f64, f64); 9] =
+        [(0.1, 0.4), (0.2, 0.5), (0.4, 0.6), (0.5, 0.9), (0.75, 1.0), (0.8, 1.2), (0.75, 1.2), (0.6, 1.2), (0.3, 1.2)];
+    let elements = &elements(NormalInput::Force)[..3];
+    for (element, (pieces, path)) in elements.iter().flat_map(|one| [(one, (64, &VARYING[..])), (one, (4, &MERGED))]) {
         let unit = 400.0 / element.tangential_stiffness;
-        let mut memory = History::new(element, 64);
-        for (u, w) in [(0.1, 0.4), (0.3, 0.9), (0.7, 0.8), (0.5, 1.1), (-0.2, 0.9), (0.3, 1.0)] {
+        let mut memory = History::new(element, pieces);
+        for &(u, w) in path {
             let step = memory.step(u * unit, w * 800.0);
+            // Forces of a step are those before a merge; a restart from the state has those of the merged pieces.
+            let again = memory.step(u * unit, w * 800.0);
+            assert!((again.force[0] - step.force[0]).abs() <= force_error(&memory.state) + 1e-13 * 400.0);
             // The midpoint rule in the angle, x = b cos: its error is that of the logarithms at the edges of the pieces.
             let (n, half_width) = (20_000, element.half_width_under(w * 800.0));
             let angles: Vec<f64> = (0..n).map(|i| std::f64::consts::PI * (f64::from(i) + 0.5) / f64::from(n)).collect();
@@ -363,7 +385,7 @@ fn tractions_satisfy_coulomb_and_integrate_to_the_forces() {
                 sum * half_width * std::f64::consts::PI / f64::from(n) * 20e-3
             };
             assert!((integral(&pressure) - step.force[1]).abs() < 1e-6 * 800.0);
-            assert!((integral(&shear) - step.force[0]).abs() < 1e-6 * 400.0);
+            assert!((integral(&shear) - again.force[0]).abs() < 1e-6 * 400.0);
             for (shear, pressure) in shear.iter().zip(&pressure) {
                 assert!(shear.abs() <= 0.5 * pressure + 1e-13 * pressure.max(1e8));
             }

@@ -52,7 +52,7 @@ drivers() {
 # Imports and the bounded memory are no matter of the processor.
 rust() {
     "$CARGO" test --locked --package microslip --target $triple --lib --test harmonic_balance --test properties \
-        --test shapes --test two_directions --test varying_load
+        --test two_directions --test varying_load
 }
 
 # application COMPILER PREFIX PROGRAM FLAG...: the program that makes all calls.

@@ -2,9 +2,11 @@
 # check.sh: what `make test` leaves out: lints, sanitizers, applications of every kind, fuzzing, Miri, coverage, packages, long histories, audit.
 set -eu
 cd "$(dirname "$0")/.."
+: "${MICROSLIP_SEED:=$(date +%s)}"
 . tools/steps.sh
+echo "seed of the random tests: $MICROSLIP_SEED"
 
-step 'packages' tools/dependencies.sh check
+tools/dependencies.sh check
 
 calculix_results() {
     mkdir -p "$work/calculix" &&
@@ -22,6 +24,7 @@ rust() {
     step 'lints: shell' sh -c 'git ls-files "*.sh" | xargs shellcheck .ci/run'
     step 'coverage: 98 % of the lines of src/' tools/coverage.sh
     step 'Miri' tools/miri.sh
+    step 'properties of random contacts and histories' "$CARGO" test --locked --test properties --test varying_load
     step 'accuracy, 1e5 points' "$CARGO" run --quiet --locked --package accuracy -- --points 1e5
     step 'stress: adversarial histories' "$CARGO" run --quiet --locked --package stress -- --scale 0.01
     step 'two directions: Jacobians of 4,000 random motions' \

@@ -1,5 +1,6 @@
 #!/bin/sh
-# dependencies.sh GROUP...: install the packages that a group of commands needs (as root on Debian or a derivative), or list those missing.
+# dependencies.sh [--install] GROUP...: list the packages that a group of commands needs and that are missing. With --install, or
+# if CI is true as in continuous integration, install them as root on Debian or a derivative, after a message that names them.
 #
 # A line of the table: package, groups, and how to recognise it (command NAME, file NAME, library NAME for the linker, header NAME,
 # clang OPTION).
@@ -57,7 +58,8 @@ found() {
     esac > /dev/null 2>&1
 }
 
-[ $# -gt 0 ] || { echo "usage: $0 demo|test|check|bench|figures|host|fuzz|docs|accuracy|instructions|octave|parallel|python..." >&2; exit 2; }
+[ "${1-}" != --install ] || { CI=true && shift; }
+[ $# -gt 0 ] || { echo "usage: $0 [--install] GROUP... (demo, test, check, ...: see the table)" >&2; exit 2; }
 missing=$(
     echo "$table" | while IFS=: read -r head probe; do
         package=${head%% *}
@@ -67,11 +69,13 @@ missing=$(
     done | sort -u | tr '\n' ' '
 )
 [ -n "$missing" ] || exit 0
-if [ "$(id -u)" -ne 0 ] || ! command -v apt-get > /dev/null; then
-    echo "$0: install these packages (Debian's names): $missing" >&2
+if [ "${CI-}" != true ] || [ "$(id -u)" -ne 0 ] || ! command -v apt-get > /dev/null; then
+    echo "$0: these packages are missing (Debian's names): $missing" >&2
+    echo "install them, or run as root on Debian: $0 --install $*" >&2
     exit 1
 fi
+echo "$0: installing by apt-get: $missing"
 export DEBIAN_FRONTEND=noninteractive
-apt-get update -q
+apt-get update -qq
 # shellcheck disable=SC2086  # a list
-apt-get install -q -y --no-install-recommends $missing
+apt-get install -qq -y --no-install-recommends $missing

@@ -5,18 +5,18 @@
 #   elements  the same for the element functions, and invariants of their results
 #   physics   invariants of any contact and load history
 #
-# TIME seconds for each target (60), JOBS processes (1), SEED (new each time). New inputs are kept in verification/fuzz/corpus/,
+# TIME seconds for each target (60), JOBS processes (1), MICROSLIP_SEED (new each time). New inputs are kept in verification/fuzz/corpus/,
 # failing ones in verification/fuzz/artifacts/.
 #
-# --check runs the committed seeds and a bounded, repeatable search from them, and keeps nothing; each target counts as a test.
+# --check runs the committed seeds and a bounded search from them, and keeps nothing; each target counts as a test.
 # --seeds replaces the seeds by the smallest set of kept inputs with the same coverage.
 set -eu
 
 cd "$(dirname "$0")/.."
-: "${CARGO:=cargo}" "${TIME:=60}" "${JOBS:=1}" "${SEED:=$(date +%s)}"
+: "${CARGO:=cargo}" "${TIME:=60}" "${JOBS:=1}" "${MICROSLIP_SEED:=$(date +%s)}"
 mode=
 case ${1:-} in
-    --check) mode=check TIME=20 JOBS=1 SEED=1 && shift ;;
+    --check) mode=check TIME=20 JOBS=1 && shift ;;
     --seeds) mode=seeds && shift ;;
 esac
 [ $# -gt 0 ] || set -- calls elements physics
@@ -50,8 +50,8 @@ for target; do
     tar --extract --gzip --file "$archive" --directory "$seeds"
     [ "$mode" != check ] || corpus=$work/new
     mkdir -p "$corpus"
-    echo "$target: $TIME s, seed $SEED"
-    set -- -seed="$SEED" -max_total_time="$TIME" -max_len=2048 -len_control=0 -timeout=60 -print_final_stats=1 \
+    echo "$target: $TIME s, seed $MICROSLIP_SEED"
+    set -- -seed="$MICROSLIP_SEED" -max_total_time="$TIME" -max_len=2048 -len_control=0 -timeout=60 -print_final_stats=1 \
         -artifact_prefix="verification/fuzz/artifacts/$target/"
     [ "$JOBS" -eq 1 ] || set -- "$@" -fork="$JOBS"
     if "$program" "$@" "$corpus" "$seeds" > "$work/log" 2>&1; then

@@ -37,7 +37,7 @@ wheels_and_platforms() {
     step 'shared library of other systems' tools/other_systems.sh
 }
 
-step 'packages' tools/dependencies.sh check release
+tools/dependencies.sh check release
 step 'all is committed' committed
 rm -rf "$publish"
 mkdir -p "$publish"

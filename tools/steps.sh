@@ -3,6 +3,9 @@
 
 : "${CARGO:=cargo}" "${CC:=gcc}" "${CXX:=g++}" "${FC:=gfortran}"
 export CARGO CC CXX FC
+# The seed of all random tests.
+: "${MICROSLIP_SEED:=1}"
+export MICROSLIP_SEED
 unset MAKEFLAGS MFLAGS MAKELEVEL # of the make that runs the script, not of those that it runs
 
 work=$(mktemp -d)
@@ -10,7 +13,7 @@ trap 'rm -rf "$work"' EXIT
 : > "$work/counts"
 
 # step NAME COMMAND...: counts the tests that the command reports (cargo's "test result:" or "N passed, N failed"), or itself as one; exit
-# status 77 means that what it needs cannot be installed. Functions as commands join their commands by &&: a failure does not end the shell there.
+# status 77, that what it needs cannot be installed, is a failure unless MICROSLIP_MAY_SKIP is set. Functions as commands join their commands by &&: a failure does not end the shell there.
 step() {
     step=$1
     shift
@@ -19,7 +22,7 @@ step() {
     begun=$(date +%s)
     "$@" > "$log" 2>&1 || status=$?
     seconds=$(($(date +%s) - begun))
-    if [ "$status" -eq 77 ]; then
+    if [ "$status" -eq 77 ] && [ -n "${MICROSLIP_MAY_SKIP:-}" ]; then
         printf '%-72s SKIPPED: %s\n' "$step" "$(tail -n 1 "$log")"
         return
     fi
@@ -37,7 +40,11 @@ step() {
     if [ "$bad" -eq 0 ]; then
         printf '%-72s %s passed, %s s\n' "$step" "$good" "$seconds"
     else
-        { printf '%-72s FAILED (%s passed, %s failed)\n' "$step" "$good" "$bad"; sed 's/^/    /' "$log"; } > "$log.report"
+        {
+            printf '%-72s FAILED (%s passed, %s failed)\n' "$step" "$good" "$bad"
+            sed 's/^/    /' "$log"
+            echo "    again: MICROSLIP_SEED=$MICROSLIP_SEED $*"
+        } > "$log.report"
         cat "$log.report"
     fi
 }

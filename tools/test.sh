@@ -54,7 +54,7 @@ programs() {
     done
 }
 
-step 'packages' tools/dependencies.sh test
+tools/dependencies.sh --install test
 together installed compiled
 together rust programs
 summary

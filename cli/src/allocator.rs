@@ -11,7 +11,7 @@ static ALLOCATOR: ExitWithoutMemory = ExitWithoutMemory;
 fn checked(memory: *mut u8) -> *mut u8 {
     if memory.is_null() {
         // Neither allocates.
-        let _ = io::stderr().write_all(b"microslip: out of memory\n");
+        let _ = io::stderr().write_all(b"error: out of memory\n");
         std::process::exit(1);
     }
     memory

@@ -34,7 +34,7 @@ fn main() -> ExitCode {
     match Arguments::from_arg_matches(&matches).map_or_else(|error| error.exit(), |arguments| run(&arguments.command)) {
         Ok(status) => ExitCode::from(status),
         Err(CliError::Input(message)) => {
-            print_message(&message);
+            print_message("error", &message);
             ExitCode::from(1)
         }
         Err(CliError::Usage(message)) => {
@@ -49,9 +49,9 @@ fn main() -> ExitCode {
     }
 }
 
-/// Prints to standard error, if it is open.
-fn print_message(message: &str) {
-    let _ = writeln!(io::stderr(), "microslip: {message}");
+/// Prints to standard error, if it is open, in the form of clap's messages.
+fn print_message(kind: &str, message: &str) {
+    let _ = writeln!(io::stderr(), "{kind}: {message}");
 }
 
 /// Runs a command; returns the exit status.
@@ -93,7 +93,7 @@ fn execute<Options: Args>(
     }
     let plot = plot.map(|path| Ok((path, format_of(path)?))).transpose()?;
     let report = compute(options, &ContactSpec::read(parameters, contact)?)?;
-    report.warnings.iter().for_each(|warning| print_message(&format!("warning: {warning}")));
+    report.warnings.iter().for_each(|warning| print_message("warning", warning));
     if let Some((path, format)) = plot {
         let picture = report.picture.draw(format).map_err(|error| CliError::in_file(path, error))?;
         files::write_file(path, &picture)?;

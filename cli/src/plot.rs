@@ -83,19 +83,16 @@ const TICK_LENGTH: f64 = 4.0;
 /// Least distances of ticks along x and y: tick labels have at most about five characters, and one line.
 const TICK_DISTANCES: [f64; 2] = [55.0, 30.0];
 
-/// Dashes and colours, lighter from line to line: they also differ in grey. The next four lines are thin.
-const STROKES: [(Option<[f32; 2]>, [u8; 3]); 4] = [
-    (None, [0, 0, 0]),
-    (Some([14.0, 6.0]), [0, 90, 180]),
-    (Some([5.0, 4.0]), [200, 70, 0]),
-    (Some([2.0, 4.0]), [0, 140, 100]),
-];
+/// The first four colours also differ in grey.
+const DASHES: [Option<[f32; 2]>; 4] = [None, Some([14.0, 6.0]), Some([5.0, 4.0]), Some([2.0, 4.0])];
+const COLOURS: [u32; 8] = [0x000000, 0x005ab4, 0xc84600, 0x008c64, 0xe19600, 0x823296, 0x46aae1, 0xd75a96];
 const AXIS: Stroke = Stroke { colour: [0, 0, 0], width: 1.0, dash: None };
 const GRID: Stroke = Stroke { colour: [214, 214, 214], width: 1.0, dash: None };
 
+/// Each pair of a dash and a colour once in 32 numbers: after four lines the colours are shifted by one against the dashes.
 fn stroke(number: usize) -> Stroke {
-    let (dash, colour) = STROKES[number % STROKES.len()];
-    Stroke { colour, width: if (number / STROKES.len()).is_multiple_of(2) { 2.0 } else { 1.0 }, dash }
+    let [_, colour @ ..] = COLOURS[(number + number / DASHES.len()) % COLOURS.len()].to_be_bytes();
+    Stroke { colour, width: 2.0, dash: DASHES[number % DASHES.len()] }
 }
 
 /// A panel, its axes, and the size of its graph.
@@ -254,8 +251,8 @@ impl Graph<'_> {
     }
 }
 
-/// Entries of a legend; more lines could not be distinguished.
-const MAX_NAMES: usize = 32;
+/// Entries of a legend: as many as there are strokes.
+const MAX_NAMES: usize = DASHES.len() * COLOURS.len();
 
 /// Points of the lines of a panel; more could not be distinguished.
 const MAX_POINTS: usize = 40_000;
@@ -447,11 +444,18 @@ impl Scale {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::collections::HashSet;
 
     fn picture(x: Axis, points: &[Point]) -> Picture {
         let lines = vec![Line { stroke: 0, name: String::new(), points: points.to_vec() }];
         let panel = Panel { x, y: Axis::linear("force", Quantity::Force), lines };
         Picture { caption: String::new(), units: Units::Si, rows: vec![panel.into()] }
+    }
+
+    #[test]
+    fn no_two_lines_of_a_legend_look_alike() {
+        let looks: HashSet<_> = (0..MAX_NAMES).map(|number| format!("{:?}", stroke(number))).collect();
+        assert_eq!(looks.len(), MAX_NAMES);
     }
 
     #[test]

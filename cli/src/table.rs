@@ -197,6 +197,9 @@ impl ColumnSpec<'_> {
         let names: Vec<_> = first.iter().map(|cell| name_of(cell)).collect();
         let default = || self.names.iter().find(|name| names.contains(name)).copied();
         let name = self.selected.or_else(default).unwrap_or(self.default_name());
+        if is_header(first) && names.iter().filter(|other| **other == name).count() > 1 {
+            return Err(format!("several columns are named {name}: {} must select one by its number", self.option));
+        }
         if let Some(index) = names.iter().position(|other| is_header(first) && *other == name) {
             let expected = self.unit;
             return match first[index].split_once('[').map(|(_, unit)| unit.trim_end_matches(']').trim()) {

@@ -746,12 +746,12 @@ fn messages_name_the_error_and_what_is_allowed() {
     let shell = Shell::new("messages");
     shell.write("si.toml", "units = 'si'");
     for (arguments, before, error, after) in [
-        ("curve flat.toml --edge-radius 0", "microslip: ", Error::BadEdgeRadius, ", not 0"),
-        ("curve flat.toml --normal-force -1e-3", "microslip: ", Error::BadNormalForce, ", not -1e-3"),
-        ("curve flat.toml --young-modulus 2e11,nan", "microslip: ", Error::BadYoungModulus, ", not 2e11,NaN"),
-        ("curve flat.toml --poisson-ratio 0.6", "microslip: ", Error::BadPoissonRatio, ", not 0.6"),
-        ("curve flat.toml --normal-force 1e300", "microslip: ", Error::OutOfRange, ""),
-        ("curve flat.toml --length 1e-6", "microslip: ", Error::LengthTooShort, "; length = 1e-6 m, b = "),
+        ("curve flat.toml --edge-radius 0", "error: ", Error::BadEdgeRadius, ", not 0"),
+        ("curve flat.toml --normal-force -1e-3", "error: ", Error::BadNormalForce, ", not -1e-3"),
+        ("curve flat.toml --young-modulus 2e11,nan", "error: ", Error::BadYoungModulus, ", not 2e11,NaN"),
+        ("curve flat.toml --poisson-ratio 0.6", "error: ", Error::BadPoissonRatio, ", not 0.6"),
+        ("curve flat.toml --normal-force 1e300", "error: ", Error::OutOfRange, ""),
+        ("curve flat.toml --length 1e-6", "error: ", Error::LengthTooShort, "; length = 1e-6 m, b = "),
         ("tractions $FLAT --force 61", "--force 61: ", Error::ForceExceedsSlip, ", which is 60 N"),
         ("tractions $FLAT --position inf", "--position inf: ", Error::BadPosition, ""),
         ("curve $FLAT --force inf", "--force inf: ", Error::BadForce, ""),
@@ -862,7 +862,7 @@ fn errors_in_files_name_file_and_line() {
         assert!(example.contains(from));
         shell.write("contact.toml", example.replace(from, to));
         shell.check_error("microslip contact contact.toml", 1, text);
-        shell.check_error("microslip contact contact.toml", 1, "microslip: contact.toml: ");
+        shell.check_error("microslip contact contact.toml", 1, "error: contact.toml: ");
     }
     for (table, options, text) in [
         (&b"1e-6\n1e-6m"[..], "", "line 2: \"1e-6m\": not a number"),
@@ -891,6 +891,7 @@ fn errors_in_files_name_file_and_line() {
         (b"t,u\n0,1\n", "", "line 1: --column must select one of the 2 columns"),
         (b"0,.5e-6\n", "", "line 1: --column must select one of the 2 columns"),
         (b"t,u\n0,1\n", "--column w", "line 1: no column w; the columns are t, u"),
+        (b"u,u [m]\n0,1\n", "--column u", "line 1: several columns are named u: --column must"),
         (b"0,.1\n", "--column 3", "line 1: no column 3; the columns are 1 to 2"),
         (b"# c\n0,.1\n", "--column 0", "line 2: no column 0; the columns are 1 to 2"),
         (b"displacement [mm]\n1\n", "", "line 1: column displacement is in mm, not in m (see --units or --data-units)"),
@@ -1062,7 +1063,7 @@ fn input_without_end_and_missing_memory_are_errors() {
         // In kB: enough to start, and not enough for these tables.
         for command in ["curve flat.toml --points 1000000", "history flat.toml --displacements long.csv"] {
             let script = format!("yes 1e-6 | head -n 400000 > long.csv; ulimit -v 60000; microslip {command}");
-            shell.check_error(&script, 1, "microslip: out of memory\n");
+            shell.check_error(&script, 1, "error: out of memory\n");
         }
     }
 }

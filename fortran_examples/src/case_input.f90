@@ -31,7 +31,7 @@ module case_input
     integer :: response_dof = 0
     integer, allocatable :: loaded_dof(:)                                   !! static loads; empty without the group &static_load
     real(wp), allocatable :: static_load(:)                                 !! N
-    integer :: harmonics = 5, samples = 128, periods = 1
+    integer :: harmonics = 5, samples = 128, periods = 3
     real(wp) :: tolerance = 1.0e-9_wp
     real(wp) :: frequency_from = 0.0_wp, frequency_to = 0.0_wp             !! Hz, of &sweep
     real(wp), allocatable :: load_factors(:), excitation_factors(:)        !! of &sweep; empty without the group

@@ -71,7 +71,7 @@ module friction_contacts
     logical, allocatable :: is_linear(:)                    !! whether the force of a component is that of a spring,
     real(wp), allocatable :: spring(:)                      !! and its stiffness
     real(wp), allocatable :: workspace(:)
-    integer :: periods = 1                                  !! before the one that counts
+    integer :: periods = 3                                  !! before the one that counts
     real(wp) :: drift = 0.0_wp                              !! the largest one of the elements in the last harmonic force
     real(wp), allocatable :: fine_basis(:,:)                !! Fourier functions at the instants searched for extremes
     ! Arguments of the calls, item after item.

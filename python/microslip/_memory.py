@@ -188,8 +188,8 @@ class ElementWorkspace(_Workspace):
     """Tables and scratch memory for harmonic forces of elements with 1 or 2 tangential `directions`.
 
     `harmonics` is H >= 1, `samples` > 2H per period, `rule` `UNIFORM_SAMPLING`. `periods`, at most 65536, are walked before the
-    one that counts; 0 is the default, 1. With one direction more than one changes nothing. Calls with one workspace wait for each
-    other: use one per thread.
+    one that counts; 0 is the default, 3 with two directions and 1 with one, where more change nothing. Calls with one workspace
+    wait for each other: use one per thread.
     """
 
     _calls = "mslip_element_workspace"

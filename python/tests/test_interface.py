@@ -184,9 +184,10 @@ def test_the_drift_falls_with_the_periods():
     # A mean shear beside a vibration across it.
     u = np.array([[0.8 * SLIP, 0, 0], [0, 0, 0.2 * SLIP], [0.7 * element.approach, 0, 0]])
     spaces = [microslip.ElementWorkspace(2, 1, 32, periods=periods) for periods in (0, 1, 3, 10)]
-    assert [space.periods for space in spaces] == [1, 1, 3, 10]
+    assert [space.periods for space in spaces] == [3, 1, 3, 10]
     drifts = [both.harmonic_force(space, u).drift for space in spaces]
-    assert drifts[0] == drifts[1] > 2 * drifts[2] > 4 * drifts[3] > 0
+    assert drifts[1] > 2 * drifts[2] > 4 * drifts[3] > 0
+    assert drifts[0] == drifts[2]
     assert (microslip.ElementArray([both]).harmonic_force(spaces[3], [u, u], index=[0, 0]).drift == drifts[3]).all()
     assert element.harmonic_force(element_workspace, ELEMENT_HARMONICS).drift == 0
     assert contact.harmonic_force(workspace, HARMONICS).drift == 0

@@ -187,35 +187,7 @@ impl CurvePoint<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::constant_load::contact::tests::{FLATS, TITANIUM, contact, ellipse};
-    use crate::numerics::quadrature::gauss;
-    use core::f64::consts::PI;
-
-    /// Eq. 10 from the stick half-width c; its relative error is an absolute error of ln c.
-    #[test]
-    fn compliance_follows_from_the_stick_zone_and_integrates_to_the_displacement() {
-        for flat in FLATS {
-            let contact = contact(flat);
-            let nu = TITANIUM.poisson_ratio;
-            let compliance = |force: f64| {
-                let c = contact.curve_at_force(force).unwrap().stick_half_width();
-                2.0 / (PI * contact.composite_modulus * 10e-3) * ((2.0 * 10e-3 / c).ln() + nu / (1.0 - nu))
-            };
-            for part in [1e-9, 0.1, 0.499, 0.501, 0.9, 0.99] {
-                let force = part * contact.slip_force;
-                let point = contact.curve_at_force(force).unwrap();
-                let expected = compliance(force);
-                // A few units of rounding of the logarithm.
-                assert!((point.compliance() / expected - 1.0).abs() < 3e-15, "{flat} {part}");
-                assert!((point.stiffness() * point.compliance() - 1.0).abs() < 3e-15, "{flat} {part}");
-                // With panels of 1/64 the logarithmic singularity at mu N, at a distance of 0.01, is about a panel length away.
-                let panels: f64 = (0..64)
-                    .map(|panel| gauss(force / 64.0, |step| compliance(force / 64.0 * panel as f64 + step)))
-                    .sum();
-                assert!((point.displacement() / panels - 1.0).abs() < 1e-13, "{flat} {part}");
-            }
-        }
-    }
+    use crate::constant_load::contact::tests::{FLATS, contact, ellipse};
 
     #[test]
     fn curve_ends_at_mu_n_with_a_kink_for_a_flat() {

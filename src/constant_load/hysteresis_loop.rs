@@ -48,9 +48,8 @@ impl HysteresisLoop<'_> {
         }
         // The distance from a reversal is amplitude (1 - cos t) = 2 amplitude sin²(t/2); the monotonic curve is evaluated at half of it.
         let sine = (PI * phase).sin();
-        // In gross slip the branch reaches -mu N before its end.
-        let force = self.top - 2.0 * contact.response(self.amplitude * sine * sine).force;
-        sign * force.max(-contact.slip_force)
+        // In gross slip the branch reaches -mu N before its end, exactly: both forces are mu N.
+        sign * (self.top - 2.0 * contact.response(self.amplitude * sine * sine).force)
     }
 }
 

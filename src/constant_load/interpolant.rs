@@ -295,62 +295,9 @@ fn interpolate<const N: usize, const M: usize>(
 
 #[cfg(test)]
 mod tests {
-    use crate::constant_load::contact::tests::{FLATS, contact, layered};
-
     /// The boundaries of the pieces: of the first polynomial, and of every dyadic interval of v.
     fn boundaries() -> impl Iterator<Item = f64> {
         (0..=super::PIECES as i32).map(|piece| 1.0 - (1.0 - super::INNER_FRACTION) * 0.25f64.powi(piece))
-    }
-
-    #[test]
-    fn interpolant_agrees_with_the_stick_zone() {
-        for contact in FLATS.map(contact) {
-            let fractions = (1..400).map(|k| f64::from(k) / 400.0).chain([1e-12, 1e-3, 0.9999]).chain(boundaries());
-            for fraction in fractions.filter(|fraction| *fraction < 1.0) {
-                let displacement = fraction * contact.slip_displacement;
-                let (response, zone) =
-                    (contact.response(displacement), contact.stick_zone_at_displacement(displacement));
-                // Rounding errors of a unit from each of three polynomials; those of the stiffness scale as 1/(1 - x/x_s) near gross slip.
-                assert!((response.force / contact.force_of(&zone) - 1.0).abs() < 1.5e-15, "{fraction}");
-                let bound = 2e-15 / (1.0 - fraction).min(1.0);
-                assert!((response.stiffness / contact.stiffness_of(&zone) - 1.0).abs() < bound, "{fraction}");
-            }
-        }
-    }
-
-    #[test]
-    fn energies_agree_with_the_stick_zone() {
-        for contact in
-            FLATS.map(contact).into_iter().chain(layered(0.3, 1.0)).filter(|contact| !contact.is_elementary())
-        {
-            for fraction in (1..=100).map(|k| f64::from(k) / 250.0).chain([1e-12, 1e-6, 1e-3]) {
-                let amplitude = fraction * contact.slip_displacement;
-                let energy = contact.inner_cycle_energy(amplitude).unwrap();
-                let expected = contact.energy_of(&contact.stick_zone_at_displacement(amplitude));
-                // The coefficients of powers of y are sums of both signs.
-                assert!((energy / expected - 1.0).abs() < 6e-14, "{fraction} {energy:e} {expected:e}");
-            }
-            assert!(contact.inner_cycle_energy(0.401 * contact.slip_displacement).is_none());
-        }
-    }
-
-    #[test]
-    fn interpolant_is_continuous_and_ends_at_mu_n() {
-        for contact in FLATS.map(contact) {
-            for boundary in boundaries() {
-                let below = (boundary * contact.slip_displacement).next_down().next_down();
-                let steps = std::iter::successors(Some(below), |x| Some(x.next_up())).take(5);
-                let forces: std::vec::Vec<f64> = steps.map(|x| contact.response(x).force).collect();
-                for pair in forces.windows(2) {
-                    assert!((pair[1] / pair[0] - 1.0).abs() < 1.5e-15, "{boundary}");
-                }
-            }
-            let end = contact.response(contact.slip_displacement);
-            assert_eq!(end.force, contact.slip_force);
-            let beyond = contact.response(contact.slip_displacement.next_up());
-            assert_eq!((beyond.force, beyond.stiffness), (contact.slip_force, 0.0));
-            assert_eq!(contact.response(0.0).stiffness, contact.initial_stiffness);
-        }
     }
 
     /// From the hardest layer to the softest, and from a constant stiffness to the smallest N_c.

@@ -356,9 +356,8 @@ pub fn shear_tractions(contact: &Contact, state: &[f64], x: &[f64], shear: &mut 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::constant_load::contact::tests::{FLATS, contact, ellipse, parameters};
+    use crate::constant_load::contact::tests::{FLATS, contact, ellipse};
     use crate::constant_load::state::{self, state_error, state_init, state_length};
-    use crate::parameters::Parameters;
     use std::vec;
     use std::vec::Vec;
 
@@ -390,10 +389,6 @@ mod tests {
         force
     }
 
-    fn on_curve(contact: &Contact, displacement: f64) -> f64 {
-        contact.curve_at_displacement(displacement * contact.slip_displacement).unwrap().force()
-    }
-
     /// Pseudo-random values from -1 to 1.
     fn pseudo_random(count: usize, seed: u64) -> impl Iterator<Item = f64> {
         let mut bits = seed;
@@ -401,12 +396,6 @@ mod tests {
             bits = bits.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
             (bits >> 11) as f64 / (1u64 << 52) as f64 - 1.0
         })
-    }
-
-    /// Number of reversals on the stack, and the offset of the initial loading curve.
-    fn depth_and_offset(state: &[f64]) -> (usize, f64) {
-        let memory = state::read(state).unwrap();
-        (memory.reversals.len(), memory.initial.offset)
     }
 
     #[test]
@@ -462,42 +451,6 @@ mod tests {
     }
 
     #[test]
-    fn branch_continues_on_the_initial_curve_at_the_mirror_image_of_the_first_reversal() {
-        for flat in FLATS {
-            let contact = contact(flat);
-            for beyond in [0.5, 0.500001, 0.7, 0.999] {
-                let mut state = unloaded(8);
-                let force = apply(&contact, &mut state, &[0.5, -0.1, 0.3, 0.2, -beyond]);
-                // At the mirror image itself the branch and the initial loading curve agree.
-                assert!((force + on_curve(&contact, beyond)).abs() <= 4e-16 * contact.slip_force, "{flat} {beyond}");
-                assert_eq!(depth_and_offset(&state), (0, 0.0));
-            }
-        }
-    }
-
-    #[test]
-    fn gross_slip_erases_the_memory() {
-        for contact in FLATS.map(contact).into_iter().chain([ellipse(1e-4, 2e-4)]) {
-            let (mut loaded, mut initial) = (unloaded(64), unloaded(64));
-            apply(&contact, &mut loaded, &[0.5, -0.3, 0.9, -0.8, 0.1, 0.0, 0.05]);
-            for state in [&mut loaded, &mut initial] {
-                assert_eq!(apply(&contact, state, &[2.5]), contact.slip_force);
-            }
-            assert_eq!(loaded.first_chunk::<5>(), initial.first_chunk::<5>());
-            for path in [&[2.4][..], &[1.0, 1.3], &[-0.4], &[0.6]] {
-                let [one, two] = [&mut loaded, &mut initial].map(|state| apply(&contact, state, path));
-                assert_eq!(one, two);
-            }
-            // A branch that starts in gross slip is the curve scaled by two; it reaches gross slip at twice its displacement.
-            let mut state = unloaded(2);
-            let back = apply(&contact, &mut state, &[2.5, 2.5 - 1.2]);
-            let expected = contact.slip_force - 2.0 * on_curve(&contact, 0.6);
-            assert!((back - expected).abs() <= 4e-15 * contact.slip_force);
-            assert_eq!(apply(&contact, &mut state, &[0.499]), -contact.slip_force);
-        }
-    }
-
-    #[test]
     fn zero_step_changes_nothing() {
         let contact = contact(1e-6);
         let mut state = unloaded(64);
@@ -513,18 +466,6 @@ mod tests {
             again.write(&mut state);
             assert_eq!(state, before);
         }
-    }
-
-    #[test]
-    fn deep_spiral_of_reversals_is_closed_by_one_step() {
-        let contact = contact(0.0);
-        let spiral: Vec<f64> =
-            (0..400).map(|k| (if k % 2 == 0 { 0.9 } else { -0.9 }) * (1.0 - k as f64 / 401.0)).collect();
-        let mut state = unloaded(399);
-        apply(&contact, &mut state, &spiral);
-        assert_eq!((depth_and_offset(&state), state_error(&state)), ((399, 0.0), Ok(0.0)));
-        assert_eq!(apply(&contact, &mut state, &[0.95]), on_curve(&contact, 0.95));
-        assert_eq!(depth_and_offset(&state).0, 0);
     }
 
     /// The results of a path do not depend on whether the new state is discarded.
@@ -543,69 +484,6 @@ mod tests {
                 assert_eq!(discarded, kept);
             }
         }
-    }
-
-    #[test]
-    fn closed_loop_dissipates_the_energy_of_its_amplitude() {
-        for contact in FLATS.map(contact).into_iter().chain([ellipse(1e-4, 2e-4)]) {
-            for amplitude in [0.01, 0.3, 0.8, 0.9999] {
-                let mut state = unloaded(4);
-                let force = apply(&contact, &mut state, &[amplitude]);
-                let mut sum = 0.0;
-                for target in [-0.3 * amplitude, -amplitude, amplitude] {
-                    let (step, energy) = step_with_energy(&contact, &state, target * contact.slip_displacement);
-                    sum += energy;
-                    step.write(&mut state);
-                }
-                let expected = contact.dissipated_energy(force).unwrap();
-                // The largest contribution is the rounding error of the force near gross slip, relative to the distance of 1e-4.
-                assert!((sum / expected - 1.0).abs() < 1e-13, "{amplitude} {sum} {expected}");
-                // A small nested loop dissipates the same energy anywhere, up to the rounding error of its displacements.
-                apply(&contact, &mut state, &[0.0, -0.2 * amplitude]);
-                let part = 0.1 * amplitude;
-                let mut inner = 0.0;
-                for target in [part - 0.2 * amplitude, -0.2 * amplitude] {
-                    let (step, energy) = step_with_energy(&contact, &state, target * contact.slip_displacement);
-                    inner += energy;
-                    step.write(&mut state);
-                }
-                let expected = contact.dissipated_energy(on_curve(&contact, 0.5 * part)).unwrap();
-                assert!((inner / expected - 1.0).abs() < 1e-13, "{amplitude} {inner} {expected}");
-            }
-        }
-    }
-
-    #[test]
-    fn tractions_after_a_history_satisfy_coulomb_and_integrate_to_the_force() {
-        let contact = contact(50e-6);
-        let mut state = unloaded(8);
-        let force = apply(&contact, &mut state, &[0.9, -0.6, 0.4, -0.1, 0.2]);
-        // The singular points of the traction: the stick edges of all changes of force, and the edges of flat and contact.
-        let forces: Vec<f64> =
-            state::read(&state).unwrap().reversals.iter().map(|[_, force, _]| *force).chain([force]).collect();
-        let stick_edge = |change: f64| contact.curve_at_force(change).unwrap().stick_half_width();
-        let mut points: Vec<f64> = forces.windows(2).map(|pair| stick_edge(0.5 * (pair[1] - pair[0]))).collect();
-        assert_eq!(points.len(), 4);
-        points.extend([0.0, 50e-6, contact.half_width, stick_edge(forces[0])]);
-        points.sort_by(f64::total_cmp);
-        let mut sum = 0.0;
-        for (from, to) in points.iter().zip(points.iter().skip(1)) {
-            for node in &crate::numerics::quadrature::TANH_SINH {
-                let x = from + (to - from) * node.from_0;
-                let mut shear = [0.0];
-                shear_tractions(&contact, &state, &[x], &mut shear).unwrap();
-                let [shear] = shear;
-                // The rounding errors of five terms.
-                assert!(shear.abs() <= 0.4 * contact.pressure(x) * (1.0 + 1e-12));
-                sum += 2.0 * 10e-3 * (to - from) * node.weight * shear;
-            }
-        }
-        // The nodes of the rule next to an edge round to it.
-        assert!((sum / force - 1.0).abs() < 1e-7, "{sum} {force}");
-        // A force above the mu N of this contact.
-        let stronger = Contact::rounded_flat(&Parameters { normal_force: 225.0, ..parameters(50e-6) }).unwrap();
-        apply(&stronger, &mut state, &[-3.0]);
-        assert_eq!(shear_tractions(&contact, &state, &[0.0], &mut [0.0]), Err(Error::ForceExceedsSlip));
     }
 
     /// So far in gross slip that the offset of the initial loading curve equals the displacement in double precision.

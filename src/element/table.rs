@@ -318,15 +318,14 @@ mod tests {
         }
     }
 
-    /// Of soft and stiff layers; N_c = N/1000 is the smallest one.
+    /// The largest errors are at the lower end of a quarter. They are those that the guide states.
     #[test]
     fn tables_with_layers_lose_digits_for_the_smallest_stiffening_load() {
-        for (ratio, bound) in [(0.01, 3e-14), (0.005, 2e-12), (0.001, 2e-11)] {
-            let contacts = FLATS.map(|flat| RoundedFlat::new(&parameters(flat)).unwrap());
-            for (shape, share) in
-                contacts.iter().flat_map(|shape| [0.1, 1.0, 3.0, 10.0, 100.0].map(|share| (shape, share)))
-            {
-                let compliance = share * shape.normal_compliance(shape.at_load(150.0));
+        let contacts = FLATS.map(|flat| RoundedFlat::new(&parameters(flat)).unwrap());
+        for (ratio, stated) in [(0.1, 3e-15), (0.01, 3e-13), (0.001, 1.3e-10)] {
+            let mut worst = 0.0_f64;
+            for (shape, k) in contacts.iter().flat_map(|shape| (0..100).map(move |k| (shape, k))) {
+                let compliance = 1.06_f64.powi(k) * shape.normal_compliance(shape.at_load(150.0));
                 let layer = crate::parameters::Layer {
                     normal_compliance: compliance,
                     tangential_compliance: compliance,
@@ -339,11 +338,14 @@ mod tests {
                 let mut x = largest;
                 while let Some(at) = table.position(x) {
                     let (load, _) = table.value_and_slope(x, at);
-                    let exact = both.load(both.at_approach(x));
-                    assert!((load / exact - 1.0).abs() < bound, "{ratio} {share} {x} {:e}", load / exact - 1.0);
-                    x *= 0.999;
+                    worst = worst.max((load / both.load(both.at_approach(x)) - 1.0).abs());
+                    // The lower end, then another quarter.
+                    let low = f64::from_bits(x.to_bits() >> SHIFT << SHIFT);
+                    x = if x > low { low } else { 0.97 * x };
                 }
             }
+            std::println!("N_c = {ratio} N: the normal force within {worst:.1e}, stated {stated:.1e}");
+            assert!(worst < stated && worst > 0.5 * stated, "{ratio} {worst:e}");
         }
     }
 

@@ -198,6 +198,9 @@ unsafe fn update<L: Law>(
     let displacement = unsafe { input(displacement.cast::<L::Vector>(), items.n) }?;
     check_alignment(states_new)?;
     outputs.iter().try_for_each(|output| check_alignment(*output))?;
+    if items.n > 0 && states_old.is_null() {
+        return Err(Error::NullPointer);
+    }
     if items.n > 0 && state_length < L::STATE_LENGTH {
         return Err(Error::StateTooShort);
     }

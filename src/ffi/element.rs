@@ -147,12 +147,14 @@ pub unsafe extern "C" fn mslip_normal_approach(
     )
 }
 
-/// The monotonic curve of an element at a constant normal force: the displacement \[m\] that carries force\[n\] \[N\], at most mu N in
-/// magnitude, under normal_force\[n\] \[N\] in a direction, 0 (x) or 1 (y), and the compliance \[m/N\] there. At mu N the compliance of
-/// a cylinder and of an ellipse is infinite; so it is without friction and without a normal force.
+/// The monotonic curve of an element at a constant normal force: the displacement \[m\] that carries force\[n\] \[N\], at most mu N
+/// in magnitude, under normal_force\[n\] \[N\], and the compliance \[m/N\] there, in the direction 0 (x) or, of an element with two
+/// directions, 1 (y). At mu N the compliance of a cylinder and of an ellipse is infinite; so it is without friction and without a
+/// normal force.
 ///
-/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_FORCE, MSLIP_LENGTH_TOO_SHORT for a normal
-/// force under which the contact would be too wide for its length, MSLIP_BAD_FORCE or MSLIP_FORCE_EXCEEDS_SLIP.
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_DIRECTIONS for another direction, MSLIP_BAD_NORMAL_FORCE,
+/// MSLIP_LENGTH_TOO_SHORT for a normal force under which the contact would be too wide for its length, MSLIP_BAD_FORCE or
+/// MSLIP_FORCE_EXCEEDS_SLIP.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_displacement(
     element: *const mslip_element,

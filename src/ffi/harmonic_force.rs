@@ -107,8 +107,8 @@ pub extern "C" fn mslip_element_workspace_length(
 }
 
 /// Initialises a workspace of elements: tables for one (directions, harmonics, samples, rule), and scratch memory. Each thread
-/// needs its own. periods is the number of periods that are walked before the one that counts, at most 65536; 0 is the default, 1.
-/// With one direction more than one changes nothing, and costs nothing.
+/// needs its own. periods is the number of periods that are walked before the one that counts, at most 65536. 0 is the default:
+/// 3 with two directions; 1 with one, where more change nothing and cost nothing.
 ///
 /// Returns MSLIP_BAD_DIRECTIONS, MSLIP_BAD_RULE, MSLIP_NOT_AVAILABLE for MSLIP_EVENT_DRIVEN, MSLIP_BAD_HARMONICS,
 /// MSLIP_BAD_SAMPLES, MSLIP_BAD_PERIODS, MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
@@ -171,9 +171,9 @@ pub unsafe extern "C" fn mslip_element_workspace_size(
 /// another sample, and the mean tangential force may depend on the start.
 ///
 /// With one direction the period that counts is the steady state. With two, a mean tangential force beside a vibration across it is
-/// shaken out over many periods: drift is the largest difference of the tangential force between the last period and the one before,
-/// over mu times the largest normal force; 0 with one direction, and for a contact that opens, because it forgets. With the default
-/// number of periods the one before is the first, and the drift contains the first loading. A drift is not an error.
+/// shaken out over many periods: drift is the largest difference of the tangential force between the last period and the one
+/// before, over mu times the largest normal force; 0 with one direction, and for a contact that opens, because it forgets. With 1
+/// period before the one that counts, the drift contains the first loading. A drift is not an error.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_WORKSPACE, MSLIP_BAD_DIRECTIONS for the workspace of another number of
 /// directions, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE if the normal force of a sample is negative, or

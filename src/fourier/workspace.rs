@@ -18,8 +18,7 @@ pub(crate) const HEADER: usize = 4;
 /// Doubles in blocks of four.
 pub(crate) type Blocks = [[f64; 4]];
 
-/// Number of harmonics H, of samples or nodes per period, and of periods walked before the one that counts, which matters for two
-/// directions only.
+/// Number of harmonics H, of samples or nodes per period, and of periods walked before the one that counts, 0 for the default.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Size {
     pub harmonics: usize,
@@ -30,12 +29,11 @@ pub(crate) struct Size {
 impl Size {
     /// With the default number of periods.
     pub fn new(harmonics: usize, samples: usize) -> Size {
-        Size { harmonics, samples, periods: 1 }
+        Size { harmonics, samples, periods: 0 }
     }
 
-    /// With a number of periods, or the default for 0.
     pub fn with_periods(self, periods: usize) -> Size {
-        Size { periods: periods.max(1), ..self }
+        Size { periods, ..self }
     }
 
     /// 2H + 1.
@@ -48,6 +46,9 @@ impl Size {
 pub(crate) trait WorkspaceLayout: Sized {
     /// Kind of the tag, which distinguishes the rules.
     const KIND: Kind;
+
+    /// Default number of periods before the one that counts; 1 if the second period is the steady state.
+    const PERIODS: usize = 1;
 
     fn of(size: Size) -> Self;
 
@@ -74,16 +75,17 @@ pub(crate) trait WorkspaceLayout: Sized {
         const LARGEST: usize = 1 << 24;
         const MOST_PERIODS: usize = 1 << 16;
         let Size { harmonics, samples, periods } = size;
+        let periods = if periods == 0 { Self::PERIODS } else { periods };
         if !(1..=LARGEST).contains(&harmonics) {
             return Err(Error::BadHarmonics);
         }
         if samples <= 2 * harmonics || samples > LARGEST {
             return Err(Error::BadSamples);
         }
-        if !(1..=MOST_PERIODS).contains(&periods) {
+        if periods > MOST_PERIODS {
             return Err(Error::BadPeriods);
         }
-        let layout = Self::of(size);
+        let layout = Self::of(Size { periods, ..size });
         // With 32-bit addresses these sizes may still be too large. The workspace is smaller than eight times `max_rows` rows.
         let doubles = layout.max_rows().checked_mul(8 * (2 * harmonics + 8));
         if doubles.is_none_or(|doubles| doubles > isize::MAX as usize / 8) {
@@ -103,7 +105,7 @@ pub(crate) trait WorkspaceLayout: Sized {
         let (header, buffers) = memory.split_first_chunk_mut::<HEADER>().ok_or(Error::WorkspaceTooShort)?;
         let tables = buffers.get_mut(..layout.tables_length()).ok_or(Error::WorkspaceTooShort)?;
         layout.fill_tables(&mut Parts(tables))?;
-        let Size { harmonics, samples, periods } = size;
+        let Size { harmonics, samples, periods } = layout.size();
         *header = [Self::KIND.tag(harmonics), Kind::Samples.tag(samples), Kind::Periods.tag(periods), 0.0];
         Ok(())
     }
@@ -115,7 +117,7 @@ pub(crate) trait WorkspaceLayout: Sized {
     #[inline(always)]
     fn read(&[first, second, third]: &[f64; TAGS]) -> Result<Self, Error> {
         let counts = (Self::KIND.count(first), Kind::Samples.count(second), Kind::Periods.count(third));
-        let (Some(harmonics), Some(samples), Some(periods)) = counts else { return Err(Error::BadWorkspace) };
+        let (Some(harmonics), Some(samples), Some(periods @ 1..)) = counts else { return Err(Error::BadWorkspace) };
         Self::new(Size { harmonics, samples, periods }).map_err(|_| Error::BadWorkspace)
     }
 

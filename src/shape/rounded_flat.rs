@@ -376,7 +376,13 @@ mod tests {
         for (flat, displacement_reference) in
             FLATS.into_iter().flat_map(|flat| [(flat, CENTRE_POINT), (flat, RIGID_STRIP)])
         {
-            let shape = RoundedFlat::new(&Parameters { displacement_reference, ..parameters(flat) }).unwrap();
+            let parameters = Parameters { displacement_reference, ..parameters(flat) };
+            let shape = RoundedFlat::new(&parameters).unwrap();
+            // The kernels of Cerruti in x and y sum to (2-ν)/r: S_x + S_y = (2+κ) U, with no term in N but the rounding of three constants.
+            let Plane { per_approach, per_load, .. } = shape.plane();
+            let kappa = Pair::new(&parameters.material).mean(|nu| nu / (1.0 - nu));
+            assert!((per_approach[0] + per_approach[1] - (2.0 + kappa)).abs() < 1e-15);
+            assert!((per_load[0] + per_load[1]).abs() < 1e-15 * shape.compliance_scale, "{displacement_reference}");
             for load in [1e-3, 1.0, 150.0, 400.0] {
                 let (w, h) = (shape.at_load(load), 1e-4);
                 // Central differences in ln w, relative error h².

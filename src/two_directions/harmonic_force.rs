@@ -35,7 +35,7 @@ pub fn workspace_length(harmonics: usize, samples: usize) -> usize {
 }
 
 /// Initialises a workspace: tables for the given harmonics and samples, the number of periods before the one that counts (0: the
-/// default, 1), and scratch memory.
+/// default, 3), and scratch memory.
 ///
 /// # Errors
 /// `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24, `BadPeriods` for more than 65536;
@@ -72,6 +72,8 @@ const SAMPLE: usize = 8;
 
 impl WorkspaceLayout for Layout {
     const KIND: Kind = Kind::TwoDirectionsSampling;
+    /// Static shear is shaken out over many periods: the table of `periods` in the guide has the errors.
+    const PERIODS: usize = 3;
 
     fn of(size: Size) -> Layout {
         Layout(size)

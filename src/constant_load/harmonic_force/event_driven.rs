@@ -395,10 +395,6 @@ mod tests {
         compute(contact, &mut workspace(Rule::EventDriven, displacement.len() / 2, nodes), displacement)
     }
 
-    fn all_uniform(contact: &Contact, samples: usize, displacement: &[f64]) -> All {
-        compute(contact, &mut workspace(Rule::UniformSampling, displacement.len() / 2, samples), displacement)
-    }
-
     const FIVE: [f64; 11] = [0.1, 0.7, 0.0, 0.1, 0.3, -0.2, 0.2, 0.15, -0.1, 0.1, 0.2];
 
     fn distance(one: &[f64], two: &[f64]) -> f64 {
@@ -440,35 +436,6 @@ mod tests {
                     // The energy of small loops is a difference of forces, with their absolute error.
                     assert!((energy / exact.dissipated() - 1.0).abs() < 1e-12, "{ratio} {energy}");
                 }
-            }
-        }
-    }
-
-    /// Three and five harmonics, odd harmonics only, one harmonic; from nested loops in microslip to gross slip most of the period.
-    #[test]
-    fn the_error_is_at_most_a_hundredth_of_that_of_uniform_sampling() {
-        for contact in contacts() {
-            for (shape, size) in [&SHAPE[..], &ODD, &FIVE, &[0.0, 1.0, 0.3]]
-                .into_iter()
-                .flat_map(|shape| [0.3, 0.9, 1.2, 4.0].map(|size| (shape, size)))
-            {
-                let motion = scaled(&contact, shape, size);
-                let reference = all(&contact, 4096, &motion);
-                let (one, two) = (all(&contact, 64, &motion), all_uniform(&contact, 64, &motion));
-                let (force, stiffness) = (contact.slip_force, contact.initial_stiffness);
-                // Uniform sampling converges to the same limit, with an error of O(samples⁻²).
-                let samples = all_uniform(&contact, 1 << 16, &motion);
-                assert!(
-                    distance(&reference.0, &samples.0) < 1e-8 * force
-                        && distance(&reference.1, &samples.1) < 1e-4 * stiffness
-                );
-                assert!((samples.2 / reference.2 - 1.0).abs() < 3e-8);
-                assert!(distance(&one.0, &reference.0) < 1e-8 * force, "{:e}", distance(&one.0, &reference.0) / force);
-                let jacobian = distance(&one.1, &reference.1) / stiffness;
-                assert!(jacobian < 1e-7, "{jacobian:e}");
-                assert!((one.2 / reference.2 - 1.0).abs() < 1e-14, "{} {}", one.2, reference.2);
-                let (error, samples) = (distance(&one.0, &reference.0), distance(&two.0, &reference.0));
-                assert!(100.0 * error < samples + 1e-13 * force, "{shape:?} {size}: {error} {samples}");
             }
         }
     }

@@ -152,14 +152,11 @@ impl Context<'_> {
         if sample >= self.samples.count { sample - self.samples.count } else { sample }
     }
 
-    /// The inner end of the stuck piece that a sample made.
+    /// The inner end of the stuck piece that a sample made: 0 if the sample before is open.
     #[inline(always)]
-    fn inner_end(&self, made: Made, sample: usize) -> InnerEnd {
+    fn inner_end(&self, sample: usize) -> InnerEnd {
         let samples = self.samples;
         let before = samples.before(sample);
-        if made == Made::SINCE_CLOSING {
-            return InnerEnd { shift: 0.0, load: 0.0, stiffness: 0.0 };
-        }
         let (shift, load) = (at(samples.shift, before), at(samples.load, before));
         InnerEnd { shift, load, stiffness: at(samples.stiffness, before) }
     }
@@ -306,7 +303,7 @@ impl<const N: usize> Gathering<'_, N> {
         let Context { samples, part, .. } = *self.context;
         let closes = part.opens && samples.is_open(samples.before(run.first));
         let mut made = if closes { Made::SINCE_CLOSING } else { Made::BY_STICKING };
-        let mut inner = self.context.inner_end(made, run.first);
+        let mut inner = self.context.inner_end(run.first);
         for step in 0..run.count {
             let sample = run.first + step;
             let [shift, load, stiffness] =
@@ -350,7 +347,7 @@ impl<const N: usize> Gathering<'_, N> {
         let stiffnesses = self.cuts.stiffnesses.get(packed.clone()).unwrap_or(&[]);
         let [constant, linear] = &mut sums;
         if piece.is_stuck() {
-            let inner = self.context.inner_end(piece.made, piece.sample);
+            let inner = self.context.inner_end(piece.sample);
             let (shifts, loads) =
                 (self.cuts.shifts.get(packed.clone()).unwrap_or(&[]), self.cuts.loads.get(packed).unwrap_or(&[]));
             for (((row, &shift), &load), &stiffness) in rows.iter().zip(shifts).zip(loads).zip(stiffnesses) {

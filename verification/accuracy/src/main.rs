@@ -1,9 +1,9 @@
 //! Measures the error of every output of the library against the multi-precision reference.
 //!
-//!     accuracy [--check] [--points N] [--seed N] [--elements] [--regions FILE] [--document FILE] [--replay FILE]
+//!     accuracy [--check] [--points N] [--only TEXT] [--regions FILE] [--document FILE] [--replay FILE]
 //!
-//! `--check` is short, with a new seed each time. Regions are written to a CSV, tables to a document. `--elements` leaves out the law
-//! of a constant load. `--replay` compares the worst inputs of a CSV of regions again, beside the random points.
+//! `--check` is short. `MICROSLIP_SEED` is the seed, 1 without it. Regions are written to a CSV, tables to a document. `--only` takes the
+//! measurements whose name contains a text. `--replay` compares the worst inputs of a CSV of regions again, beside the random points.
 
 mod bounds;
 mod call;
@@ -33,75 +33,75 @@ enum Measurement {
 }
 use Measurement::{Contact, Element};
 
-/// Measurements, about how many points each counts as, and how many are one job.
-const MEASUREMENTS: [(Measurement, f64, usize); 15] = [
-    (Contact(curve::fields), 1.0, 4000),
-    (Contact(curve::at_forces), 50.0, 200),
-    (Contact(curve::at_displacements), 50.0, 200),
-    (Contact(curve::sensitivities), 100.0, 20),
-    (Contact(layer::curve), 100.0, 20),
-    (Contact(tractions::at_forces), 48.0, 80),
-    (Contact(history::along_a_path), 48.0, 80),
-    (Contact(history::closed_loop), 48.0, 120),
-    (Contact(harmonic::uniform_sampling), 200.0, 100),
-    (Contact(curve::neighbours), 2e4, 10),
-    (Contact(curve::sliders), 1e5, 10),
-    (Contact(stiffness::at_amplitudes), 500.0, 10),
-    (Contact(stiffness::event_driven), 200.0, 25),
-    (Element(element::normal_law), 25.0, 200),
-    (Element(element::along_a_path), 32.0, 80),
+/// Names, measurements, about how many points each counts as, and how many are one job.
+const MEASUREMENTS: [(&str, Measurement, f64, usize); 15] = [
+    ("curve::fields", Contact(curve::fields), 1.0, 4000),
+    ("curve::at_forces", Contact(curve::at_forces), 50.0, 200),
+    ("curve::at_displacements", Contact(curve::at_displacements), 50.0, 200),
+    ("curve::sensitivities", Contact(curve::sensitivities), 100.0, 20),
+    ("layer::curve", Contact(layer::curve), 100.0, 20),
+    ("tractions::at_forces", Contact(tractions::at_forces), 48.0, 80),
+    ("history::along_a_path", Contact(history::along_a_path), 48.0, 80),
+    ("history::closed_loop", Contact(history::closed_loop), 48.0, 120),
+    ("harmonic::uniform_sampling", Contact(harmonic::uniform_sampling), 200.0, 100),
+    ("curve::neighbours", Contact(curve::neighbours), 2e4, 10),
+    ("curve::sliders", Contact(curve::sliders), 1e5, 10),
+    ("stiffness::at_amplitudes", Contact(stiffness::at_amplitudes), 500.0, 10),
+    ("stiffness::event_driven", Contact(stiffness::event_driven), 200.0, 25),
+    ("element::normal_law", Element(element::normal_law), 25.0, 200),
+    ("element::along_a_path", Element(element::along_a_path), 32.0, 80),
 ];
 
-/// Measurements of one kind of contact.
+/// Measurements of one kind of contact; the seed is the same if other jobs are left out.
 struct Job {
     measurement: Measurement,
     kind: &'static str,
     count: usize,
+    seed: u64,
 }
 
 /// Jobs for about the given number of points of every output.
-fn jobs(points: f64, elements_only: bool) -> Vec<Job> {
-    let mut jobs = Vec::new();
-    for (measurement, weight, piece) in MEASUREMENTS {
-        if elements_only && matches!(measurement, Contact(_)) {
-            continue;
-        }
+fn jobs(points: f64, only: &str) -> Vec<Job> {
+    let (mut jobs, mut seed) = (Vec::new(), reference::seed().wrapping_mul(0x9e37_79b9_7f4a_7c15));
+    for (name, measurement, weight, piece) in MEASUREMENTS {
         let pieces = (points / weight / piece as f64).ceil().max(KINDS.len() as f64) as usize;
         let count = (points / weight / pieces as f64).ceil() as usize;
-        jobs.extend((0..pieces).map(|i| Job { measurement, kind: KINDS[i % KINDS.len()], count }));
+        for i in 0..pieces {
+            if name.contains(only) {
+                jobs.push(Job { measurement, kind: KINDS[i % KINDS.len()], count, seed });
+            }
+            seed = seed.wrapping_add(1);
+        }
     }
     jobs
 }
 
 fn main() {
     let mut arguments = std::env::args().skip(1);
-    let now = std::time::UNIX_EPOCH.elapsed().map_or(0, |now| now.as_secs());
-    let (mut points, mut seed, mut regions, mut document, mut worst, mut elements_only) =
-        (1e7, 1u64, None, None, None, false);
+    let (mut points, mut only, mut regions, mut document, mut worst) = (1e7, String::new(), None, None, None);
     while let Some(argument) = arguments.next() {
         let mut value = || arguments.next().unwrap_or_else(|| panic!("{argument} needs a value"));
         match argument.as_str() {
-            "--check" => (points, seed) = (1e4, now),
+            "--check" => points = 1e4,
             "--points" => points = value().parse().expect("a number of points"),
-            "--seed" => seed = value().parse().expect("a seed"),
-            "--elements" => elements_only = true,
+            "--only" => only = value(),
             "--regions" => regions = Some(PathBuf::from(value())),
             "--replay" => worst = Some(PathBuf::from(value())),
             "--document" => document = Some(PathBuf::from(value())),
             other => panic!("unknown argument {other}"),
         }
     }
-    println!("seed {seed}");
-    let (jobs, next, all) = (jobs(points, elements_only), AtomicUsize::new(0), Mutex::new(Tally::default()));
+    println!("seed {}", reference::seed());
+    let (jobs, next, all) = (jobs(points, &only), AtomicUsize::new(0), Mutex::new(Tally::default()));
     let work = || {
         loop {
             let i = next.fetch_add(1, Ordering::Relaxed);
-            let Some(Job { measurement, kind, count }) = jobs.get(i) else { break };
+            let Some(Job { measurement, kind, count, seed }) = jobs.get(i) else { break };
             if i * 100 / jobs.len() != (i + 1) * 100 / jobs.len() && jobs.len() > 1000 {
                 eprintln!("{} %", (i + 1) * 100 / jobs.len());
             }
             let mut tally = Tally::default();
-            let mut sampler = Sampler::new(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15).wrapping_add(i as u64));
+            let mut sampler = Sampler::new(*seed);
             for _ in 0..*count {
                 match measurement {
                     Contact(measure) => measure(&sampler.case(kind), &mut sampler, &mut tally),

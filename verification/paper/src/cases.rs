@@ -208,21 +208,6 @@ impl Case {
         state
     }
 
-    /// Q/μP after displacements in their unit.
-    pub fn force_after(&self, displacements: &[f64]) -> f64 {
-        let (last, before) = displacements.split_last().expect("a displacement");
-        let state = self.state_after(before);
-        let step = masing::step(&self.contact, &state, last * self.displacement_unit());
-        step.force() / self.contact.slip_force
-    }
-
-    /// Stiffness shortly after a reversal at Q/μP, in its unit: at the given share of the displacement back.
-    pub fn stiffness_after_reversal(&self, reversal: f64, share: f64) -> f64 {
-        let at_reversal = self.displacement(reversal);
-        let back = (1.0 - share) * at_reversal * self.displacement_unit();
-        masing::step(&self.contact, &self.state_after(&[at_reversal]), back).stiffness() / self.stiffness_unit()
-    }
-
     /// b q/(μP) at x/b of a state.
     pub fn shear_of_state(&self, state: &[f64], x: f64) -> f64 {
         if x.abs() >= 1.0 {
@@ -243,12 +228,6 @@ impl Case {
     pub fn energy(&self, force: f64) -> f64 {
         let energy = self.contact.dissipated_energy(force * self.contact.slip_force);
         energy.expect("a force up to gross slip") / self.energy_unit()
-    }
-
-    /// Energy per cycle of a displacement amplitude, gross slip included.
-    pub fn energy_of_amplitude(&self, amplitude: f64) -> f64 {
-        let stiffness = self.contact.complex_stiffness(amplitude * self.displacement_unit()).expect("an amplitude");
-        stiffness.dissipated() / self.energy_unit()
     }
 
     /// K' and K'' at a displacement amplitude, in their unit.

@@ -2,8 +2,8 @@
 
 use crate::cases::Case;
 use crate::equations::{Tractions, printed_load, printed_pressure, printed_relieved_traction};
+use crate::swing;
 use crate::table::Table;
-use crate::{periods, swing};
 use std::f64::consts::PI;
 
 /// L/b where the paper's captions give none.
@@ -64,7 +64,6 @@ pub fn all() -> Vec<Table> {
     tables.extend([energy(), energy_logarithmic(), oscillating_tractions(), load_as_printed()]);
     tables.extend([tractions_as_printed(), slip_as_printed()]);
     tables.extend(swing::tables());
-    tables.extend(periods::tables());
     tables
 }
 

@@ -79,26 +79,6 @@ impl Tractions<'_> {
         2.0 * self.integral(1.0, 0.0, |x| (length / x).ln() + POISSON / (1.0 - POISSON))
     }
 
-    /// The same with the inner integral of Eq. 7, before Eq. 8 simplifies it for large L.
-    pub fn displacement_of_any_length(&self, length: f64) -> f64 {
-        let ratio = POISSON / (1.0 - POISSON);
-        2.0 * self
-            .integral(1.0, 0.0, |x| (length / (2.0 * x)).asinh() + ratio / (1.0 + (2.0 * x / length).powi(2)).sqrt())
-    }
-
-    /// Eq. 3 at (0, 0, z), for L/b and z/b, over the displacement of the same force at one point.
-    pub fn displacement_below(&self, length: f64, depth: f64) -> f64 {
-        let kernel = |r: f64, s: f64| {
-            let distance = (r * r + s * s + depth * depth).sqrt();
-            let sum = distance + depth;
-            1.0 / distance + (1.0 - 2.0 * POISSON) / sum + r * r / distance.powi(3)
-                - (1.0 - 2.0 * POISSON) * r * r / (distance * sum * sum)
-        };
-        let half = length / 2.0;
-        let quarter = self.integral(1.0, 0.0, |r| integral(&[0.0, half], half, |s| kernel(r, s)));
-        4.0 * quarter / (self.force() * length * kernel(0.0, 0.0))
-    }
-
     /// Eq. 15 at x/b > 0, positive along the force and 0 at the centre; the printed upper limit is a/b instead of 1.
     pub fn slip(&self, x: f64, limit: f64) -> f64 {
         let left = self.integral(1.0, 0.0, |r| ((x + r) / r).ln());

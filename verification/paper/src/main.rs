@@ -1,6 +1,7 @@
 //! The figures of the paper and of the guide computed by the library, and a check of each claim of the paper.
 //!
-//! - `paper` writes `docs/figures/data/*.csv`, the tables of claims in `docs/paper.md` and the table of samples in `docs/guide.md`;
+//! - `paper` writes `docs/figures/data/*.csv`, the tables of claims in `docs/paper.md`, and the tables of samples and of
+//!   periods in `docs/guide.md`;
 //! - `paper --check` compares them with what the library computes now.
 
 mod cases;
@@ -31,6 +32,7 @@ fn main() -> ExitCode {
     drawings::all().iter().for_each(|table| documents.data(table));
     documents.page("paper.md", |old| with_claims(old, &claims));
     documents.page("guide.md", |old| between(old, "samples of elements", |_| Ok(samples::table())));
+    documents.page("guide.md", |old| between(old, "periods of elements", |_| Ok(periods::table())));
     documents.report()
 }
 

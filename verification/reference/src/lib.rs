@@ -12,3 +12,8 @@ pub mod stiffness;
 
 pub use law::{Input, Law, Point, Reference};
 pub use real::Real;
+
+/// The seed of random tests: `MICROSLIP_SEED`, or 1.
+pub fn seed() -> u64 {
+    std::env::var("MICROSLIP_SEED").map_or(1, |seed| seed.parse().expect("MICROSLIP_SEED is a number"))
+}

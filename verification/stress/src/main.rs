@@ -2,7 +2,7 @@
 //!
 //! Every call traps invalid operations, divisions by zero and overflows.
 //!
-//! `stress [--scale X] [--seed N] [--only TEXT]`; without a seed each run has another one, which is printed.
+//! `stress [--scale X] [--only TEXT]`; `MICROSLIP_SEED` is the seed, 1 without it.
 
 mod bank;
 mod checked;
@@ -38,19 +38,16 @@ macro_rules! ensure {
 
 struct Arguments {
     scale: f64,
-    seed: u64,
     only: String,
 }
 
 fn arguments() -> Option<Arguments> {
-    let seed = std::time::UNIX_EPOCH.elapsed().map_or(1, |now| now.as_secs());
-    let mut arguments = Arguments { scale: 1.0, seed, only: String::new() };
+    let mut arguments = Arguments { scale: 1.0, only: String::new() };
     let mut words = std::env::args().skip(1);
     while let Some(option) = words.next() {
         let value = words.next()?;
         match option.as_str() {
             "--scale" => arguments.scale = value.parse().ok()?,
-            "--seed" => arguments.seed = value.parse().ok()?,
             "--only" => arguments.only = value,
             _ => return None,
         }
@@ -140,10 +137,11 @@ fn varying_load<'a>(elements: &'a [(String, Element)], steps: &'a (dyn Fn(f64) -
 }
 
 fn main() -> ExitCode {
-    let Some(Arguments { scale, seed, only }) = arguments() else {
-        eprintln!("usage: stress [--scale X] [--seed N] [--only TEXT]");
+    let Some(Arguments { scale, only }) = arguments() else {
+        eprintln!("usage: stress [--scale X] [--only TEXT]");
         return ExitCode::from(2);
     };
+    let seed = reference::seed();
     println!("seed {seed}, scale {scale}");
     let steps = |full: f64| (full * scale).max(100.0) as u64;
     let steps: &(dyn Fn(f64) -> u64 + Sync) = &steps;
@@ -165,7 +163,7 @@ fn main() -> ExitCode {
             if let Err(failure) = run(&mut SmallRng::seed_from_u64(hash)) {
                 failures.fetch_add(1, Ordering::Relaxed);
                 println!("FAILED: {name}\n  {failure}");
-                println!("  again: make stress ARGUMENTS=\"--seed {seed} --scale {scale} --only '{name}'\"");
+                println!("  again: MICROSLIP_SEED={seed} make stress ARGUMENTS=\"--scale {scale} --only '{name}'\"");
             }
         }
     };
