@@ -283,13 +283,13 @@ fn a_linear_layer_is_a_spring_in_series() {
                     let alone = contact.to([at[0], at[1], load]);
                     // Falls with the length of the parts: 2e-2 with 4 of them, 4e-3 with 16.
                     let error = apart(&step, &alone) / slip_force;
-                    assert!(error < 6e-3, "{k} {share}: {error:e}");
+                    assert!(error < 1.5e-3, "{k} {share}: {error:e}");
                     energies = [energies[0] + step.dissipated, energies[1] + alone.dissipated];
                 }
                 from = to;
             }
             let error = energies[0] / energies[1] - 1.0;
-            assert!(error.abs() < 5e-3, "{k} {share}: {energies:?}, {error:e}");
+            assert!(error.abs() < 2e-4, "{k} {share}: {energies:?}, {error:e}");
         }
     }
 }
@@ -462,8 +462,9 @@ fn orbit(element: &Element, n: usize, [a, b]: [f64; 2], swing: f64) -> [f64; 2] 
 
 #[test]
 fn a_closed_orbit_dissipates_its_work() {
-    // The fine springs do work, but their energy counts at the edge only: up to 8 % with a load that varies.
-    for (n, bound) in [(24, 0.1), (96, 0.1)] {
+    // Trapezia of the forces over chords, and slip with the mean of the tractions at both ends of a step: second order in the step;
+    // after 20 periods the orbit is closed to 0.3 %.
+    for (n, bound) in [(24, 0.012), (96, 0.005)] {
         for swing in [0.0, 0.6, 0.97] {
             for element in &without_layer(Directions::Two, NormalInput::Force) {
                 for axes in [[0.3, 0.3], [0.9, 0.9], [0.6, 0.3]] {

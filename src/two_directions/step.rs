@@ -297,17 +297,14 @@ fn dissipated(
             energy += slipped(t, c, start[j], w, places, motion, 2.0 * slip.shares[j]);
         }
     }
-    // The shell at the edge of a constant load has no resolution but these.
-    if motion.constant_load {
-        let at = |springs: &Values, f: usize| {
-            both!(|k| springs.as_flattened().get(FINE_SPRING + k * FINE + f).copied().unwrap_or(0.0))
-        };
-        for f in c.first_part..=c.part.min(FINE - 1) {
-            let [x, y] = both!(|k| at(new, f)[k] / c.limit(&t, k, f));
-            if x * x + y * y > SLIPPED {
-                let w = both!(|k| c.fine(&t, k, f));
-                energy += slipped(t, c, f, w, [at(old, f), at(new, f)], motion, 0.0);
-            }
+    let at = |springs: &Values, f: usize| {
+        both!(|k| springs.as_flattened().get(FINE_SPRING + k * FINE + f).copied().unwrap_or(0.0))
+    };
+    for f in 0..=c.part.min(FINE - 1) {
+        let [x, y] = both!(|k| at(new, f)[k] / c.limit(&t, k, f));
+        if x * x + y * y > SLIPPED {
+            let w = both!(|k| c.fine(&t, k, f));
+            energy += slipped(t, c, f, w, [at(old, f), at(new, f)], motion, 0.0);
         }
     }
     if energy > 0.0 { energy } else { 0.0 }
