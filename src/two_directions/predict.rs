@@ -14,6 +14,8 @@ use super::trial::{Motion, Springs, TRACTION};
 /// at: chosen on judged paths.
 const DAMPING: f64 = 0.1;
 const RESTING: f64 = 0.85;
+/// Displacements of the innermost spring over its limit between which a contact that slides forgets.
+const FAR: [f64; 2] = [2.5, 5.0];
 
 /// The part of the slip of each point along r0 from the trial state v*, and its shares.
 #[inline(always)]
@@ -56,13 +58,14 @@ pub(crate) fn predict<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     }
     let (mut total, mut sigma) = ([zero; 2], [[zero; N]; 2]);
     let mut first = N;
+    let turns = (one - slid(t, c, v)).scale(0.5);
     for j in 0..(last + 1).min(N) {
         let limit = both!(|k| c.limit(t, k, start[j]));
         let length = length(&both!(|k| v[k][j]), &limit);
         let mut over = length;
         let mut weight = zero;
         if turn[j].value() > 0.0 {
-            weight = (turn[j] * turn[j]).scale(0.5) * (excess(length).scale(DAMPING) + one).inverse();
+            weight = turn[j] * turn[j] * turns * (excess(length).scale(DAMPING) + one).inverse();
             let before = both!(|k| motion.before[k] - c.now.shift[k] + limit[k]);
             if before[0].value() > 0.0 && rests[j].value() > 0.0 {
                 let was = self::length(&both!(|k| s.get(k * N + j)), &before);
@@ -96,6 +99,20 @@ pub(crate) fn predict<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
         }
     }
     slip
+}
+
+/// The part in which a contact that slides far forgets, from its trial state.
+#[inline(always)]
+pub(crate) fn slid<A: Real, X: Over<A>, T: Tables<A>>(t: &T, c: &Contact<A>, v: &Both<Row<X>>) -> X {
+    let over = length(&both!(|k| v[k][0]), &both!(|k| c.limit(t, k, 0)));
+    if over.value() <= FAR[0] {
+        return X::constant(0.0);
+    }
+    if over.value() >= FAR[1] {
+        return X::constant(1.0);
+    }
+    let part = (over - X::constant(FAR[0])).scale(1.0 / (FAR[1] - FAR[0]));
+    part * part * (X::constant(3.0) - part.scale(2.0))
 }
 
 /// The size of a vector in units of both directions; 0 without derivatives.

@@ -6,7 +6,7 @@
 //! find the points that slip if Newton's method does not.
 
 use super::contact::Contact;
-use super::predict::predict;
+use super::predict::{predict, slid};
 use super::tables::{Both, Matrix, N, Row, Rows};
 use super::trial::{Motion, ROUNDING, Trial, Values};
 use crate::shape::TINY;
@@ -47,6 +47,8 @@ pub(crate) struct Slip {
     pub set: Set,
     pub predicted: Set,
     pub shares: Row<f64>,
+    /// The part in which the contact slides far.
+    pub slides: f64,
     /// r and σ of points that slip.
     pub e: Both<Row<f64>>,
     pub sigma: Both<Row<f64>>,
@@ -81,6 +83,7 @@ impl Slip {
         set: 0,
         predicted: 0,
         shares: [0.0; N],
+        slides: 0.0,
         e: [[0.0; N]; 2],
         sigma: [[0.0; N]; 2],
         k: [[[0.0; N]; N]; 2],
@@ -118,7 +121,8 @@ impl Slip {
 
     /// A step without slip.
     pub fn stick(&mut self, trial: &Trial, old: &Values) {
-        (self.set, self.predicted, self.r, self.start) = (0, 0, trial.r, [old[2], old[3]]);
+        (self.set, self.predicted, self.slides) = (0, 0, 0.0);
+        (self.r, self.start) = (trial.r, [old[2], old[3]]);
     }
 
     /// r of all points, from σ.
@@ -349,7 +353,7 @@ fn find_kernel(
     let start = [old[2], old[3]];
     let guesses = slip.guesses(trial, &start, &motion.by, contact.last);
     let predicted = predict(&t, contact, motion, &old, &trial.v, &mut slip.shares);
-    slip.predicted = 0;
+    (slip.predicted, slip.slides) = (0, slid(&t, contact, &trial.v));
     for i in 0..N {
         slip.predicted |= Set::from(slip.shares[i] > 0.0) << i;
     }

@@ -6,7 +6,7 @@
 //! derivatives. The fine springs have limits of their own.
 
 use super::contact::{Contact, Pressed};
-use super::predict::{predict, release};
+use super::predict::{predict, release, slid};
 use super::scalar::{Over, Real, both};
 use super::slip::{SLIPPED, Slip};
 use super::tables::{Both, FINE, FINE_STIFFNESS, MOST_PARTS, Matrix, N, Row, Rows, SHIFT, Tables, starts};
@@ -32,6 +32,7 @@ pub(crate) fn step<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
             v[k][j] = s.get(k * N + j) + moved(c.limit(t, k, start[j]), rise[k], motion.by[k]);
         }
     }
+    let part = if slip.slides > 0.0 { slid(t, c, &v) } else { zero };
     if slip.predicted != 0 {
         let predicted = predict(t, c, motion, s, &v, &mut [0.0; N]);
         release(t, c, 0, &predicted[0], slip.predicted, &mut v[0]);
@@ -40,8 +41,16 @@ pub(crate) fn step<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     if slip.set != 0 {
         slide(t, c, &mut v, slip, s);
     }
+    let far = if slip.slides > 0.0 { Some(Far::new(t, c, part, &v)) } else { None };
     for k in 0..2 {
         for j in 0..=last {
+            if let Some(far) = &far {
+                v[k][j] = far.blend(k, v[k][j], c.limit(t, k, start[j]));
+                if slip.contains(j) {
+                    let place = TRACTION + k * N + j;
+                    s.put(place, far.blend(k, s.get(place), A::constant(1.0)));
+                }
+            }
             force[k].add_product(&v[k][j], c.stiffness(t, k, j));
         }
         if !S::KEPT {
@@ -57,11 +66,11 @@ pub(crate) fn step<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     let part = c.part.min(FINE - 1);
     for f in 0..c.first_part {
         let w = both!(|k| t.at(FINE_STIFFNESS + k * FINE / N, f));
-        fine_spring(t, c, motion, &rise, f, &w, s, &mut force);
+        fine_spring(t, c, motion, &rise, f, &w, far.as_ref(), s, &mut force);
     }
     for r in 0..=part - c.first_part.min(part) {
         let w = both!(|k| c.fine[k][r.min(MOST_PARTS - 1)]);
-        fine_spring(t, c, motion, &rise, c.first_part + r, &w, s, &mut force);
+        fine_spring(t, c, motion, &rise, c.first_part + r, &w, far.as_ref(), s, &mut force);
     }
     if S::KEPT {
         for f in part + 1..FINE {
@@ -80,6 +89,37 @@ pub(crate) fn step<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     force
 }
 
+/// Gross slip in the direction of the force, `v = (S_b - S) e`, into which springs of a contact that slides far are blended.
+struct Far<X> {
+    rest: X,
+    slides: Both<X>,
+}
+
+impl<X: Real> Far<X> {
+    #[inline(always)]
+    fn new<A: Real>(t: &impl Tables<A>, c: &Contact<A>, part: X, v: &Both<Row<X>>) -> Far<X>
+    where
+        X: Over<A>,
+    {
+        let mut force = [X::constant(0.0); 2];
+        for k in 0..2 {
+            for j in 0..=c.last.min(N - 1) {
+                force[k].add_product(&v[k][j], c.stiffness(t, k, j));
+            }
+        }
+        let per = part * (force[0] * force[0] + force[1] * force[1]).sqrt().inverse();
+        Far { rest: X::constant(1.0) - part, slides: both!(|k| force[k] * per) }
+    }
+
+    #[inline(always)]
+    fn blend<A: Real>(&self, k: usize, v: X, limit: A) -> X
+    where
+        X: Over<A>,
+    {
+        v * self.rest + self.slides[k].times(limit)
+    }
+}
+
 /// A step of a fine spring, whose force is added.
 #[inline(always)]
 #[expect(clippy::too_many_arguments, reason = "parts of one step")]
@@ -90,6 +130,7 @@ fn fine_spring<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     rise: &Both<A>,
     f: usize,
     w: &Both<A>,
+    far: Option<&Far<X>>,
     s: &mut S,
     force: &mut Both<X>,
 ) {
@@ -99,6 +140,9 @@ fn fine_spring<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     if across * across + along * along > bound * bound {
         let scale = shortening(t, c, f, v);
         v = both!(|k| v[k] * scale);
+    }
+    if let Some(far) = far {
+        v = both!(|k| far.blend(k, v[k], c.limit(t, k, f)));
     }
     for k in 0..2 {
         force[k].add_product(&v[k], w[k]);
@@ -294,7 +338,7 @@ fn dissipated(
         for j in 0..(c.last + 1).min(N) {
             let w = both!(|k| c.stiffness(&t, k, j));
             let places = [[old[0][j], old[1][j]], [new[0][j], new[1][j]]];
-            energy += slipped(t, c, start[j], w, places, motion, 2.0 * slip.shares[j]);
+            energy += slipped(t, c, start[j], w, places, motion, [2.0 * slip.shares[j], slip.slides]);
         }
     }
     let at = |springs: &Values, f: usize| {
@@ -302,9 +346,9 @@ fn dissipated(
     };
     for f in 0..=c.part.min(FINE - 1) {
         let [x, y] = both!(|k| at(new, f)[k] / c.limit(&t, k, f));
-        if x * x + y * y > SLIPPED {
+        if slip.slides > 0.0 || x * x + y * y > SLIPPED {
             let w = both!(|k| c.fine(&t, k, f));
-            energy += slipped(t, c, f, w, [at(old, f), at(new, f)], motion, 0.0);
+            energy += slipped(t, c, f, w, [at(old, f), at(new, f)], motion, [0.0, slip.slides]);
         }
     }
     if energy > 0.0 { energy } else { 0.0 }
@@ -314,7 +358,7 @@ fn dissipated(
 const LEAST_LIMIT: f64 = 1e-40;
 
 /// Energy of a spring of stiffness w: it follows its trial path until it reaches its limit, which changes evenly on the way, and slips from
-/// there to its end; points that slipped before slip on that share of the path too.
+/// there to its end; points that slipped before slip on that share of the path too. A spring that slides far does so in its last direction.
 #[inline(always)]
 fn slipped(
     t: &Rows,
@@ -323,7 +367,7 @@ fn slipped(
     w: Both<f64>,
     [old, new]: [Both<f64>; 2],
     motion: &Motion<f64, f64>,
-    bend: f64,
+    [bend, slides]: [f64; 2],
 ) -> f64 {
     let limit = both!(|k| c.limit(&t, k, f));
     let per_limit = both!(|k| 1.0 / if limit[k] > LEAST_LIMIT { limit[k] } else { LEAST_LIMIT });
@@ -335,7 +379,11 @@ fn slipped(
     let (dx, dy, change) = (t_x - x, t_y - y, ratio - 1.0);
     let (qa, qb) = (dx * dx + dy * dy - change * change, x * dx + y * dy + ratio * change);
     let part = (1.0 - bend) * exit(qa, qb, x * x + y * y - ratio * ratio);
-    let of = |k: usize| w[k] * (old[k] + part * (trial[k] - old[k]) + new[k]) * (trial[k] - new[k]);
+    let limit_there = slides * (ratio - change * part);
+    let of = |k: usize| {
+        let leaves = (1.0 - slides) * (old[k] + part * (trial[k] - old[k])) + limit_there * new[k];
+        w[k] * (leaves + new[k]) * (trial[k] - new[k])
+    };
     0.5 * (of(0) + of(1))
 }
 
@@ -344,25 +392,25 @@ fn slipped(
 pub(crate) fn separated(t: &Rows, from: &Contact<f64>, now: &Pressed<f64>, by: Both<f64>, old: &Values) -> f64 {
     let (start, mut energy) = (starts(from.under_flat), 0.0);
     let fall = both!(|k| from.now.shift[k] - now.shift[k]);
-    for j in 0..(from.last + 1).min(N) {
-        let at_node: f64 = t.at(SHIFT, start[j]);
-        if now.load > 0.0 && at_node < now.shift[0] {
-            continue;
+    let mut lost = |f: usize, w: Both<f64>, old: Both<f64>| {
+        if now.load > 0.0 && Tables::<f64>::at(&t, SHIFT, f) < now.shift[0] {
+            return;
         }
-        let mut lost = [[0.0; 2]; 3];
-        for k in 0..2 {
-            let limit = from.limit(&t, k, start[j]).max(LEAST_LIMIT);
-            let rate = limit / fall[k].max(limit) * by[k];
-            lost[0][k] = limit;
-            (lost[1][k], lost[2][k]) = (old[k][j], rate);
-        }
-        let [limit, v, rate] = lost;
-        let (x, y, dx, dy) = (v[0] / limit[0], v[1] / limit[1], rate[0] / limit[0], rate[1] / limit[1]);
+        let limit = both!(|k| from.limit(&t, k, f).max(LEAST_LIMIT));
+        let rate = both!(|k| limit[k] / fall[k].max(limit[k]) * by[k]);
+        let (x, y, dx, dy) = (old[0] / limit[0], old[1] / limit[1], rate[0] / limit[0], rate[1] / limit[1]);
         let part = exit(dx * dx + dy * dy - 1.0, x * dx + y * dy + 1.0, x * x + y * y - 1.0);
         for k in 0..2 {
-            let leaves = v[k] + part * rate[k];
-            energy += 0.5 * from.stiffness(&t, k, j) * leaves * ((1.0 - part) * rate[k] + leaves);
+            let leaves = old[k] + part * rate[k];
+            energy += 0.5 * w[k] * leaves * ((1.0 - part) * rate[k] + leaves);
         }
+    };
+    for j in 0..(from.last + 1).min(N) {
+        lost(start[j], both!(|k| from.stiffness(&t, k, j)), [old[0][j], old[1][j]]);
+    }
+    let fine = |k: usize, f: usize| old.as_flattened().get(FINE_SPRING + k * FINE + f).copied().unwrap_or(0.0);
+    for f in 0..=from.part.min(FINE - 1) {
+        lost(f, both!(|k| from.fine(&t, k, f)), both!(|k| fine(k, f)));
     }
     if energy > 0.0 { energy } else { 0.0 }
 }
