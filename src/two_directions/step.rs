@@ -38,18 +38,16 @@ pub(crate) fn step<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
         release(t, c, 0, &predicted[0], slip.predicted, &mut v[0]);
         release(t, c, 1, &predicted[1], slip.predicted, &mut v[1]);
     }
+    let mut r = [[zero; N]; 2];
     if slip.set != 0 {
-        slide(t, c, &mut v, slip, s);
+        slide(t, c, &mut v, &mut r, slip);
     }
     let far = if slip.slides > 0.0 { Some(Far::new(t, c, part, &v)) } else { None };
     for k in 0..2 {
         for j in 0..=last {
             if let Some(far) = &far {
                 v[k][j] = far.blend(k, v[k][j], c.limit(t, k, start[j]));
-                if slip.contains(j) {
-                    let place = TRACTION + k * N + j;
-                    s.put(place, far.blend(k, s.get(place), A::constant(1.0)));
-                }
+                r[k][j] = far.blend(k, r[k][j], A::constant(1.0));
             }
             force[k].add_product(&v[k][j], c.stiffness(t, k, j));
         }
@@ -58,7 +56,9 @@ pub(crate) fn step<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
         }
         for j in 0..N {
             s.put(k * N + j, v[k][j]);
-            if S::TRACTIONS && !slip.contains(j) {
+            if slip.contains(j) {
+                s.put(TRACTION + k * N + j, r[k][j]);
+            } else if S::TRACTIONS {
                 s.put(TRACTION + k * N + j, if j <= last { slip.traction(t, c, k, j, &v[k]) } else { zero });
             }
         }
@@ -176,14 +176,14 @@ impl Slip {
 /// |r|² up to which β of the next step is 0, with a margin.
 const NEEDED: f64 = 0.4;
 
-/// The step of Newton's method.
+/// The step of Newton's method: springs, and tractions of the points that slip.
 #[inline(always)]
-fn slide<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
+fn slide<A: Real, X: Over<A>, T: Tables<A>>(
     t: &T,
     c: &Contact<A>,
     v: &mut Both<Row<X>>,
+    tractions: &mut Both<Row<X>>,
     slip: &Slip,
-    s: &mut S,
 ) {
     let (zero, last) = (X::constant(0.0), c.last.min(N - 1));
     let first = (slip.set.trailing_zeros() as usize).min(last);
@@ -236,12 +236,11 @@ fn slide<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     let every = slip.set.count_ones() as usize == last + 1 - first;
     for k in 0..2 {
         let (across, sign) = if k == 0 { (&slip.e[1], -1.0) } else { (&slip.e[0], 1.0) };
-        let (mut change, mut r) = ([zero; N], [zero; N]);
+        let (mut change, r) = ([zero; N], &mut tractions[k]);
         for i in first..=last {
             if slip.contains(i) {
                 change[i] = turn[i].scale(-sign * across[i]);
                 r[i] = X::constant(slip.e[k][i]) - change[i];
-                s.put(TRACTION + k * N + i, r[i]);
             }
         }
         if every {
