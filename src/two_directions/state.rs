@@ -313,9 +313,10 @@ pub(super) fn advance_state(element: &Element, state: &mut [f64], to: [f64; 3], 
     }
     let belongs = header.key == element.key;
     let same = belongs && closes && header.normal_force > 0.0 && to[2].to_bits() == header.displacement[2].to_bits();
-    let normal = match closes {
-        true if !same || requested.tangent => element.normal(to[2]),
-        _ => Normal { load: header.normal_force, ..Normal::OPEN },
+    let normal = if closes && (!same || requested.tangent) {
+        element.normal(to[2])
+    } else {
+        Normal { load: header.normal_force, ..Normal::OPEN }
     };
     let largest = header.normal_force.max(normal.load);
     if !belongs || (!same && largest > OUTGROWN * header.units.load) {

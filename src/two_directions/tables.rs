@@ -285,9 +285,7 @@ pub(crate) fn fill(rows: &mut Rows, element: &Element, units: &Units, reference:
             *row = *values;
         }
     }
-    for j in 0..N {
-        rows[PRESSURE + j] = pressure[j];
-    }
+    rows[PRESSURE..PRESSURE + N].copy_from_slice(&pressure);
 }
 
 /// `sqrt(upper - point) - sqrt(lower - point)`, the second one 0 if negative, free of cancellation.
