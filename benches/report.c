@@ -366,25 +366,6 @@ static void write_two_directions_tables(FILE *file)
     }
 }
 
-static void write_springs_table(FILE *file)
-{
-    fputs("\nThe same by the number of springs of the parameters:\n\n"
-          "| springs | force, H = 1 | with Jacobian | force, H = 5 | with Jacobian |\n"
-          "|---:|---:|---:|---:|---:|\n", file);
-    for (int springs = 8; springs <= 16; springs += 4) {
-        fprintf(file, "| %d |", springs);
-        for (int k = 0; k < 4; ++k) {
-            for (const entry *e = entries; e < entries + entry_count; ++e) {
-                if (!strcmp(e->task, "two directions springs") && e->parameter == springs && e->harmonics == (k < 2 ? 1 : 5)
-                    && e->jacobian == k % 2) {
-                    fprintf(file, " %s |", text_of(e->median));
-                }
-            }
-        }
-        fputs("\n", file);
-    }
-}
-
 /* Harmonic force and Jacobian: medians of the times, and the largest errors. */
 static void newton_row(FILE *file, const char *contact, const char *task, double parameter, int harmonics, int samples)
 {
@@ -455,5 +436,4 @@ void write_tables(FILE *file, const char *machine)
     write_harmonic_table(file);
     write_element_table(file);
     write_two_directions_tables(file);
-    write_springs_table(file);
 }

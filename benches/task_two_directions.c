@@ -274,14 +274,11 @@ static void add_harmonic(const mslip_element *element, const mslip_contact *cont
 void task_two_directions(const test_case *c, const extent *x)
 {
     (void)x;
-    static mslip_element of_springs[3];
+    static mslip_element of_contact;
+    const mslip_element *element = &of_contact;
     mslip_parameters p = c->parameters;
     p.normal_force *= 1.6; /* the largest load of the swing */
-    for (int k = 0; k < 3; ++k) {
-        p.springs = 8 + 4 * k;
-        require(mslip_element_init(&p, 2, MSLIP_INPUT_APPROACH, of_springs + k));
-    }
-    const mslip_element *element = of_springs + 2; /* the default */
+    require(mslip_element_init(&p, 2, MSLIP_INPUT_APPROACH, &of_contact));
     const double slip = c->contact.slip_displacement;
     double approach;
     require(mslip_normal_approach(element, 1, &c->parameters.normal_force, &approach, NULL, NULL));
@@ -290,12 +287,6 @@ void task_two_directions(const test_case *c, const extent *x)
         add_steps(element, motion, slip, approach);
         for (int h = 1; h <= 5 && motion == VARYING_LOAD; h += 4) {
             add_harmonic(element, &c->contact, h, slip, approach);
-            for (int k = 0; k < 3; ++k) {
-                job j = harmonic_job(of_springs + k, h, slip, approach);
-                for (j.tangent_requested = 0; j.tangent_requested <= 1; ++j.tangent_requested) {
-                    add("two directions springs", "microslip", run_harmonic, &j, 8 + 4 * k);
-                }
-            }
         }
         measure(first, c->shape, motions[motion].u, mark);
     }

@@ -315,7 +315,7 @@ static void test_warnings(int shape)
     CHECK(mslip_parameters_warning(NULL, 0) == NULL && mslip_elliptic_parameters_warning(NULL, 0) == NULL);
 }
 
-/* Values that are valid one by one, but not together; invalid references of the displacement, and numbers of springs. */
+/* Values that are valid one by one, but not together, and invalid references of the displacement. */
 static void test_combinations(void)
 {
     const mslip_parameters good = flat_parameters();
@@ -347,20 +347,6 @@ static void test_combinations(void)
         save_regions();
         check_rejected(init(ROUNDED), rows[i].status, "mslip_contact_init", "a combination");
         check_rejected(init(ROUNDED_ELEMENT), rows[i].status, "mslip_element_init", "a combination");
-    }
-    static const int32_t springs[] = { -8, 1, 13, 17, INT32_MAX, INT32_MIN };
-    mslip_elliptic_parameters *e = last(input_region, sizeof *e);
-    for (size_t i = 0; i < LENGTH(springs); ++i) {
-        *p = good;
-        p->springs = springs[i];
-        save_regions();
-        check_rejected(init(ROUNDED), MSLIP_BAD_SPRINGS, "mslip_contact_init", "springs");
-        check_rejected(init(ROUNDED_ELEMENT), MSLIP_BAD_SPRINGS, "mslip_element_init", "springs");
-        *e = elliptic_parameters();
-        e->springs = springs[i];
-        save_regions();
-        check_rejected(init(ELLIPTIC), MSLIP_BAD_SPRINGS, "mslip_contact_init_elliptic", "springs");
-        check_rejected(init(ELLIPTIC_ELEMENT), MSLIP_BAD_SPRINGS, "mslip_element_init_elliptic", "springs");
     }
     for (int shape = 0; shape < SHAPES; ++shape) {
         test_layer(shape);

@@ -439,8 +439,6 @@ STATUS(MSLIP_LENGTH_TOO_SHORT, 12,
     "b and a positive initial stiffness")
 STATUS(MSLIP_OUT_OF_RANGE, 13,
     "parameters out of range: a derived quantity would exceed 1e-150 .. 1e150")
-STATUS(MSLIP_BAD_SPRINGS, 14,
-    "springs must be 0, 8, 12 or 16")
 STATUS(MSLIP_BAD_NORMAL_COMPLIANCE, 15,
     "normal_compliance of a layer must be finite and >= 0, and under normal_force at most 2^40 times that of the contact and "
     "0 or 1e-150 .. 1e150")

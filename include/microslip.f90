@@ -265,9 +265,6 @@ module microslip
     real(mslip_real) :: friction_coefficient = unset  !! Friction coefficient mu >= 0.
     type(mslip_material) :: material(2)  !! The two bodies.
     type(mslip_layer) :: layer  !! A layer in series with the contact; all zero: none.
-    integer(mslip_int) :: springs = 0
-      !! Springs of an element with two directions: 8, 12 or 16, more accurate and slower; 0: the default.
-    integer(mslip_int) :: reserved = 0  !! Leave 0.
   end type mslip_elliptic_parameters
 
   ! The reserved components are public, because `write` rejects types with private ones.
@@ -298,7 +295,7 @@ module microslip
     integer(mslip_int) :: directions = 0
       !! Number of tangential directions, 1 or 2: a displacement is [u, w] or [u, v, w], a force [T, N] or [Tx, Ty, N].
     integer(mslip_int) :: normal_input = 0  !! MSLIP_INPUT_APPROACH or MSLIP_INPUT_NORMAL_FORCE.
-    real(mslip_real) :: reserved(1855) = 0  !! Internal tables.
+    real(mslip_real) :: reserved(1854) = 0  !! Internal tables.
   end type mslip_element
   ! </generated>
 
@@ -935,7 +932,7 @@ contains
   end subroutine mslip_parameters_default
 
   subroutine mslip_elliptic_parameters_default(parameters)
-    !! Every value unset (NaN, so that a forgotten one is rejected by name), default springs.
+    !! Every value unset (NaN, so that a forgotten one is rejected by name).
     type(mslip_elliptic_parameters), intent(out) :: parameters  !! The parameters to reset.
 
     call c_elliptic_parameters_default(parameters)

@@ -257,8 +257,8 @@ typedef struct mslip_parameters {
     struct mslip_layer layer;
     // `MSLIP_RIGID_STRIP` (1, corrected to 3-D, for the contact of a machine) or `MSLIP_CENTRE_POINT` (0, as in the paper).
     int32_t displacement_reference;
-    // Springs of an element with two tangential directions: 8, 12 or 16, more accurate and slower; 0: the default.
-    int32_t springs;
+    // Not read; set to 0.
+    int32_t reserved;
 } mslip_parameters;
 
 // Elliptical Hertz contact (section 3.3); a sphere if both semi-axes are equal.
@@ -275,10 +275,6 @@ typedef struct mslip_elliptic_parameters {
     struct mslip_material material[2];
     // A layer in series with the contact; all zero: none.
     struct mslip_layer layer;
-    // Springs of an element with two tangential directions: 8, 12 or 16, more accurate and slower; 0: the default.
-    int32_t springs;
-    // Not read; set to 0.
-    int32_t reserved;
 } mslip_elliptic_parameters;
 
 // A contact under a constant normal force: initialised once and only read afterwards. Plain data of fixed size that may be copied,
@@ -322,7 +318,7 @@ typedef struct mslip_element {
     // MSLIP_INPUT_APPROACH or MSLIP_INPUT_NORMAL_FORCE.
     int32_t normal_input;
     // Internal tables.
-    double reserved[1855];
+    double reserved[1854];
 } mslip_element;
 
 #ifdef __cplusplus

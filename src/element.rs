@@ -83,12 +83,7 @@ pub struct Element {
     /// times N, and a number that two shapes hardly share.
     lateral: [f64; 2],
     pub(crate) key: f64,
-    /// Springs of a contact, 8, 12 or 16; 0 with one direction.
-    pub(crate) springs: usize,
 }
-
-/// The number of springs unless another one is requested.
-const SPRINGS: usize = 16;
 
 const TAG: u64 = (0x6d73_6c69_7065 << 16) | (LAYOUT << 8);
 const ELLIPTIC: u64 = 1;
@@ -182,7 +177,6 @@ impl Element {
         let plane = Plane { layer: &layered.layer, ..flat.plane() };
         self.init(&plane, &layered, [normal_force, friction_coefficient], directions, input)?;
         self.composite_modulus = composite_modulus;
-        self.springs = springs_of(parameters.springs, directions);
         (self.flat, self.ellipse) = (layered, EMPTY.ellipse);
         Ok(())
     }
@@ -215,7 +209,6 @@ impl Element {
         self.init(&plane, &layered, [normal_force, friction_coefficient], directions, input)?;
         self.tag |= ELLIPTIC;
         self.composite_modulus = composite_modulus;
-        self.springs = springs_of(parameters.springs, directions);
         (self.flat, self.ellipse) = (EMPTY.flat, layered);
         Ok(())
     }
@@ -846,17 +839,7 @@ const EMPTY: Element = Element {
     potential: [0.0; PIECES],
     lateral: [0.0; 2],
     key: 0.0,
-    springs: 0,
 };
-
-/// The number of springs of parameters that were checked.
-fn springs_of(requested: i32, directions: Directions) -> usize {
-    match (directions, requested) {
-        (Directions::One, _) => 0,
-        (Directions::Two, 0) => SPRINGS,
-        (Directions::Two, springs) => springs.unsigned_abs() as usize,
-    }
-}
 
 /// A number from 1 to 2 that depends on the bits of all values.
 fn key_of(values: &[f64]) -> f64 {

@@ -88,8 +88,8 @@ pub struct Parameters {
     pub layer: Layer,
     /// `MSLIP_RIGID_STRIP` (1, corrected to 3-D, for the contact of a machine) or `MSLIP_CENTRE_POINT` (0, as in the paper).
     pub displacement_reference: i32,
-    /// Springs of an element with two tangential directions: 8, 12 or 16, more accurate and slower; 0: the default.
-    pub springs: i32,
+    /// Not read; set to 0.
+    pub reserved: i32,
 }
 
 /// Elliptical Hertz contact (section 3.3); a sphere if both semi-axes are equal.
@@ -108,10 +108,6 @@ pub struct EllipticParameters {
     pub material: [Material; 2],
     /// A layer in series with the contact; all zero: none.
     pub layer: Layer,
-    /// Springs of an element with two tangential directions: 8, 12 or 16, more accurate and slower; 0: the default.
-    pub springs: i32,
-    /// Not read; set to 0.
-    pub reserved: i32,
 }
 
 /// Default of the numbers: NaN, and of the displacement reference: -1, so that an omitted parameter is rejected by its own error.
@@ -130,7 +126,7 @@ impl Default for Parameters {
             material: [UNSET_MATERIAL; 2],
             layer: Layer::none(),
             displacement_reference: -1,
-            springs: 0,
+            reserved: 0,
         }
     }
 }
@@ -144,8 +140,6 @@ impl Default for EllipticParameters {
             friction_coefficient: UNSET,
             material: [UNSET_MATERIAL; 2],
             layer: Layer::none(),
-            springs: 0,
-            reserved: 0,
         }
     }
 }
@@ -182,10 +176,6 @@ fn check_materials(material: &[Material; 2]) -> Result<(), Error> {
     Ok(())
 }
 
-fn check_springs(springs: i32) -> Result<(), Error> {
-    if matches!(springs, 0 | 8 | 12 | 16) { Ok(()) } else { Err(Error::BadSprings) }
-}
-
 impl Parameters {
     /// Checks the ranges of all parameters.
     ///
@@ -200,7 +190,7 @@ impl Parameters {
         check_materials(&self.material)?;
         self.layer.check(self.normal_force)?;
         match self.displacement_reference {
-            CENTRE_POINT | RIGID_STRIP => check_springs(self.springs),
+            CENTRE_POINT | RIGID_STRIP => Ok(()),
             _ => Err(Error::BadDisplacementReference),
         }
     }
@@ -217,8 +207,7 @@ impl EllipticParameters {
         not_negative(self.normal_force, Error::BadNormalForce)?;
         not_negative(self.friction_coefficient, Error::BadFrictionCoefficient)?;
         check_materials(&self.material)?;
-        self.layer.check(self.normal_force)?;
-        check_springs(self.springs)
+        self.layer.check(self.normal_force)
     }
 }
 
@@ -290,24 +279,6 @@ pub(crate) mod tests {
         }
         one = Parameters { friction_coefficient: f64::INFINITY, ..steel() };
         assert_eq!(one.check(), Err(Error::BadFrictionCoefficient));
-        for springs in [0, 8, 12, 16] {
-            assert_eq!(Parameters { springs, ..steel() }.check(), Ok(()));
-        }
-        for springs in [-8, 1, 13, 24] {
-            assert_eq!(Parameters { springs, ..steel() }.check(), Err(Error::BadSprings));
-            let Parameters { normal_force, friction_coefficient, material, .. } = steel();
-            let ellipse = EllipticParameters {
-                semi_axis_x: 1e-4,
-                semi_axis_y: 1e-4,
-                normal_force,
-                friction_coefficient,
-                material,
-                springs,
-                ..EllipticParameters::default()
-            };
-            assert_eq!(ellipse.check(), Err(Error::BadSprings));
-            assert_eq!(EllipticParameters { springs: 12, ..ellipse }.check(), Ok(()));
-        }
     }
 
     #[test]

@@ -38,7 +38,7 @@ fn parameters(flat_half_width: f64) -> Parameters {
         material: [STEEL; 2],
         displacement_reference: CENTRE_POINT,
         layer: Layer::none(),
-        springs: 0,
+        reserved: 0,
     }
 }
 
@@ -232,9 +232,9 @@ fn apart(one: &Step, two: &Step) -> f64 {
     (one.force[0] - two.force[0]).hypot(one.force[1] - two.force[1])
 }
 
-/// Error of springs on a line over mu N in histories whose load rises and falls at random: a corner of the distribution of displacements is
+/// Error of the springs on a line over mu N in histories whose load rises and falls at random: a corner of the distribution of displacements is
 /// cut between the nodes of the fine springs, and again by each new alignment.
-const LINE_ERROR: f64 = 2.5e-3;
+const LINE_ERROR: f64 = 2e-4;
 
 /// Loads and displacements along x, with separation.
 fn on_line(element: &Element, steps: usize, random: &mut Random) -> Vec<[f64; 3]> {
@@ -248,25 +248,20 @@ fn motion_along_x_is_that_of_one_direction() {
     let mut random = Random(2);
     for input in [NormalInput::Force, NormalInput::Approach] {
         for (element, single) in shapes(Directions::Two, input).iter().zip(&shapes(Directions::One, input)) {
-            let (mut contact, mut disturbed) = (Contact::new(element), Contact::new(element));
-            let mut state = vec![0.0; state_length() - 2];
+            let mut contact = Contact::new(element);
+            let mut state = vec![0.0; one_direction::state_length(100)];
             one_direction::state_init(&mut state).unwrap();
-            let mut worst = 0.0f64;
-            for (k, [u, v, w]) in on_line(element, 300, &mut random).into_iter().enumerate() {
+            let (mut worst, mut energies) = (0.0f64, [0.0; 2]);
+            for [u, v, w] in on_line(element, 300, &mut random) {
                 let (step, expected) =
                     (contact.to([u, v, w]), one_direction::advance(single, &mut state, [u, w], true).unwrap());
-                let [x, xw, ww] = [step.tangent[0], step.tangent[6], step.tangent[8]];
-                assert_eq!(
-                    (step.force, step.dissipated),
-                    ([expected.force[0], 0.0, expected.force[1]], expected.dissipated)
-                );
-                assert_eq!([x, xw, ww], [expected.tangent[0], expected.tangent[2], expected.tangent[3]]);
-                let tilted = disturbed.to([u, v + [0.0, 1e-9][k % 2] * unit(element), w]);
-                let error = apart(&step, &tilted) / slip_force(element);
-                worst = worst.max(error);
+                assert_eq!((step.force[1], step.force[2]), (0.0, expected.force[1]));
+                worst = worst.max((step.force[0] - expected.force[0]).abs() / slip_force(element));
+                energies = [energies[0] + step.dissipated, energies[1] + expected.dissipated];
             }
-            println!("disturbed line: {worst:.5} mu N");
-            assert!(worst < LINE_ERROR, "{worst:e}");
+            let energy = energies[0] / energies[1] - 1.0;
+            println!("line: {worst:.1e} mu N, energy {energy:+.1e}");
+            assert!(worst < LINE_ERROR && energy.abs() < 0.01, "{worst:e} {energy:e}");
         }
     }
 }
@@ -488,30 +483,6 @@ fn a_closed_orbit_dissipates_its_work() {
     }
 }
 
-/// With 8, 12 and 16 springs the force errs by at most 1.1, 1.0 and 1.0 % of `mu N` (guide, "Springs"): two of them are apart by at most
-/// the sum, and not equal.
-#[test]
-fn fewer_springs_are_as_good_as_stated() {
-    let of = |springs: i32| {
-        let element =
-            Element::rounded_flat(&Parameters { springs, ..parameters(1e-4) }, Directions::Two, NormalInput::Force);
-        let element = element.unwrap();
-        let (mut contact, unit) = (Contact::new(&element), unit(&element));
-        let at = |k: i32| {
-            let (y, x) = (TAU * f64::from(k) / 24.0).sin_cos();
-            contact.to([0.6 * unit * x, 0.6 * unit * y, normal_input(&element, 0.7 + 0.3 * x)]).force
-        };
-        ((0..48).map(at).collect::<Vec<_>>(), slip_force(&element))
-    };
-    let (best, slip_force) = of(16);
-    for (springs, sum) in [(8, 0.021), (12, 0.020)] {
-        let (forces, _) = of(springs);
-        let apart = forces.iter().zip(&best).map(|(one, two)| (one[0] - two[0]).hypot(one[1] - two[1]));
-        let apart = apart.fold(0.0, f64::max) / slip_force;
-        assert!(apart > 1e-6 && apart < sum, "{springs}: {apart:e}");
-    }
-}
-
 /// The force is a function of the end of a step as long as all sticks; a contact that opens loses all memory.
 #[test]
 fn sticking_steps_divide_and_separation_erases() {
@@ -639,29 +610,15 @@ fn the_drift_is_that_of_the_steps_and_falls_with_the_periods() {
 }
 
 #[test]
-fn nothing_drifts_on_a_line_or_after_separation() {
+fn nothing_drifts_after_separation() {
     let element = ellipse(1.0);
     let (u, full) = (unit(&element), element.normal_force);
     let opening = [0.4 * u, 0.05 * u, 0.0, 0.0, 0.45 * u, 0.1 * u, 0.4 * full, 0.4 * full, 0.0];
-    let line = [0.4 * u, 0.05 * u, 0.4 * u, 0.0, 0.0, 0.0, 0.5 * full, 0.2 * full, 0.0];
-    for motion in [&opening, &line] {
-        let one = harmonic(&element, 1, motion);
-        for periods in [1, 2, 7] {
-            let more = harmonic(&element, periods, motion);
-            assert_eq!((more.drift, more.force, more.dissipated), (0.0, one.force, one.dissipated));
-            // The springs of a motion on a line, which give the stiffness across it, are those of the periods.
-            assert!(more.jacobian == one.jacobian || motion == &line);
-        }
-    }
-    // Alone, the drift is written too.
-    let mut memory = vec![0.0; workspace_length(HARMONICS, SAMPLES)];
-    workspace_init(HARMONICS, SAMPLES, 2, &mut memory).unwrap();
-    let mut workspace = Workspace::new(&mut memory).unwrap();
-    for motion in [&opening, &line] {
-        let mut drift = f64::NAN;
-        let output = HarmonicOutput { force: None, jacobian: None, dissipated: None, drift: Some(&mut drift) };
-        harmonic_force(&element, &mut workspace, motion, output).unwrap();
-        assert_eq!(drift, 0.0);
+    let one = harmonic(&element, 1, &opening);
+    for periods in [1, 2, 7] {
+        let more = harmonic(&element, periods, &opening);
+        assert_eq!((more.drift, more.force, more.dissipated), (0.0, one.force, one.dissipated));
+        assert_eq!(more.jacobian, one.jacobian);
     }
     // By steps, the first period of the opening contact contains the first loading, all others are equal.
     let [[one, before], [last, other]] = [1, 2].map(|periods| walked(&element, periods, &opening));
@@ -700,10 +657,9 @@ fn check_random_jacobians(motions: usize, seed: u64) {
     let mut random = Random(seed);
     let mut elements = layered(Directions::Two, NormalInput::Force);
     elements.extend(by_approach_and_force());
-    for (half_width, springs) in HALF_WIDTHS.into_iter().flat_map(|width| [8, 12, 16].map(|springs| (width, springs))) {
-        let parameters = Parameters { springs, ..parameters(half_width) };
-        let inputs = [NormalInput::Approach, NormalInput::Force];
-        elements.extend(inputs.map(|input| Element::rounded_flat(&parameters, Directions::Two, input).unwrap()));
+    for half_width in HALF_WIDTHS {
+        elements
+            .extend([NormalInput::Approach, NormalInput::Force].map(|input| flat(half_width, input, Directions::Two)));
     }
     let mut corners = 0;
     for _ in 0..motions {

@@ -33,8 +33,6 @@ const SPHERE: EllipticParameters = EllipticParameters {
     friction_coefficient: 0.5,
     material: [STEEL; 2],
     layer: Layer::none(),
-    springs: 0,
-    reserved: 0,
 };
 
 /// Cylinder, flats with a/b of 0.5 and 0.97, sphere.

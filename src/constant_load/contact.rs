@@ -527,7 +527,7 @@ pub(crate) mod tests {
             material: [body; 2],
             displacement_reference: 1,
             layer: Layer::none(),
-            springs: 0,
+            reserved: 0,
         };
         assert_eq!(Contact::rounded_flat(&extreme).map(|_| ()), Err(Error::OutOfRange));
     }

@@ -168,7 +168,7 @@ pub(crate) mod tests {
                 material: BODIES.map(|body| Material { young_modulus: factor * body.young_modulus, ..body }),
                 layer: Layer { tangential_compliance, stiffening_load, reference_load: 80.0, ..Layer::none() },
                 displacement_reference,
-                springs: 0,
+                reserved: 0,
             })
             .unwrap()
         }

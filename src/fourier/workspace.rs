@@ -143,6 +143,7 @@ pub(crate) fn padded(length: usize) -> usize {
 pub(crate) struct Parts<'a>(&'a mut [f64]);
 
 impl<'a> Parts<'a> {
+    #[cfg(test)]
     pub fn of(memory: &'a mut [f64]) -> Parts<'a> {
         Parts(memory)
     }

@@ -550,14 +550,6 @@ contains
     parameters%displacement_reference = unset%displacement_reference
     call mslip_contact_init(parameters, contact, status)
     call check_status('an unset displacement reference', status, MSLIP_BAD_DISPLACEMENT_REFERENCE)
-    parameters = flat_parameters()
-    parameters%springs = 13
-    call mslip_contact_init(parameters, contact, status)
-    call check_status('springs', status, MSLIP_BAD_SPRINGS)
-    ellipse = ellipse_parameters()
-    ellipse%springs = -8
-    call mslip_contact_init_elliptic(ellipse, contact, status)
-    call check_status('springs of an ellipse', status, MSLIP_BAD_SPRINGS)
     ellipse = ellipse_parameters()
     ellipse%layer%normal_compliance = -1
     call mslip_contact_init_elliptic(ellipse, contact, status)

@@ -192,7 +192,7 @@ const FLAT: Parameters = Parameters {
     material: [STEEL; 2],
     layer: Layer::none(),
     displacement_reference: 0,
-    springs: 0,
+    reserved: 0,
 };
 
 /// Contacts from the cylinder to the nearly flat, short, long, open, without friction, with layers, and in extreme units, initialised

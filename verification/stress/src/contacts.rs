@@ -41,7 +41,7 @@ pub fn flat(shape: &Shape, length: i32, force: i32) -> Input {
         material,
         displacement_reference: shape.reference,
         layer: Layer::none(),
-        springs: 0,
+        reserved: 0,
     })
 }
 

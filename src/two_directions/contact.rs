@@ -1,0 +1,245 @@
+//! The springs under a present load: the shell at the edge, which ends at the present size, and the compliance of the points.
+
+use super::scalar::{Dual, Real, both};
+use super::tables::{
+    Both, END, FINE, FINE_STIFFNESS, FLEXIBILITY, LEAST_STIFFNESS, LOAD, MAP, MOST_PARTS, Matrix, N, PER_MAP, POINTS,
+    PRESSURE, Row, Rows, SECANT, SHIFT, SIZE, STIFFNESS, Tables, Units, WEIGHT, at_edge, root_difference, starts,
+};
+use crate::element::{Element, Normal};
+use crate::simd::dispatch;
+
+/// Normal state in the units of the springs: N, S of both directions, w².
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Pressed<A> {
+    pub load: A,
+    pub shift: Both<A>,
+    pub size: A,
+}
+
+impl Pressed<f64> {
+    pub const NONE: Pressed<f64> = Pressed { load: 0.0, shift: [0.0; 2], size: 0.0 };
+
+    /// The state of a contact that is closed, and its derivatives by the normal component.
+    pub fn new(element: &Element, units: &Units, normal: &Normal) -> [Pressed<f64>; 2] {
+        let Normal { load, shift, load_slope, shift_slope } = *normal;
+        let (w, per_shift) = (element.size_under(load), 1.0 / units.shift);
+        let (size, slope) = (w / units.size, element.shape().size_slope(w) * load_slope / units.size / units.size);
+        let lateral = [element.lateral_shift(load, shift), element.lateral_slope(normal)];
+        let of = |load: f64, x: f64, y: f64, size: f64| Pressed {
+            load: load / units.load,
+            shift: [x * per_shift, y * per_shift],
+            size,
+        };
+        [of(load, shift, lateral[0], size * size), of(load_slope, shift_slope, lateral[1], slope)]
+    }
+
+    /// With derivatives by one parameter.
+    pub fn dual<const M: usize>(&self, slopes: &Pressed<f64>, parameter: usize) -> Pressed<Dual<M>> {
+        let of = |value: f64, slope: f64| {
+            let mut dual = Dual::constant(value);
+            dual.slopes[parameter] = slope;
+            dual
+        };
+        Pressed {
+            load: of(self.load, slopes.load),
+            shift: both!(|k| of(self.shift[k], slopes.shift[k])),
+            size: of(self.size, slopes.size),
+        }
+    }
+}
+
+/// What depends on the present load.
+#[derive(Debug, Clone, Copy)]
+#[repr(align(32))]
+pub(crate) struct Contact<A> {
+    /// G of the last shell.
+    pub edge: Both<Row<A>>,
+    /// 1/p_i; 0 outside.
+    pub per_pressure: Row<A>,
+    /// Stiffnesses of the last spring, their reciprocals, and those of the fine springs in its shell.
+    pub stiffness: Both<A>,
+    pub flexibility: Both<A>,
+    pub fine: Both<[A; MOST_PARTS]>,
+    pub now: Pressed<A>,
+    /// The last shell and part, the first part of that shell, and the springs under the flat.
+    pub last: usize,
+    pub part: usize,
+    pub first_part: usize,
+    pub under_flat: usize,
+}
+
+impl Contact<f64> {
+    pub const NONE: Contact<f64> = Contact {
+        edge: [[0.0; N]; 2],
+        per_pressure: [0.0; N],
+        stiffness: [0.0; 2],
+        flexibility: [0.0; 2],
+        fine: [[0.0; MOST_PARTS]; 2],
+        now: Pressed::NONE,
+        last: 0,
+        part: 0,
+        first_part: 0,
+        under_flat: 0,
+    };
+
+    /// The contact under a load, and its compliance.
+    pub fn press(rows: &Rows, now: &Pressed<f64>, under_flat: usize, compliance: &mut Both<Matrix>) -> Contact<f64> {
+        dispatch!(
+            press_kernel,
+            rows: &Rows, now: &Pressed<f64>, under_flat: usize, compliance: &mut Both<Matrix> => Contact<f64>
+        )
+    }
+
+    /// The contact with derivatives.
+    pub fn derived<const M: usize, T: Tables<Dual<M>>>(&self, tables: &T, slopes: &Pressed<f64>) -> Contact<Dual<M>> {
+        let now = self.now.dual(slopes, END);
+        Contact::new(tables, &now, [self.last, self.part], self.under_flat)
+    }
+}
+
+/// The derivatives that are multiplied with columns are those by the load at the end and the alignment.
+pub(crate) fn derive(contact: &Contact<f64>, tables: [&Rows; 2], slopes: &Pressed<f64>) -> Contact<Dual<4>> {
+    dispatch!(derive_kernel, contact: &Contact<f64>, tables: [&Rows; 2], slopes: &Pressed<f64> => Contact<Dual<4>>)
+}
+
+#[inline(always)]
+fn derive_kernel(contact: &Contact<f64>, tables: [&Rows; 2], slopes: &Pressed<f64>) -> Contact<Dual<4>> {
+    contact.derived(&tables, slopes)
+}
+
+#[inline(always)]
+fn press_kernel(rows: &Rows, now: &Pressed<f64>, under_flat: usize, compliance: &mut Both<Matrix>) -> Contact<f64> {
+    let contact = Contact::new(&rows, now, at_edge(rows, under_flat, now.shift[0]), under_flat);
+    let last = contact.last.min(N - 1);
+    // A = C w⁻¹ C', C_ij = (G_ij - G_i,j-1)/p_i.
+    for k in 0..2 {
+        let (mut a, mut before) = ([[0.0; N]; N], [0.0; N]);
+        for j in 0..=last {
+            let g = if j < last { &rows[MAP + k * N + j] } else { &contact.edge[k] };
+            let w = if j < last { rows[STIFFNESS + k][j] } else { contact.stiffness[k] };
+            let mut column = [0.0; N];
+            for i in 0..N {
+                column[i] = (g[i] - before[i]) * contact.per_pressure[i];
+            }
+            before = *g;
+            for m in 0..=j {
+                let scale = column[m] / w;
+                for i in 0..N {
+                    a[m][i] += scale * column[i];
+                }
+            }
+        }
+        compliance[k] = a;
+    }
+    contact
+}
+
+impl<A: Real> Contact<A> {
+    #[inline(always)]
+    fn new(t: &impl Tables<A>, now: &Pressed<A>, [last, part]: [usize; 2], under_flat: usize) -> Contact<A> {
+        let (zero, one, last) = (A::constant(0.0), A::constant(1.0), last.min(N - 1));
+        let start = starts(under_flat);
+        let (first_part, first) = (start[last], last <= under_flat);
+        let before = last.max(1) - 1;
+        let mut contact = Contact {
+            edge: [[zero; N]; 2],
+            per_pressure: [zero; N],
+            stiffness: [zero; 2],
+            flexibility: [zero; 2],
+            fine: [[zero; MOST_PARTS]; 2],
+            now: *now,
+            last,
+            part,
+            first_part,
+            under_flat,
+        };
+        let step = both!(|k| now.shift[k] - t.at(SHIFT + k * FINE / N, first_part));
+        let per_step = both!(|k| step[k].inverse());
+        // At its own point the last shell carries all, in any unit.
+        contact.per_pressure[last] = one;
+        contact.edge[0][last] = per_step[0];
+        contact.edge[1][last] = per_step[1];
+        let (weight, lower) = (t.at(WEIGHT, last), t.at(SIZE, last));
+        for i in 0..last {
+            let mut traction = weight * root_difference(now.size, lower, t.at(POINTS, i));
+            for k in 0..2 {
+                let bound = t.at(MAP + k * N + before, i) * step[k];
+                traction = if bound.value() < traction.value() { bound } else { traction };
+            }
+            contact.per_pressure[i] = (t.at(PRESSURE + last, i) + traction).inverse();
+            contact.edge[0][i] = traction * per_step[0];
+            contact.edge[1][i] = traction * per_step[1];
+        }
+        for k in 0..2 {
+            let (load, shift) = (LOAD, SHIFT + k * FINE / N);
+            let own = (now.load - t.at(load, first_part)) * per_step[k];
+            let inner = if last > 0 { t.at(SECANT + k, before) } else { zero };
+            let (rise, least) = (own - inner, own.scale(LEAST_STIFFNESS));
+            contact.stiffness[k] = if rise.value() > least.value() { rise } else { least };
+            contact.flexibility[k] = contact.stiffness[k].inverse();
+            let mut fine_before = if first { zero } else { secant(t, k, first_part.max(1) - 1) };
+            let mut less = own - if first { zero } else { inner };
+            for (f, place) in (first_part..=part).zip(&mut contact.fine[k]) {
+                let own = if f < part {
+                    secant(t, k, f)
+                } else {
+                    (now.load - t.at(load, f)) * (now.shift[k] - t.at(shift, f)).inverse()
+                };
+                *place = own - fine_before - less;
+                (fine_before, less) = (own, zero);
+            }
+        }
+        contact
+    }
+
+    /// G of a shell at a point.
+    #[inline(always)]
+    pub fn map(&self, t: &impl Tables<A>, k: usize, j: usize, i: usize) -> A {
+        if j < self.last { t.at(MAP + k * N + j, i) } else { self.edge[k][i] }
+    }
+
+    #[inline(always)]
+    pub fn stiffness(&self, t: &impl Tables<A>, k: usize, j: usize) -> A {
+        if j < self.last { t.at(STIFFNESS + k, j) } else { self.stiffness[k] }
+    }
+
+    /// 1/w_j.
+    #[inline(always)]
+    pub fn flexibility(&self, t: &impl Tables<A>, k: usize, j: usize) -> A {
+        if j < self.last { t.at(FLEXIBILITY + k, j) } else { self.flexibility[k] }
+    }
+
+    /// 1/G_jj.
+    #[inline(always)]
+    pub fn per_map(&self, t: &impl Tables<A>, k: usize, j: usize) -> A {
+        if j < self.last { t.at(PER_MAP + k, j) } else { self.limit(t, k, self.first_part) }
+    }
+
+    /// Stiffness of a fine spring.
+    #[inline(always)]
+    pub fn fine(&self, t: &impl Tables<A>, k: usize, f: usize) -> A {
+        match f.checked_sub(self.first_part).and_then(|r| self.fine[k].get(r)) {
+            Some(edge) => *edge,
+            None => t.at(FINE_STIFFNESS + k * FINE / N, f),
+        }
+    }
+
+    /// Stiffness of all springs together: the secant at the edge.
+    #[inline(always)]
+    pub fn total(&self, t: &impl Tables<A>, k: usize) -> A {
+        (self.now.load - t.at(LOAD, self.part)) * self.limit(t, k, self.part).inverse()
+    }
+
+    /// S_b - S of the first size that a fine spring carries.
+    #[inline(always)]
+    pub fn limit(&self, t: &impl Tables<A>, k: usize, f: usize) -> A {
+        self.now.shift[k] - t.at(SHIFT + k * FINE / N, f)
+    }
+}
+
+/// Secant stiffness of a whole part.
+#[inline(always)]
+fn secant<A: Real>(t: &impl Tables<A>, k: usize, f: usize) -> A {
+    let shift = SHIFT + k * FINE / N;
+    (t.at(LOAD, f + 1) - t.at(LOAD, f)) * (t.at(shift, f + 1) - t.at(shift, f)).inverse()
+}
