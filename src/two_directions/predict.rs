@@ -10,96 +10,25 @@ use super::scalar::{Over, Real, both};
 use super::tables::{Both, N, Row, Tables, starts};
 use super::trial::{Motion, Springs, TRACTION};
 
-/// Damping of the trapezoidal rule of points that slip far, and the part of the distance to its magnitude at the start that a spring rests
-/// at: chosen on judged paths.
-const DAMPING: f64 = 0.1;
-const RESTING: f64 = 0.85;
 /// Displacements of the innermost spring over its limit between which a contact that slides forgets.
 const FAR: [f64; 2] = [2.5, 5.0];
 
-/// The part of the slip of each point along r0 from the trial state v*, and its shares.
+/// The weight β of r0 in the direction `r + β r0` of the slip of a point, whose traction is r* and whose spring is at v* in the trial state.
 #[inline(always)]
-pub(crate) fn predict<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
-    t: &T,
-    c: &Contact<A>,
-    motion: &Motion<A, X>,
-    s: &S,
-    v: &Both<Row<X>>,
-    shares: &mut Row<f64>,
-) -> Both<Row<X>> {
-    let (zero, one, last, start) = (X::constant(0.0), X::constant(1.0), c.last.min(N - 1), starts(c.under_flat));
-    let (mut slip, mut r, mut turn) = ([[zero; N]; 2], [[zero; N]; 2], [zero; N]);
-    *shares = [0.0; N];
-    for i in 0..(last + 1).min(N) {
-        (r[0][i], r[1][i]) = (s.get(TRACTION + i), s.get(TRACTION + N + i));
-        let u = (r[0][i] * r[0][i] + r[1][i] * r[1][i]).scale(2.0) - one;
-        turn[i] = if u.value() > 0.0 { u } else { zero };
+pub(crate) fn bend<A: Real, X: Over<A>>(start: &Both<X>, trial: &Both<X>, v: &Both<X>, limit: &Both<A>) -> X {
+    let (zero, one) = (X::constant(0.0), X::constant(1.0));
+    let u = (start[0] * start[0] + start[1] * start[1]).scale(2.0) - one;
+    let along = start[0] * trial[0] + start[1] * trial[1];
+    if u.value() <= 0.0 || along.value() <= 0.0 {
+        return zero;
     }
-    // Whether all points from there on rest at the limit, in directions that turn slowly.
-    let mut rests = [zero; N];
-    let (mut rest, mut outer) = (one, last + 1);
-    // The compiler cannot know that a decreasing index is within bounds.
-    for j in (0..=last).rev().map(|j| j.min(N - 1)) {
-        let before = motion.before[0].value() - c.now.shift[0].value() + c.limit(t, 0, start[j]).value();
-        if before > 0.0 {
-            let square = turn[j] * turn[j];
-            let fourth = square * square;
-            let eighth = fourth * fourth;
-            rest = rest * (eighth * eighth);
-            if outer <= last {
-                let next = outer.min(N - 1);
-                let along = r[0][j] * r[0][next] + r[1][j] * r[1][next];
-                let slowly = along * (X::constant(2.0) - along);
-                rest = if along.value() > 0.0 { rest * slowly } else { zero };
-            }
-            outer = j;
-        }
-        rests[j] = rest;
-    }
-    let (mut total, mut sigma) = ([zero; 2], [[zero; N]; 2]);
-    let mut first = N;
-    let turns = (one - slid(t, c, v)).scale(0.5);
-    for j in 0..(last + 1).min(N) {
-        let limit = both!(|k| c.limit(t, k, start[j]));
-        let length = length(&both!(|k| v[k][j]), &limit);
-        let mut over = length;
-        let mut weight = zero;
-        if turn[j].value() > 0.0 {
-            weight = turn[j] * turn[j] * turns * (excess(length).scale(DAMPING) + one).inverse();
-            let before = both!(|k| motion.before[k] - c.now.shift[k] + limit[k]);
-            if before[0].value() > 0.0 && rests[j].value() > 0.0 {
-                let was = self::length(&both!(|k| s.get(k * N + j)), &before);
-                if was.value() < 1.0 {
-                    over = over * (one - (rests[j] * (one - was)).scale(RESTING)).inverse();
-                }
-            }
-        }
-        let over = excess(over);
-        if over.value() > 0.0 {
-            first = first.min(j);
-            let part = over * (over + one).inverse();
-            total = both!(|k| total[k] + (v[k][j] * part).times(c.stiffness(t, k, j)));
-        }
-        if first == N {
-            continue;
-        }
-        for k in 0..2 {
-            let mut sum = total[k];
-            for i in first..j {
-                sum = sum - sigma[k][i].times(c.map(t, k, j, i));
-            }
-            sigma[k][j] = sum.times(c.per_map(t, k, j));
-        }
-        let along = r[0][j] * sigma[0][j] + r[1][j] * sigma[1][j];
-        if weight.value() > 0.0 && along.value() > 0.0 {
-            shares[j] = weight.value();
-            // The sums are of slips over the pressure.
-            let size = along * weight;
-            (slip[0][j], slip[1][j]) = (size * r[0][j], size * r[1][j]);
-        }
-    }
-    slip
+    let length = (trial[0] * trial[0] + trial[1] * trial[1]).sqrt();
+    let over = excess(self::length(v, limit));
+    u * u * along * (length * (over.scale(FARTHER) + one)).inverse()
 }
+
+/// Fall of β with the excess of a spring over its limit.
+const FARTHER: f64 = 1.0 / 3.0;
 
 /// The part in which a contact that slides far forgets, from its trial state.
 #[inline(always)]

@@ -6,7 +6,8 @@
 //! find the points that slip if Newton's method does not.
 
 use super::contact::Contact;
-use super::predict::{predict, slid};
+use super::predict::{bend, slid};
+use super::scalar::both;
 use super::tables::{Both, Matrix, N, Row, Rows};
 use super::trial::{Motion, ROUNDING, Trial, Values};
 use crate::shape::TINY;
@@ -45,7 +46,6 @@ const TURNS_BACK: f64 = -0.6;
 pub(crate) struct Slip {
     /// The points, and those of which a part of the slip is predicted, with its share.
     pub set: Set,
-    pub predicted: Set,
     pub shares: Row<f64>,
     /// The part in which the contact slides far.
     pub slides: f64,
@@ -73,6 +73,7 @@ struct Guess {
 #[derive(Clone, Copy)]
 struct Problem<'a> {
     r: Both<Row<f64>>,
+    start: Both<Row<f64>>,
     compliance: &'a Both<Matrix>,
     last: usize,
     load: f64,
@@ -81,7 +82,6 @@ struct Problem<'a> {
 impl Slip {
     pub const NONE: Slip = Slip {
         set: 0,
-        predicted: 0,
         shares: [0.0; N],
         slides: 0.0,
         e: [[0.0; N]; 2],
@@ -121,7 +121,7 @@ impl Slip {
 
     /// A step without slip.
     pub fn stick(&mut self, trial: &Trial, old: &Values) {
-        (self.set, self.predicted, self.slides) = (0, 0, 0.0);
+        (self.set, self.slides) = (0, 0.0);
         (self.r, self.start) = (trial.r, [old[2], old[3]]);
     }
 
@@ -186,7 +186,7 @@ impl Slip {
     /// Newton's method from a guess; whether it converged. The inverse at the end is computed if derivatives are requested.
     #[inline(always)]
     fn solve(&mut self, problem: &Problem, guess: &Guess, derivatives: bool) -> bool {
-        let Problem { r: r_trial, compliance, last, load } = problem;
+        let Problem { r: r_trial, start, compliance, last, load } = problem;
         let last = (*last).min(N - 1);
         (self.set, self.e) = (guess.set, guess.e);
         let mut steps = 0;
@@ -220,9 +220,13 @@ impl Slip {
                     }
                 }
                 let (mut residual, mut diagonal) = ([0.0; N], [0.0; N]);
+                let mut n = self.e;
                 let ([e_x, e_y], [s_x, s_y]) = (self.e, self.sigma);
                 for i in 0..N {
-                    residual[i] = e_x[i] * s_y[i] - e_y[i] * s_x[i];
+                    for k in 0..2 {
+                        n[k][i] += self.shares[i] * start[k][i];
+                    }
+                    residual[i] = n[0][i] * s_y[i] - n[1][i] * s_x[i];
                     diagonal[i] = e_x[i] * s_x[i] + e_y[i] * s_y[i];
                 }
                 if done || (turn <= 0.1 && !reviewed) {
@@ -236,7 +240,7 @@ impl Slip {
                         for i in 0..N {
                             let own = if i == m { diagonal[i] } else { 0.0 };
                             let (k_x, k_y) = (self.k[0][m][i], self.k[1][m][i]);
-                            self.inverse[m][i] = slips[i] * (e_x[i] * e_x[m] * k_y + e_y[i] * e_y[m] * k_x + own);
+                            self.inverse[m][i] = slips[i] * (n[0][i] * e_x[m] * k_y + n[1][i] * e_y[m] * k_x + own);
                         }
                     }
                     invert(&mut self.inverse, set, [first, last]);
@@ -352,27 +356,20 @@ fn find_kernel(
 ) {
     let start = [old[2], old[3]];
     let guesses = slip.guesses(trial, &start, &motion.by, contact.last);
-    let predicted = predict(&t, contact, motion, &old, &trial.v, &mut slip.shares);
-    (slip.predicted, slip.slides) = (0, slid(&t, contact, &trial.v));
+    slip.slides = slid(&t, contact, &trial.v);
     for i in 0..N {
-        slip.predicted |= Set::from(slip.shares[i] > 0.0) << i;
+        let (r, from) = (both!(|k| trial.r[k][i]), both!(|k| start[k][i]));
+        let over_limit = both!(|k| trial.over_limit[k][i]);
+        slip.shares[i] = bend(&from, &r, &over_limit, &[1.0; 2]);
     }
-    let mut problem = Problem { r: trial.r, compliance, last: contact.last, load: contact.now.load };
-    for m in 0..N {
-        if slip.predicted >> m & 1 == 1 {
-            for k in 0..2 {
-                let sigma = predicted[k][m] / contact.per_pressure[m];
-                for i in 0..N {
-                    problem.r[k][i] -= compliance[k][m][i] * sigma;
-                }
-            }
-        }
-    }
+    let problem = Problem { r: trial.r, start, compliance, last: contact.last, load: contact.now.load };
     let mut converged = false;
     for guess in &guesses {
         converged = converged || slip.solve(&problem, guess, derivatives);
     }
     if !converged {
+        #[allow(unsafe_code)]
+        unsafe { super::P[7] += 1.0; if std::env::var("TRAP").is_ok() { panic!() } }
         slip.descend(&problem, derivatives);
     }
     slip.relax(&problem, 0);

@@ -6,7 +6,7 @@
 //! derivatives. The fine springs have limits of their own.
 
 use super::contact::{Contact, Pressed};
-use super::predict::{predict, release, slid};
+use super::predict::{bend, release, slid};
 use super::scalar::{Over, Real, both};
 use super::slip::{SLIPPED, Slip};
 use super::tables::{Both, FINE, FINE_STIFFNESS, MOST_PARTS, Matrix, N, Row, Rows, SHIFT, Tables, starts};
@@ -33,14 +33,9 @@ pub(crate) fn step<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
         }
     }
     let part = if slip.slides > 0.0 { slid(t, c, &v) } else { zero };
-    if slip.predicted != 0 {
-        let predicted = predict(t, c, motion, s, &v, &mut [0.0; N]);
-        release(t, c, 0, &predicted[0], slip.predicted, &mut v[0]);
-        release(t, c, 1, &predicted[1], slip.predicted, &mut v[1]);
-    }
     let mut r = [[zero; N]; 2];
     if slip.set != 0 {
-        slide(t, c, &mut v, &mut r, slip);
+        slide(t, c, s, &mut v, &mut r, slip);
     }
     let far = if slip.slides > 0.0 { Some(Far::new(t, c, part, &v)) } else { None };
     for k in 0..2 {
@@ -178,9 +173,10 @@ const NEEDED: f64 = 0.4;
 
 /// The step of Newton's method: springs, and tractions of the points that slip.
 #[inline(always)]
-fn slide<A: Real, X: Over<A>, T: Tables<A>>(
+fn slide<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     t: &T,
     c: &Contact<A>,
+    s: &S,
     v: &mut Both<Row<X>>,
     tractions: &mut Both<Row<X>>,
     slip: &Slip,
@@ -195,9 +191,10 @@ fn slide<A: Real, X: Over<A>, T: Tables<A>>(
         }
         row
     });
+    let mut trial = [[zero; N]; 2];
     for k in 0..2 {
-        // Springs after the slip σ, and the residual of r* - A σ = e.
-        let mut excess = v[k];
+        // Springs by which σ relaxes the contact, and the residual of r* - A σ = e.
+        let mut relaxed = [A::constant(0.0); N];
         let mut before = A::constant(0.0);
         for j in first..=last {
             let mut sum = A::constant(0.0);
@@ -206,29 +203,38 @@ fn slide<A: Real, X: Over<A>, T: Tables<A>>(
                     sum = sum + c.map(t, k, j, i) * per_slip[k][i];
                 }
             }
-            excess[j] = v[k][j] - X::lift((sum - before) * c.flexibility(t, k, j));
+            relaxed[j] = (sum - before) * c.flexibility(t, k, j);
             before = sum;
         }
         let mut residual = [zero; N];
         for i in first..=last {
             if slip.contains(i) {
-                let mut sum = zero;
+                let (mut sum, mut relief) = (zero, A::constant(0.0));
                 for j in i..=last {
-                    let above = if j < last { excess[(j + 1).min(N - 1)] } else { zero };
-                    sum.add_product(&(excess[j] - above), c.map(t, k, j, i));
+                    let outer = (j + 1).min(N - 1);
+                    let (above, less) = if j < last { (v[k][outer], relaxed[outer]) } else { (zero, A::constant(0.0)) };
+                    sum.add_product(&(v[k][j] - above), c.map(t, k, j, i));
+                    relief = relief + (relaxed[j] - less) * c.map(t, k, j, i);
                 }
-                residual[i] = sum.times(c.per_pressure[i]) - X::constant(slip.e[k][i]);
+                trial[k][i] = sum.times(c.per_pressure[i]);
+                residual[i] = trial[k][i] - X::lift(relief * c.per_pressure[i]) - X::constant(slip.e[k][i]);
                 sigma[k][i] = X::constant(slip.sigma[k][i]);
             }
         }
         add_product(&slip.k[k], slip, [first, last], &residual, &mut sigma[k]);
     }
     // The angles.
-    let mut residual = [zero; N];
+    let (mut residual, start) = ([zero; N], starts(c.under_flat));
     for i in first..=last {
         if slip.contains(i) {
-            let (e_x, e_y) = (slip.e[0][i], slip.e[1][i]);
-            residual[i] = sigma[1][i].scale(e_x) - sigma[0][i].scale(e_y);
+            let mut n = both!(|k| X::constant(slip.e[k][i]));
+            if slip.shares[i] > 0.0 {
+                let from = both!(|k| s.get(TRACTION + k * N + i));
+                let limit = both!(|k| c.limit(t, k, start[i]));
+                let bend = bend(&from, &both!(|k| trial[k][i]), &both!(|k| v[k][i]), &limit);
+                n = both!(|k| n[k] + bend * from[k]);
+            }
+            residual[i] = n[0] * sigma[1][i] - n[1] * sigma[0][i];
         }
     }
     let mut turn = [zero; N];
@@ -333,11 +339,11 @@ fn dissipated(
     let rise = both!(|k| c.now.shift[k] - motion.before[k]);
     let mut energy = if rise[0] < 0.0 { separated(t, from, &c.now, motion.by, old) } else { 0.0 };
     let start = starts(c.under_flat);
-    if slip.set != 0 || slip.predicted != 0 {
+    if slip.set != 0 {
         for j in 0..(c.last + 1).min(N) {
             let w = both!(|k| c.stiffness(&t, k, j));
             let places = [[old[0][j], old[1][j]], [new[0][j], new[1][j]]];
-            energy += slipped(t, c, start[j], w, places, motion, [2.0 * slip.shares[j], slip.slides]);
+            energy += slipped(t, c, start[j], w, places, motion, [if slip.contains(j) { slip.shares[j] } else { 0.0 }, slip.slides]);
         }
     }
     let at = |springs: &Values, f: usize| {
