@@ -8,29 +8,42 @@ use super::tables::{
 use crate::element::{Element, Normal};
 use crate::simd::dispatch;
 
-/// Normal state in the units of the springs: N, S of both directions, w².
+/// Normal state in the units of the springs: N, S of both directions, w²; N and S of a slightly smaller size, inside the edge.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Pressed<A> {
     pub load: A,
     pub shift: Both<A>,
     pub size: A,
+    pub inside: [A; 3],
 }
 
+/// The normal component over that of the size inside the edge: the spring between both has the stiffness of the contact, to this part.
+const INSIDE_EDGE: f64 = 1.0 - 2e-5;
+
 impl Pressed<f64> {
-    pub const NONE: Pressed<f64> = Pressed { load: 0.0, shift: [0.0; 2], size: 0.0 };
+    pub const NONE: Pressed<f64> = Pressed { load: 0.0, shift: [0.0; 2], size: 0.0, inside: [0.0; 3] };
 
     /// The state of a contact that is closed, and its derivatives by the normal component.
-    pub fn new(element: &Element, units: &Units, normal: &Normal) -> [Pressed<f64>; 2] {
+    pub fn new(element: &Element, units: &Units, input: f64, normal: &Normal) -> [Pressed<f64>; 2] {
         let Normal { load, shift, load_slope, shift_slope } = *normal;
         let (w, per_shift) = (element.size_under(load), 1.0 / units.shift);
         let (size, slope) = (w / units.size, element.shape().size_slope(w) * load_slope / units.size / units.size);
         let lateral = [element.lateral_shift(load, shift), element.lateral_slope(normal)];
-        let of = |load: f64, x: f64, y: f64, size: f64| Pressed {
+        let inner = element.normal(INSIDE_EDGE * input);
+        let inside = [
+            [inner.load, inner.shift, element.lateral_shift(inner.load, inner.shift)],
+            [inner.load_slope, inner.shift_slope, element.lateral_slope(&inner)].map(|slope| INSIDE_EDGE * slope),
+        ];
+        let of = |load: f64, [x, y]: [f64; 2], size: f64, [inner_load, inner_x, inner_y]: [f64; 3]| Pressed {
             load: load / units.load,
             shift: [x * per_shift, y * per_shift],
             size,
+            inside: [inner_load / units.load, inner_x * per_shift, inner_y * per_shift],
         };
-        [of(load, shift, lateral[0], size * size), of(load_slope, shift_slope, lateral[1], slope)]
+        [
+            of(load, [shift, lateral[0]], size * size, inside[0]),
+            of(load_slope, [shift_slope, lateral[1]], slope, inside[1]),
+        ]
     }
 
     /// With derivatives by one parameter.
@@ -44,6 +57,11 @@ impl Pressed<f64> {
             load: of(self.load, slopes.load),
             shift: both!(|k| of(self.shift[k], slopes.shift[k])),
             size: of(self.size, slopes.size),
+            inside: [
+                of(self.inside[0], slopes.inside[0]),
+                of(self.inside[1], slopes.inside[1]),
+                of(self.inside[2], slopes.inside[2]),
+            ],
         }
     }
 }
@@ -109,7 +127,7 @@ fn derive_kernel(contact: &Contact<f64>, tables: [&Rows; 2], slopes: &Pressed<f6
 
 #[inline(always)]
 fn press_kernel(rows: &Rows, now: &Pressed<f64>, under_flat: usize, compliance: &mut Both<Matrix>) -> Contact<f64> {
-    let contact = Contact::new(&rows, now, at_edge(rows, under_flat, now.shift[0]), under_flat);
+    let contact = Contact::new(&rows, now, at_edge(rows, under_flat, now.inside[1]), under_flat);
     let last = contact.last.min(N - 1);
     // A = C w⁻¹ C', C_ij = (G_ij - G_i,j-1)/p_i.
     for k in 0..2 {
@@ -183,11 +201,12 @@ impl<A: Real> Contact<A> {
                 let own = if f < part {
                     secant(t, k, f)
                 } else {
-                    (now.load - t.at(load, f)) * (now.shift[k] - t.at(shift, f)).inverse()
+                    (now.inside[0] - t.at(load, f)) * (now.inside[1 + k] - t.at(shift, f)).inverse()
                 };
                 *place = own - fine_before - less;
                 (fine_before, less) = (own, zero);
             }
+            contact.fine[k][(part + 1 - first_part).min(MOST_PARTS - 1)] = contact.total(k) - fine_before;
         }
         contact
     }
@@ -226,8 +245,14 @@ impl<A: Real> Contact<A> {
 
     /// Stiffness of all springs together: the secant at the edge.
     #[inline(always)]
-    pub fn total(&self, t: &impl Tables<A>, k: usize) -> A {
-        (self.now.load - t.at(LOAD, self.part)) * self.limit(t, k, self.part).inverse()
+    pub fn total(&self, k: usize) -> A {
+        (self.now.load - self.now.inside[0]) * self.limit_inside(k).inverse()
+    }
+
+    /// The limit of the fine spring at the edge.
+    #[inline(always)]
+    pub fn limit_inside(&self, k: usize) -> A {
+        self.now.shift[k] - self.now.inside[1 + k]
     }
 
     /// S_b - S of the first size that a fine spring carries.

@@ -301,7 +301,7 @@ impl Walk<'_> {
     fn press(&mut self, input: f64) {
         self.normal = self.element.normal(input);
         let now;
-        [now, self.slopes] = Pressed::new(self.element, &self.units, &self.normal);
+        [now, self.slopes] = Pressed::new(self.element, &self.units, input, &self.normal);
         let under_flat = under_flat(self.element, &self.units);
         self.contact = Contact::press(self.tables[0], &now, under_flat, &mut self.compliance);
         self.derived = None;

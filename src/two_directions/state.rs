@@ -145,7 +145,7 @@ impl Memory<'_> {
     fn read(&self) -> (Header, Contact<f64>) {
         let [
             [_, v, u, input, key, unit_load, unit_shift, unit_size, flat, last, part, normal_force],
-            [load, x, y, size, w_x, w_y, force_x, force_y, ..],
+            [load, x, y, size, w_x, w_y, force_x, force_y, inner_load, inner_x, inner_y, _],
         ] = *self.header;
         let [edge_x, edge_y, per_pressure, fine_x, fine_y] = &*self.edge;
         let under_flat = if flat > 0.0 { 2 } else { 0 };
@@ -159,7 +159,7 @@ impl Memory<'_> {
             stiffness: [w_x, w_y],
             flexibility: [1.0 / w_x.max(TINY), 1.0 / w_y.max(TINY)],
             fine: [fine(fine_x), fine(fine_y)],
-            now: Pressed { load, shift: [x, y], size },
+            now: Pressed { load, shift: [x, y], size, inside: [inner_load, inner_x, inner_y] },
             last,
             part,
             first_part: starts(under_flat)[last],
@@ -175,11 +175,11 @@ impl Memory<'_> {
         let Units { load, shift, size } = units;
         let [flat, last, part] = [contact.under_flat, contact.last, contact.part].map(|count| count as f64);
         let tag = Kind::TwoDirectionsState.tag(0);
-        let Pressed { load: now, shift: [x, y], size: area } = contact.now;
+        let Pressed { load: now, shift: [x, y], size: area, inside: [inner_load, inner_x, inner_y] } = contact.now;
         let [w_x, w_y] = contact.stiffness;
         *self.header = [
             [tag, v, u, input, key, load, shift, size, flat, last, part, normal_force],
-            [now, x, y, area, w_x, w_y, force[0], force[1], 0.0, 0.0, 0.0, 0.0],
+            [now, x, y, area, w_x, w_y, force[0], force[1], inner_load, inner_x, inner_y, 0.0],
         ];
         let [edge_x, edge_y, per_pressure, fine_x, fine_y] = &mut *self.edge;
         (*edge_x, *edge_y, *per_pressure) = (contact.edge[0], contact.edge[1], contact.per_pressure);
@@ -202,7 +202,7 @@ impl Memory<'_> {
 
     /// A step to a displacement under the same load, unless something slips.
     fn stick(&mut self, contact: &Contact<f64>, path: &Path, header: &mut Header) -> bool {
-        let force = [0, 1].map(|k| header.force[k] + path.by[k] * contact.total(&&*self.tables, k));
+        let force = [0, 1].map(|k| header.force[k] + path.by[k] * contact.total(k));
         let bound = contact.now.load * contact.now.load;
         if path.scale > 1.0 || force[0] * force[0] + force[1] * force[1] > bound {
             return false;
@@ -234,7 +234,8 @@ impl Memory<'_> {
             header.normal_force = 0.0;
             return;
         }
-        let [now, _] = Pressed::new(element, &units, &element.normal(header.displacement[2]));
+        let input = header.displacement[2];
+        let [now, _] = Pressed::new(element, &units, input, &element.normal(input));
         *contact = Contact::press(self.tables, &now, inner, self.compliance);
         if belongs {
             transfer([&old_tables, self.tables], [&from, contact], ratio, &old, self.springs);
@@ -339,7 +340,7 @@ pub(super) fn advance_state(element: &Element, state: &mut [f64], to: [f64; 3], 
     let mut contact = from;
     if !same || requested.tangent {
         let now;
-        [now, slopes] = Pressed::new(element, &units, &normal);
+        [now, slopes] = Pressed::new(element, &units, to[2], &normal);
         if !same {
             contact = Contact::press(memory.tables, &now, from.under_flat, memory.compliance);
         }

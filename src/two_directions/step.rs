@@ -9,7 +9,7 @@ use super::contact::{Contact, Pressed};
 use super::predict::{bend, release, slid};
 use super::scalar::{Over, Real, both};
 use super::slip::{SLIPPED, Slip};
-use super::tables::{Both, FINE, FINE_STIFFNESS, MOST_PARTS, Matrix, N, Row, Rows, SHIFT, Tables, starts};
+use super::tables::{Both, FINE, INSIDE, MOST_PARTS, Matrix, N, Row, Rows, SHIFT, Tables, starts};
 use super::trial::{FINE_SPRING, Motion, Springs, TRACTION, Values, moved};
 use crate::shape::TINY;
 use crate::simd::dispatch;
@@ -58,19 +58,31 @@ pub(crate) fn step<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
             }
         }
     }
-    let part = c.part.min(FINE - 1);
-    for f in 0..c.first_part {
-        let w = both!(|k| t.at(FINE_STIFFNESS + k * FINE / N, f));
-        fine_spring(t, c, motion, &rise, f, &w, far.as_ref(), s, &mut force);
+    let part = c.part.min(INSIDE - 1);
+    for f in 0..=part {
+        let w = both!(|k| c.fine(t, k, f));
+        let limit = both!(|k| c.limit(t, k, f));
+        let mut v = both!(|k| s.get(FINE_SPRING + k * FINE + f) + moved(limit[k], rise[k], motion.by[k]));
+        v = returned(v, &limit, far.as_ref());
+        for k in 0..2 {
+            force[k].add_product(&v[k], w[k]);
+            s.put(FINE_SPRING + k * FINE + f, v[k]);
+        }
     }
-    for r in 0..=part - c.first_part.min(part) {
-        let w = both!(|k| c.fine[k][r.min(MOST_PARTS - 1)]);
-        fine_spring(t, c, motion, &rise, c.first_part + r, &w, far.as_ref(), s, &mut force);
+    // The spring at the edge is another one under another load.
+    let limit = both!(|k| c.limit_inside(k));
+    let mut v = both!(|k| moved(limit[k], rise[k], motion.by[k]));
+    if motion.constant_load {
+        v = both!(|k| v[k] + s.get(FINE_SPRING + k * FINE + INSIDE));
     }
-    if S::KEPT {
-        for f in part + 1..FINE {
-            s.put(FINE_SPRING + f, zero);
-            s.put(FINE_SPRING + FINE + f, zero);
+    v = returned(v, &limit, far.as_ref());
+    for k in 0..2 {
+        force[k].add_product(&v[k], c.fine[k][(part + 1 - c.first_part.min(part)).min(MOST_PARTS - 1)]);
+        if S::KEPT {
+            s.put(FINE_SPRING + k * FINE + INSIDE, v[k]);
+            for f in part + 1..INSIDE {
+                s.put(FINE_SPRING + k * FINE + f, zero);
+            }
         }
     }
     // Coulomb's bound.
@@ -115,41 +127,27 @@ impl<X: Real> Far<X> {
     }
 }
 
-/// A step of a fine spring, whose force is added.
+/// A fine spring, returned to its limit: by values its direction, and the derivatives of the direction and of the limit.
 #[inline(always)]
-#[expect(clippy::too_many_arguments, reason = "parts of one step")]
-fn fine_spring<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
-    t: &T,
-    c: &Contact<A>,
-    motion: &Motion<A, X>,
-    rise: &Both<A>,
-    f: usize,
-    w: &Both<A>,
-    far: Option<&Far<X>>,
-    s: &mut S,
-    force: &mut Both<X>,
-) {
-    let mut v = both!(|k| s.get(FINE_SPRING + k * FINE + f) + moved(c.limit(t, k, f), rise[k], motion.by[k]));
-    let [x, y] = both!(|k| c.limit(t, k, f).value());
+fn returned<A: Real, X: Over<A>>(v: Both<X>, limit: &Both<A>, far: Option<&Far<X>>) -> Both<X> {
+    let [x, y] = both!(|k| limit[k].value());
     let (across, along, bound) = (v[0].value() * y, v[1].value() * x, x * y);
-    if across * across + along * along > bound * bound {
-        let scale = shortening(t, c, f, v);
-        v = both!(|k| v[k] * scale);
+    let square = across * across + along * along;
+    let mut v = v;
+    if square > bound * bound {
+        let per_length = 1.0 / square.sqrt();
+        let (e_x, e_y) = (across * per_length, along * per_length);
+        let per = bound * per_length;
+        let turn = v[1].times(limit[1].inverse().scale(e_x * per)) - v[0].times(limit[0].inverse().scale(e_y * per));
+        v = [
+            (X::constant(e_x) - turn.scale(e_y)).times(limit[0]),
+            (X::constant(e_y) + turn.scale(e_x)).times(limit[1]),
+        ];
     }
     if let Some(far) = far {
-        v = both!(|k| far.blend(k, v[k], c.limit(t, k, f)));
+        v = both!(|k| far.blend(k, v[k], limit[k]));
     }
-    for k in 0..2 {
-        force[k].add_product(&v[k], w[k]);
-        s.put(FINE_SPRING + k * FINE + f, v[k]);
-    }
-}
-
-/// The factor that returns a spring to its limit, 1 within.
-#[inline(always)]
-fn shortening<A: Real, X: Over<A>>(t: &impl Tables<A>, c: &Contact<A>, f: usize, v: Both<X>) -> X {
-    let [x, y] = both!(|k| v[k].times(c.limit(t, k, f).inverse()));
-    (x * x + y * y).shortening()
+    v
 }
 
 impl Slip {
@@ -349,7 +347,7 @@ fn dissipated(
     let at = |springs: &Values, f: usize| {
         both!(|k| springs.as_flattened().get(FINE_SPRING + k * FINE + f).copied().unwrap_or(0.0))
     };
-    for f in 0..=c.part.min(FINE - 1) {
+    for f in 0..=c.part.min(INSIDE - 1) {
         let [x, y] = both!(|k| at(new, f)[k] / c.limit(&t, k, f));
         if slip.slides > 0.0 || x * x + y * y > SLIPPED {
             let w = both!(|k| c.fine(&t, k, f));
@@ -414,7 +412,7 @@ pub(crate) fn separated(t: &Rows, from: &Contact<f64>, now: &Pressed<f64>, by: B
         lost(start[j], both!(|k| from.stiffness(&t, k, j)), [old[0][j], old[1][j]]);
     }
     let fine = |k: usize, f: usize| old.as_flattened().get(FINE_SPRING + k * FINE + f).copied().unwrap_or(0.0);
-    for f in 0..=from.part.min(FINE - 1) {
+    for f in 0..=from.part.min(INSIDE - 1) {
         lost(f, both!(|k| from.fine(&t, k, f)), both!(|k| fine(k, f)));
     }
     if energy > 0.0 { energy } else { 0.0 }
