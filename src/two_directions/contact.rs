@@ -2,7 +2,7 @@
 
 use super::scalar::{Dual, Real, both};
 use super::tables::{
-    Both, END, FINE, FINE_STIFFNESS, FLEXIBILITY, LEAST_STIFFNESS, LOAD, MAP, MOST_PARTS, Matrix, N, PER_MAP, POINTS,
+    BIAS, Both, END, FINE, FINE_SECANT, FINE_STIFFNESS, FLEXIBILITY, LEAST_STIFFNESS, LOAD, MAP, MOST_PARTS, Matrix, N, PER_MAP, POINTS,
     PRESSURE, Row, Rows, SECANT, SHIFT, SIZE, STIFFNESS, Tables, Units, WEIGHT, at_edge, root_difference, starts,
 };
 use crate::element::{Element, Normal};
@@ -195,18 +195,30 @@ impl<A: Real> Contact<A> {
             let (rise, least) = (own - inner, own.scale(LEAST_STIFFNESS));
             contact.stiffness[k] = if rise.value() > least.value() { rise } else { least };
             contact.flexibility[k] = contact.stiffness[k].inverse();
-            let mut fine_before = if first { zero } else { secant(t, k, first_part.max(1) - 1) };
-            let mut less = own - if first { zero } else { inner };
-            for (f, place) in (first_part..=part).zip(&mut contact.fine[k]) {
-                let own = if f < part {
-                    secant(t, k, f)
-                } else {
-                    (now.inside[0] - t.at(load, f)) * (now.inside[1 + k] - t.at(shift, f)).inverse()
-                };
-                *place = own - fine_before - less;
-                (fine_before, less) = (own, zero);
+            // Fine springs from the last one of the shell before; N of the outermost part is unbiased when the edge passes it.
+            let from = contact.first_edge();
+            let inside = [now.inside[0], now.inside[1 + k]];
+            let per_part = (t.at(shift, part + 1) - t.at(shift, part)).inverse();
+            let passed = (inside[1] - t.at(shift, part)) * per_part;
+            let corner = |f: usize| {
+                let bias = t.at(BIAS, f);
+                [t.at(load, f) - if f < part { bias } else { bias * passed }, t.at(shift, f)]
+            };
+            let mut slope = if from > 0 { t.at(FINE_SECANT + k * FINE / N, from - 1) } else { zero };
+            let mut lower = corner(from);
+            for f in from..=part {
+                let upper = if f < part { corner(f + 1) } else { inside };
+                let secant = (upper[0] - lower[0]) * (upper[1] - lower[1]).inverse();
+                let mut law = zero;
+                if f == first_part {
+                    law = own - if first { zero } else { inner };
+                } else if f == start[before] {
+                    law = t.at(if before > under_flat { STIFFNESS } else { SECANT } + k, before);
+                }
+                contact.fine[k][(f - from).min(MOST_PARTS - 1)] = secant - slope - law;
+                (slope, lower) = (secant, upper);
             }
-            contact.fine[k][(part + 1 - first_part).min(MOST_PARTS - 1)] = contact.total(k) - fine_before;
+            contact.fine[k][(part + 1 - from).min(MOST_PARTS - 1)] = contact.total(k) - slope;
         }
         contact
     }
@@ -237,10 +249,22 @@ impl<A: Real> Contact<A> {
     /// Stiffness of a fine spring.
     #[inline(always)]
     pub fn fine(&self, t: &impl Tables<A>, k: usize, f: usize) -> A {
-        match f.checked_sub(self.first_part).and_then(|r| self.fine[k].get(r)) {
+        match f.checked_sub(self.first_edge()).and_then(|r| self.fine[k].get(r)) {
             Some(edge) => *edge,
             None => t.at(FINE_STIFFNESS + k * FINE / N, f),
         }
+    }
+
+    /// The first fine spring whose stiffness depends on the load.
+    #[inline(always)]
+    pub fn first_edge(&self) -> usize {
+        self.first_part.max(1) - 1
+    }
+
+    /// Stiffness of the fine spring at the edge.
+    #[inline(always)]
+    pub fn fine_inside(&self, k: usize) -> A {
+        self.fine[k][(self.part + 1 - self.first_edge().min(self.part)).min(MOST_PARTS - 1)]
     }
 
     /// Stiffness of all springs together: the secant at the edge.
@@ -260,11 +284,4 @@ impl<A: Real> Contact<A> {
     pub fn limit(&self, t: &impl Tables<A>, k: usize, f: usize) -> A {
         self.now.shift[k] - t.at(SHIFT + k * FINE / N, f)
     }
-}
-
-/// Secant stiffness of a whole part.
-#[inline(always)]
-fn secant<A: Real>(t: &impl Tables<A>, k: usize, f: usize) -> A {
-    let shift = SHIFT + k * FINE / N;
-    (t.at(LOAD, f + 1) - t.at(LOAD, f)) * (t.at(shift, f + 1) - t.at(shift, f)).inverse()
 }

@@ -9,7 +9,7 @@ use super::contact::{Contact, Pressed};
 use super::predict::{bend, release, slid};
 use super::scalar::{Over, Real, both};
 use super::slip::{SLIPPED, Slip};
-use super::tables::{Both, FINE, INSIDE, MOST_PARTS, Matrix, N, Row, Rows, SHIFT, Tables, starts};
+use super::tables::{Both, FINE, INSIDE, Matrix, N, Row, Rows, SHIFT, Tables, starts};
 use super::trial::{FINE_SPRING, Motion, Springs, TRACTION, Values, moved};
 use crate::shape::TINY;
 use crate::simd::dispatch;
@@ -77,7 +77,7 @@ pub(crate) fn step<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     }
     v = returned(v, &limit, far.as_ref());
     for k in 0..2 {
-        force[k].add_product(&v[k], c.fine[k][(part + 1 - c.first_part.min(part)).min(MOST_PARTS - 1)]);
+        force[k].add_product(&v[k], c.fine_inside(k));
         if S::KEPT {
             s.put(FINE_SPRING + k * FINE + INSIDE, v[k]);
             for f in part + 1..INSIDE {

@@ -1,7 +1,7 @@
 //! A step under a constant load in which nothing slips: all springs follow the motion.
 
 use super::contact::{Contact, Pressed};
-use super::tables::{Both, FINE, INSIDE, LOAD, N, Rows, SHIFT, Tables};
+use super::tables::{Both, FINE, INSIDE, N, Rows, SHIFT};
 use super::trial::{FINE_SPRING, ROUNDING, Values};
 use crate::simd::dispatch;
 
@@ -57,27 +57,13 @@ fn kernel(t: &Rows, c: &Contact<f64>, by: &Both<f64>, springs: &mut Values) -> b
 
 /// Stiffness of all springs together, and the derivatives of their force by the normal component, of which `slopes` are those of the contact.
 pub(crate) fn tangent(t: &Rows, c: &Contact<f64>, slopes: &Pressed<f64>, springs: &Values) -> [Both<f64>; 2] {
-    let mut derivatives = [[0.0; 2]; 2];
     let springs = springs.as_flattened();
     let at = |place: usize| springs.get(place).copied().unwrap_or(0.0);
-    for k in 0..2 {
-        // Secants that end at the edge and inside, and their derivatives.
-        let secant = |from: [f64; 2], to: [f64; 2], to_slopes: [f64; 2], from_slopes: [f64; 2]| {
-            let step = to[1] - from[1];
-            let secant = (to[0] - from[0]) / step;
-            [secant, (to_slopes[0] - from_slopes[0] - secant * (to_slopes[1] - from_slopes[1])) / step]
-        };
-        let node = |f: usize| [Tables::<f64>::at(&t, LOAD, f), Tables::<f64>::at(&t, SHIFT + k * FINE / N, f)];
-        let of = |now: &Pressed<f64>| [[now.load, now.shift[k]], [now.inside[0], now.inside[1 + k]]];
-        let ([edge, inside], [edge_slopes, inside_slopes]) = (of(&c.now), of(slopes));
-        let [_, law] = secant(node(c.first_part), edge, edge_slopes, [0.0; 2]);
-        let [_, fine] = secant(node(c.part), inside, inside_slopes, [0.0; 2]);
-        let [stiffness, outer] = secant(inside, edge, edge_slopes, inside_slopes);
-        let place = FINE_SPRING + k * FINE;
-        derivatives[0][k] = stiffness;
-        derivatives[1][k] = law * (at(k * N + c.last) - at(place + c.first_part))
-            + fine * (at(place + c.part) - at(place + INSIDE))
-            + outer * at(place + INSIDE);
-    }
-    derivatives
+    let derived = c.derived::<1, _>(&t, slopes);
+    let by_normal = [0, 1].map(|k| {
+        let fine = |f: usize| derived.fine(&t, k, f).slopes[0] * at(FINE_SPRING + k * FINE + f);
+        let inside = derived.fine_inside(k).slopes[0] * at(FINE_SPRING + k * FINE + INSIDE);
+        derived.stiffness[k].slopes[0] * at(k * N + c.last) + (c.first_edge()..=c.part).map(fine).sum::<f64>() + inside
+    });
+    [[c.total(0), c.total(1)], by_normal]
 }

@@ -28,7 +28,7 @@ use core::f64::consts::PI;
 
 /// Springs, and fine springs.
 pub(crate) const N: usize = 12;
-pub(crate) const FINE: usize = 48;
+pub(crate) const FINE: usize = 60;
 
 /// Values of both directions, one after the other.
 pub(crate) type Both<T> = [T; 2];
@@ -43,7 +43,7 @@ const GRADING: f64 = 0.03;
 /// Position of x_i in its shell: in the inner half, for which G decreases with j. Values from 0.02 to 0.2 are as good.
 const POINT: f64 = 0.1;
 /// Parts of the shells from the innermost one under pressure.
-const PARTS: [usize; N - 1] = [5, 8, 6, 6, 4, 4, 3, 2, 2, 1, 1];
+const PARTS: [usize; N - 1] = [8, 9, 8, 7, 6, 5, 3, 3, 2, 2, 2];
 /// Where the parts of the last shell begin, over its width: some are beyond the reference size, for loads up to the next alignment.
 pub(crate) const BEYOND: [f64; 4] = [0.0, 0.5, 1.0, 3.0];
 /// The most parts of a shell.
@@ -62,12 +62,14 @@ const THINNEST: f64 = 1e-9;
 /// maps between them lose their digits.
 const LEAST_REFERENCE: f64 = 1.0 / 4096.0;
 
-/// First rows of N and S at the parts, and of the stiffness of whole parts.
+/// First rows of N and S at the parts, of the stiffness of whole parts, and of the mean error of N along the secants there.
 pub(crate) const LOAD: usize = 0;
 pub(crate) const SHIFT: usize = LOAD + FINE / N;
 pub(crate) const FINE_STIFFNESS: usize = SHIFT + 2 * FINE / N;
+pub(crate) const BIAS: usize = FINE_STIFFNESS + 2 * FINE / N;
 /// Rows of w_j², x_i² - a² and ψ_j; in both directions of W_j, w_j, 1/w_j and 1/G_jj.
-pub(crate) const SIZE: usize = FINE_STIFFNESS + 2 * FINE / N;
+pub(crate) const FINE_SECANT: usize = BIAS + FINE / N;
+pub(crate) const SIZE: usize = FINE_SECANT + 2 * FINE / N;
 pub(crate) const POINTS: usize = SIZE + 1;
 pub(crate) const WEIGHT: usize = SIZE + 2;
 pub(crate) const SECANT: usize = SIZE + 3;
@@ -228,7 +230,15 @@ pub(crate) fn fill(rows: &mut Rows, element: &Element, units: &Units, reference:
         let [lower, upper] = [from, to].map(|f| at(SHIFT + k * FINE / N, f));
         [at(LOAD, to) - at(LOAD, from), (upper - lower).max(TINY)]
     };
+    // Secants lie above N, by h² N''/12 on average.
+    let mut bias = [0.0; FINE];
+    for f in start[inner] + 1..start[N] - 1 {
+        let [[load_before, before], [load, step]] = [rise(0, f - 1, f), rise(0, f, f + 1)];
+        bias[f.min(FINE - 1)] =
+            if step < NEVER / 2.0 { (before * before + step * step) / (before + step) / 12.0 * (load / step - load_before / before) } else { 0.0 };
+    }
     let (mut secants, mut stiffness, mut fine_stiffness) = ([[0.0; N]; 2], [[0.0; N]; 2], [[0.0; FINE]; 2]);
+    let mut fine_secants = [[0.0; FINE]; 2];
     for k in 0..2 {
         let (mut before, mut fine_before) = (0.0, 0.0);
         for j in 0..N - 1 {
@@ -246,8 +256,10 @@ pub(crate) fn fill(rows: &mut Rows, element: &Element, units: &Units, reference:
             let law = own - if j > inner { before } else { 0.0 };
             for (r, f) in (start[j]..start[j + 1]).enumerate() {
                 let [load, step] = rise(k, f, f + 1);
+                let load = load - (bias[(f + 1).min(FINE - 1)] - bias[f.min(FINE - 1)]);
                 fine_stiffness[k][f.min(FINE - 1)] = load / step - fine_before - if r == 0 { law } else { 0.0 };
                 fine_before = load / step;
+                fine_secants[k][f.min(FINE - 1)] = fine_before;
             }
             before = own;
         }
@@ -282,12 +294,16 @@ pub(crate) fn fill(rows: &mut Rows, element: &Element, units: &Units, reference:
                 (rows[FLEXIBILITY + k][j], rows[PER_MAP + k][j]) = (1.0 / stiffness[k][j], 1.0 / map[k][j][j]);
             }
         }
-        for (row, values) in rows[FINE_STIFFNESS + k * FINE / N..].iter_mut().zip(fine_stiffness[k].as_chunks::<N>().0)
-        {
-            *row = *values;
+        for (first, values) in [(FINE_STIFFNESS, &fine_stiffness[k]), (FINE_SECANT, &fine_secants[k])] {
+            for (row, values) in rows[first + k * FINE / N..].iter_mut().zip(values.as_chunks::<N>().0) {
+                *row = *values;
+            }
         }
     }
     rows[PRESSURE..PRESSURE + N].copy_from_slice(&pressure);
+    for (row, values) in rows[BIAS..].iter_mut().zip(bias.as_chunks::<N>().0) {
+        *row = *values;
+    }
 }
 
 /// `sqrt(upper - point) - sqrt(lower - point)`, the second one 0 if negative, free of cancellation.
