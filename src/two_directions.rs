@@ -12,7 +12,6 @@
 //! - `path`, `state`: a step between contacts that may be open, and the state in the caller's memory;
 //! - [`harmonic_force`]: Fourier coefficients of the forces of a periodic motion.
 
-pub static mut P: [f64; 8] = [0.3, 0.3333, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0];
 pub mod harmonic_force;
 
 mod contact;

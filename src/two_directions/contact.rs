@@ -2,8 +2,9 @@
 
 use super::scalar::{Dual, Real, both};
 use super::tables::{
-    BIAS, Both, END, FINE, FINE_SECANT, FINE_STIFFNESS, FLEXIBILITY, LEAST_STIFFNESS, LOAD, MAP, MOST_PARTS, Matrix, N, PER_MAP, POINTS,
-    PRESSURE, Row, Rows, SECANT, SHIFT, SIZE, STIFFNESS, Tables, Units, WEIGHT, at_edge, root_difference, starts,
+    BIAS, Both, END, FINE, FINE_SECANT, FINE_STIFFNESS, FLEXIBILITY, LEAST_STIFFNESS, LOAD, MAP, MOST_PARTS, Matrix, N,
+    PER_MAP, POINTS, PRESSURE, Row, Rows, SECANT, SHIFT, SIZE, STIFFNESS, Tables, Units, WEIGHT, at_edge,
+    root_difference, starts,
 };
 use crate::element::{Element, Normal};
 use crate::simd::dispatch;

@@ -55,10 +55,10 @@ const WIDE: usize = 36;
 pub(crate) struct Layout(Size);
 
 impl Layout {
-    /// Columns, one for each coefficient of the motion, in whole blocks.
+    /// Columns, one for each coefficient of the motion, in whole blocks: in each, those of the normal component, of u and of v.
     fn columns(&self) -> usize {
-        let columns = 3 * self.0.coefficients();
-        if columns <= NARROW { NARROW } else { columns.next_multiple_of(WIDE) }
+        let lanes = if 3 * self.0.coefficients() <= NARROW { NARROW } else { WIDE };
+        lanes * self.0.coefficients().div_ceil(lanes / 3)
     }
 
     /// Sums of the derivatives of both forces times 1, cos t, sin t, ...
@@ -333,13 +333,9 @@ impl<const L: usize> Columns<'_, L> {
         }
         if x.slopes[END] != 0.0 || x.slopes[START] != 0.0 || x.slopes[ALIGNMENT] != 0.0 {
             for p in 0..PARAMETERS {
-                for c in 0..L {
+                for c in 0..L / 3 {
                     columns[c] += x.slopes[p] * self.parameters[p][c];
                 }
-            }
-            // Memory that fades would end in subnormal numbers, which are slow.
-            for c in 0..L {
-                columns[c] = if columns[c].abs() > LEAST_SLOPE { columns[c] } else { 0.0 };
             }
         }
         columns
@@ -372,8 +368,15 @@ impl<const L: usize, const M: usize> Springs<Dual<M>> for Columns<'_, L> {
     }
 }
 
-/// Derivatives below are 0.
+/// Derivatives below are 0, after this number of steps: memory that fades would end in subnormal numbers, which are slow.
 const LEAST_SLOPE: f64 = 1e-200;
+const FADING: usize = 8;
+
+fn fade(derivatives: &mut [f64]) {
+    for x in derivatives {
+        *x = if x.abs() > LEAST_SLOPE { *x } else { 0.0 };
+    }
+}
 
 /// A step in columns: the derivatives of both forces.
 fn columns<const L: usize, const M: usize>(
@@ -454,6 +457,8 @@ fn walk(element: &Element, workspace: &mut Workspace, output: HarmonicOutput) {
             if requested.tangent {
                 if taken.closed != [true, true] {
                     workspace.derivatives.fill(0.0);
+                } else if step % FADING == 0 {
+                    fade(workspace.derivatives);
                 }
                 if taken.closed[1] {
                     let samples = [before, Some(index), Some(largest)];
@@ -521,9 +526,14 @@ fn write_jacobian(workspace: &Workspace, unit: Option<f64>, jacobian: &mut [f64]
     let (n, per_sample) = (workspace.coefficients(), 1.0 / workspace.size.samples as f64);
     let columns = workspace.forces.len() / 2;
     let weight = |c: usize| if c == 0 { per_sample } else { 2.0 * per_sample };
+    let lanes = if columns == NARROW { NARROW } else { WIDE };
+    let lane = |j: usize| {
+        let (component, coefficient) = ((j / n + 1) % 3, j % n);
+        coefficient / (lanes / 3) * lanes + component * (lanes / 3) + coefficient % (lanes / 3)
+    };
     for (j, column) in jacobian.chunks_exact_mut(3 * n).enumerate() {
         for (c, place) in column.iter_mut().enumerate().take(2 * n) {
-            let sum = workspace.sums.get(c * columns + j).copied().unwrap_or(0.0);
+            let sum = workspace.sums.get(c * columns + lane(j)).copied().unwrap_or(0.0);
             *place = unit.map_or(0.0, |unit| unit * weight(c % n) * sum);
         }
         column.iter_mut().skip(2 * n).for_each(|place| *place = 0.0);
@@ -587,24 +597,15 @@ fn differentiate<const L: usize, const M: usize>(
     for (block, (memory, (x, y))) in memories.zip(forces).enumerate() {
         let mut by = motion.by.map(|by| Dual { slopes: [0.0; M], value: by });
         let mut parameters = [[0.0; L]; PARAMETERS];
-        let (mut component, mut coefficient) = (block * L / n, block * L % n);
-        for c in 0..L {
+        for c in 0..(L / 3).min(n - block * (L / 3)) {
+            let coefficient = block * (L / 3) + c;
             let (from, to) = (at(start, coefficient), at(end, coefficient));
-            match component {
-                0 | 1 => by[component.min(1)].slopes[PADDED + c] = path.per_distance * (to - from),
-                2 => {
-                    for k in 0..2 {
-                        by[k].slopes[PADDED + c] = path.per_input[k][0] * from + path.per_input[k][1] * to;
-                    }
-                    (parameters[START][c], parameters[END][c]) = (from, to);
-                    parameters[ALIGNMENT][c] = by_top * at(top, coefficient);
-                }
-                _ => {}
+            for k in 0..2 {
+                by[k].slopes[PADDED + c] = path.per_input[k][0] * from + path.per_input[k][1] * to;
+                by[k].slopes[PADDED + (1 + k) * (L / 3) + c] = path.per_distance * (to - from);
             }
-            coefficient += 1;
-            if coefficient == n {
-                (component, coefficient) = (component + 1, 0);
-            }
+            (parameters[START][c], parameters[END][c]) = (from, to);
+            parameters[ALIGNMENT][c] = by_top * at(top, coefficient);
         }
         let motion = Motion { before: shift, by, constant_load: motion.constant_load };
         let mut springs = Columns { values: old, columns: memory, parameters: &parameters };

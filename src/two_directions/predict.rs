@@ -7,24 +7,37 @@
 
 use super::contact::Contact;
 use super::scalar::{Over, Real, both};
-use super::tables::{Both, N, Row, Tables, starts};
-use super::trial::{Motion, Springs, TRACTION};
+use super::tables::{Both, N, Row, Tables};
 
 /// Displacements of the innermost spring over its limit between which a contact that slides forgets.
 const FAR: [f64; 2] = [2.5, 5.0];
 
-/// The weight β of r0 in the direction `r + β r0` of the slip of a point, whose traction is r* and whose spring is at v* in the trial state.
+/// The weight β of r0 in the direction `r + β r0` of the slip of a point, whose traction is r* and whose spring is that far over its limit in
+/// the trial state.
 #[inline(always)]
-pub(crate) fn bend<A: Real, X: Over<A>>(start: &Both<X>, trial: &Both<X>, v: &Both<X>, limit: &Both<A>) -> X {
-    let (zero, one) = (X::constant(0.0), X::constant(1.0));
-    let u = (start[0] * start[0] + start[1] * start[1]).scale(2.0) - one;
-    let along = start[0] * trial[0] + start[1] * trial[1];
-    if u.value() <= 0.0 || along.value() <= 0.0 {
-        return zero;
+pub(crate) fn bend<X: Real>(start: &Both<X>, trial: &Both<X>, over_limit: &Both<X>) -> X {
+    let from = both!(|k| start[k].value());
+    let to = both!(|k| trial[k].value());
+    let at = both!(|k| over_limit[k].value());
+    let u = 2.0 * (from[0] * from[0] + from[1] * from[1]) - 1.0;
+    let along = from[0] * to[0] + from[1] * to[1];
+    if u <= 0.0 || along <= 0.0 {
+        return X::constant(0.0);
     }
-    let length = (trial[0] * trial[0] + trial[1] * trial[1]).sqrt();
-    let over = excess(self::length(v, limit));
-    u * u * along * (length * (over.scale(FARTHER) + one)).inverse()
+    let square = to[0] * to[0] + to[1] * to[1];
+    let length = (at[0] * at[0] + at[1] * at[1]).sqrt();
+    let over = if length > 1.0 { length - 1.0 } else { 0.0 };
+    let farther = 1.0 / (1.0 + FARTHER * over);
+    let value = u * u * along / square.sqrt() * farther;
+    let mut bend = X::constant(value);
+    for k in 0..2 {
+        bend.add_slopes(&start[k], value * (8.0 * from[k] / u + to[k] / along));
+        bend.add_slopes(&trial[k], value * (from[k] / along - to[k] / square));
+        if over > 0.0 {
+            bend.add_slopes(&over_limit[k], -value * FARTHER * farther * at[k] / length);
+        }
+    }
+    bend
 }
 
 /// Fall of β with the excess of a spring over its limit.
@@ -50,12 +63,6 @@ fn length<A: Real, X: Over<A>>(v: &Both<X>, unit: &Both<A>) -> X {
     let [x, y] = both!(|k| v[k].times(unit[k].inverse()));
     let square = x * x + y * y;
     if square.value() > f64::MIN_POSITIVE { square.sqrt() } else { X::constant(0.0) }
-}
-
-/// The excess over 1.
-#[inline(always)]
-fn excess<X: Real>(length: X) -> X {
-    if length.value() > 1.0 { length - X::constant(1.0) } else { X::constant(0.0) }
 }
 
 /// Removes a slip from the springs: `v - w⁻¹ C' σ`, from σ over the pressure.

@@ -31,6 +31,9 @@ pub(crate) trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Outp
     /// `self += x factor`
     fn add_scaled(&mut self, x: &Self, factor: f64);
 
+    /// Adds the derivatives of x times a partial derivative.
+    fn add_slopes(&mut self, x: &Self, partial: f64);
+
     /// 1/x of a number that is not 0.
     #[inline(always)]
     fn inverse(self) -> Self {
@@ -56,7 +59,7 @@ pub(crate) trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Outp
 
 /// Numbers that those of a contact scale: the latter have the first of their derivatives only.
 pub(crate) trait Over<A>: Real {
-    fn lift(a: A) -> Self;
+    fn minus(self, a: A) -> Self;
     fn times(self, a: A) -> Self;
 
     /// `self += x a`
@@ -88,12 +91,15 @@ impl Real for f64 {
     fn add_scaled(&mut self, x: &f64, factor: f64) {
         *self += x * factor;
     }
+
+    #[inline(always)]
+    fn add_slopes(&mut self, _: &f64, _: f64) {}
 }
 
 impl Over<f64> for f64 {
     #[inline(always)]
-    fn lift(a: f64) -> f64 {
-        a
+    fn minus(self, a: f64) -> f64 {
+        self - a
     }
 
     #[inline(always)]
@@ -154,6 +160,13 @@ impl<const M: usize> Real for Dual<M> {
         }
         self.value += x.value * factor;
     }
+
+    #[inline(always)]
+    fn add_slopes(&mut self, x: &Self, partial: f64) {
+        for k in 0..M {
+            self.slopes[k] += x.slopes[k] * partial;
+        }
+    }
 }
 
 impl<const M: usize> Add for Dual<M> {
@@ -183,12 +196,12 @@ impl<const M: usize> Mul for Dual<M> {
 
 impl<const M: usize, const P: usize> Over<Dual<P>> for Dual<M> {
     #[inline(always)]
-    fn lift(a: Dual<P>) -> Self {
-        let mut dual = Self::constant(a.value);
+    fn minus(mut self, a: Dual<P>) -> Self {
         for k in 0..P.min(M) {
-            dual.slopes[k] = a.slopes[k];
+            self.slopes[k] -= a.slopes[k];
         }
-        dual
+        self.value -= a.value;
+        self
     }
 
     #[inline(always)]

@@ -391,8 +391,8 @@ pub(super) fn advance_state(element: &Element, state: &mut [f64], to: [f64; 3], 
     result
 }
 
-fn constant(value: f64) -> Dual<4> {
-    Dual { slopes: [0.0; 4], value }
+fn constant(value: f64) -> Dual<1> {
+    Dual { slopes: [0.0], value }
 }
 
 /// The force of a step with its derivatives: by the normal component, u and v.
@@ -400,13 +400,13 @@ fn tangent(
     tables: &Rows,
     contact: &Contact<f64>,
     slopes: &Pressed<f64>,
-    motion: &Motion<Dual<4>, Dual<4>>,
+    motion: &Motion<Dual<1>, Dual<4>>,
     slip: &Slip,
     springs: &Values,
 ) -> Both<Dual<4>> {
     dispatch!(
         tangent_kernel,
-        tables: &Rows, contact: &Contact<f64>, slopes: &Pressed<f64>, motion: &Motion<Dual<4>, Dual<4>>, slip: &Slip,
+        tables: &Rows, contact: &Contact<f64>, slopes: &Pressed<f64>, motion: &Motion<Dual<1>, Dual<4>>, slip: &Slip,
         springs: &Values => Both<Dual<4>>
     )
 }
@@ -416,10 +416,10 @@ fn tangent_kernel(
     tables: &Rows,
     contact: &Contact<f64>,
     slopes: &Pressed<f64>,
-    motion: &Motion<Dual<4>, Dual<4>>,
+    motion: &Motion<Dual<1>, Dual<4>>,
     slip: &Slip,
     mut springs: &Values,
 ) -> Both<Dual<4>> {
-    let contact = contact.derived::<4, _>(&tables, slopes);
+    let contact = contact.derived::<1, _>(&tables, slopes);
     step(&tables, &contact, motion, slip, &mut springs)
 }

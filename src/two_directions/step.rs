@@ -204,18 +204,22 @@ fn slide<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
             relaxed[j] = (sum - before) * c.flexibility(t, k, j);
             before = sum;
         }
+        let (mut d, mut less) = ([zero; N], [A::constant(0.0); N]);
+        for j in first..last {
+            d[j] = v[k][j] - v[k][(j + 1).min(N - 1)];
+            less[j] = relaxed[j] - relaxed[(j + 1).min(N - 1)];
+        }
+        (d[last], less[last]) = (v[k][last], relaxed[last]);
         let mut residual = [zero; N];
         for i in first..=last {
             if slip.contains(i) {
                 let (mut sum, mut relief) = (zero, A::constant(0.0));
                 for j in i..=last {
-                    let outer = (j + 1).min(N - 1);
-                    let (above, less) = if j < last { (v[k][outer], relaxed[outer]) } else { (zero, A::constant(0.0)) };
-                    sum.add_product(&(v[k][j] - above), c.map(t, k, j, i));
-                    relief = relief + (relaxed[j] - less) * c.map(t, k, j, i);
+                    sum.add_product(&d[j], c.map(t, k, j, i));
+                    relief = relief + less[j] * c.map(t, k, j, i);
                 }
                 trial[k][i] = sum.times(c.per_pressure[i]);
-                residual[i] = trial[k][i] - X::lift(relief * c.per_pressure[i]) - X::constant(slip.e[k][i]);
+                residual[i] = trial[k][i].minus(relief * c.per_pressure[i] + A::constant(slip.e[k][i]));
                 sigma[k][i] = X::constant(slip.sigma[k][i]);
             }
         }
@@ -225,14 +229,20 @@ fn slide<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     let (mut residual, start) = ([zero; N], starts(c.under_flat));
     for i in first..=last {
         if slip.contains(i) {
-            let mut n = both!(|k| X::constant(slip.e[k][i]));
+            let mut n = [slip.e[0][i], slip.e[1][i]];
+            let slips = both!(|k| sigma[k][i].value());
             if slip.shares[i] > 0.0 {
                 let from = both!(|k| s.get(TRACTION + k * N + i));
-                let limit = both!(|k| c.limit(t, k, start[i]));
-                let bend = bend(&from, &both!(|k| trial[k][i]), &both!(|k| v[k][i]), &limit);
-                n = both!(|k| n[k] + bend * from[k]);
+                let over_limit = both!(|k| v[k][i].times(c.limit(t, k, start[i]).inverse()));
+                let bend = bend(&from, &both!(|k| trial[k][i]), &over_limit);
+                let weight = bend.value();
+                n = both!(|k| n[k] + weight * from[k].value());
+                residual[i].add_slopes(&bend, from[0].value() * slips[1] - from[1].value() * slips[0]);
+                residual[i].add_slopes(&from[0], weight * slips[1]);
+                residual[i].add_slopes(&from[1], -weight * slips[0]);
             }
-            residual[i] = n[0] * sigma[1][i] - n[1] * sigma[0][i];
+            residual[i].add_scaled(&sigma[1][i], n[0]);
+            residual[i].add_scaled(&sigma[0][i], -n[1]);
         }
     }
     let mut turn = [zero; N];
@@ -341,7 +351,15 @@ fn dissipated(
         for j in 0..(c.last + 1).min(N) {
             let w = both!(|k| c.stiffness(&t, k, j));
             let places = [[old[0][j], old[1][j]], [new[0][j], new[1][j]]];
-            energy += slipped(t, c, start[j], w, places, motion, [if slip.contains(j) { slip.shares[j] } else { 0.0 }, slip.slides]);
+            energy += slipped(
+                t,
+                c,
+                start[j],
+                w,
+                places,
+                motion,
+                [if slip.contains(j) { slip.shares[j] } else { 0.0 }, slip.slides],
+            );
         }
     }
     let at = |springs: &Values, f: usize| {

@@ -43,7 +43,7 @@ const GRADING: f64 = 0.03;
 /// Position of x_i in its shell: in the inner half, for which G decreases with j. Values from 0.02 to 0.2 are as good.
 const POINT: f64 = 0.1;
 /// Parts of the shells from the innermost one under pressure.
-const PARTS: [usize; N - 1] = [8, 9, 8, 7, 6, 5, 3, 3, 2, 2, 2];
+const PARTS: [usize; N - 1] = [9, 9, 8, 7, 6, 5, 3, 3, 2, 2, 1];
 /// Where the parts of the last shell begin, over its width: some are beyond the reference size, for loads up to the next alignment.
 pub(crate) const BEYOND: [f64; 4] = [0.0, 0.5, 1.0, 3.0];
 /// The most parts of a shell.
@@ -234,8 +234,11 @@ pub(crate) fn fill(rows: &mut Rows, element: &Element, units: &Units, reference:
     let mut bias = [0.0; FINE];
     for f in start[inner] + 1..start[N] - 1 {
         let [[load_before, before], [load, step]] = [rise(0, f - 1, f), rise(0, f, f + 1)];
-        bias[f.min(FINE - 1)] =
-            if step < NEVER / 2.0 { (before * before + step * step) / (before + step) / 12.0 * (load / step - load_before / before) } else { 0.0 };
+        bias[f.min(FINE - 1)] = if step < NEVER / 2.0 {
+            (before * before + step * step) / (before + step) / 12.0 * (load / step - load_before / before)
+        } else {
+            0.0
+        };
     }
     let (mut secants, mut stiffness, mut fine_stiffness) = ([[0.0; N]; 2], [[0.0; N]; 2], [[0.0; FINE]; 2]);
     let mut fine_secants = [[0.0; FINE]; 2];
