@@ -119,7 +119,7 @@ audit:
 accuracy:
 	@tools/dependencies.sh accuracy
 	$(CARGO) run --locked --package accuracy -- \
-		--points $(or $(POINTS),1e7) --replay docs/accuracy.csv --regions docs/accuracy.csv --document docs/accuracy.md
+		--points $(or $(POINTS),1e7) --replay docs/accuracy.csv --regions docs/accuracy.csv --promises docs/promises.csv
 
 ## instructions: count the instructions of each call and check the relations between the counts
 instructions:
@@ -132,14 +132,11 @@ bench: all
 	$(MAKE) -C benches run PREFIX=../dist QUICK=$(QUICK)
 
 ## figures: compute the figures of the paper and of the validation into docs/, draw them, and check the claims
-figures:
+figures: all
 	@tools/dependencies.sh figures
 	$(CARGO) run --quiet --locked --package paper
-	verification/paper/draw.sh
 	$(CARGO) run --quiet --locked --package validation
-	verification/validation/draw.sh
-	tools/identification.sh
-	tools/layer.sh
+	verification/paper/draw.sh
 
 ## identification: fit 200 computed data sets of each kind, and write the tables of docs/identification.md (half an hour)
 identification:

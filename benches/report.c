@@ -204,43 +204,21 @@ static const char *ratios(const char *task, const char *const *methods, double p
     return t;
 }
 
-static void write_harmonic_table(FILE *file)
-{
-    fputs("\nTime of the harmonic force by uniform sampling over that of one spring-slider, the faster of two methods: median over "
-          "shapes\nand amplitudes, in brackets the largest.\n\n"
-          "| motion | force, 64 samples | 128 | 256 | with Jacobian, 64 | 128 | 256 |\n|---|---:|---:|---:|---:|---:|---:|\n", file);
-    static const char *const tasks[] = { "odd motion", "general motion" };
-    static const char *const methods[] = { "spring-slider", "spring-slider by reversals", NULL };
-    for (int k = 0; k < 2; ++k) {
-        for (int h = 1; h <= 9; h += 4) {
-            fprintf(file, "| %s, H = %d", k ? "general" : "odd harmonics", h);
-            for (int jacobian = 0; jacobian <= 1; ++jacobian) {
-                for (int samples = 64; samples <= 256; samples *= 2) {
-                    fprintf(file, " | %s", ratios(tasks[k], methods, -1.0, h, samples, jacobian));
-                }
-            }
-            fputs(" |\n", file);
-        }
-    }
-}
-
 static void write_element_table(FILE *file)
 {
     fputs("\nTime of an element under a varying normal force over that of one spring-slider with a varying limit: median over the "
           "shapes,\nin brackets the largest. H = 1, 5, 9 with 64, 128, 256 samples.\n\n"
           "| motion | force, H = 1 | H = 5 | H = 9 | with Jacobian, H = 1 | H = 5 | H = 9 | step |\n"
           "|---|---:|---:|---:|---:|---:|---:|---:|\n", file);
-    static const char *const methods[][2] = { { "spring-slider", NULL }, { "spring-slider, folded transforms", NULL } };
-    for (int k = 0; k < 2; ++k) {
-        for (int motion = 0; element_motion(motion); ++motion) {
-            fprintf(file, "| %s%s", element_motion(motion), k ? ", slider with folded transforms" : "");
-            for (int jacobian = 0; jacobian <= 1; ++jacobian) {
-                for (int h = 1; h <= 9; h += 4) {
-                    fprintf(file, " | %s", ratios("element", methods[k], motion, h, 0, jacobian));
-                }
+    static const char *const methods[] = { "spring-slider", NULL };
+    for (int motion = 0; element_motion(motion); ++motion) {
+        fprintf(file, "| %s", element_motion(motion));
+        for (int jacobian = 0; jacobian <= 1; ++jacobian) {
+            for (int h = 1; h <= 9; h += 4) {
+                fprintf(file, " | %s", ratios("element", methods, motion, h, 0, jacobian));
             }
-            fprintf(file, " | %s |\n", ratios("element step", methods[k], motion, 0, 0, 0));
         }
+        fprintf(file, " | %s |\n", ratios("element step", methods, motion, 0, 0, 0));
     }
     static const char *const logarithm[] = { "logarithm", NULL };
     const summary *s = summary_of("microslip", "element initialisation", 0, 0, 0);
@@ -433,7 +411,6 @@ void write_tables(FILE *file, const char *machine)
 
     write_stiffness_table(file);
     write_step_tables(file);
-    write_harmonic_table(file);
     write_element_table(file);
     write_two_directions_tables(file);
 }

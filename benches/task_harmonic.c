@@ -1,5 +1,4 @@
-/* task_harmonic.c: harmonic force of a motion of one to nine harmonics from samples, with and without its Jacobian; and the same for
- * motions with odd harmonics only and for general ones, to be compared with one spring-slider. */
+/* task_harmonic.c: harmonic force of a motion of one to nine harmonics from samples, with and without its Jacobian. */
 #include "cases.h"
 
 #include <math.h>
@@ -98,25 +97,6 @@ static void add_methods(const test_case *t, const call *c, const extent *x, cons
     }
 }
 
-/* Motions with a mean and all harmonics, and with odd harmonics only. */
-static void add_ratios(const test_case *t, int harmonics, const double *general, const sliders *jenkins)
-{
-    double odd[MOST];
-    for (int i = 0; i < 2 * harmonics + 1; ++i) {
-        odd[i] = (i + 1) / 2 % 2 ? general[i] : 0.0;
-    }
-    for (int k = 0; k < 12; ++k) {
-        const int samples = 64 << k % 3, jacobian = k / 3 % 2, is_odd = k / 6;
-        const call c = { is_odd ? "odd motion" : "general motion", harmonics, samples, jacobian, is_odd ? odd : general, NULL, NULL };
-        job j = { .contact = &t->contact, .workspace = workspace_of(harmonics, samples, MSLIP_UNIFORM_SAMPLING) };
-        add(&c, "microslip", j, -1.0);
-        j = (job) { .method = jenkins_aft, .sliders = jenkins, .aft = aft_of(harmonics, samples) };
-        add(&c, "spring-slider", j, -1.0);
-        j.method = sliders_aft;
-        add(&c, "spring-slider by reversals", j, -1.0);
-    }
-}
-
 void task_harmonic(const test_case *t, const extent *x)
 {
     for (int o = 0; o < x->orders; ++o) {
@@ -136,7 +116,6 @@ void task_harmonic(const test_case *t, const extent *x)
                     add_methods(t, &c, x, &jenkins);
                 }
             }
-            add_ratios(t, harmonics, arguments + 1, &jenkins);
             measure(first, t->shape, x->amplitude[a], mark);
         }
     }

@@ -20,25 +20,23 @@
 enum { MOST_SAMPLES = 1024, MOST_ROW = 64 };
 
 struct varying_aft {
-    int harmonics, samples, coefficients, stride, width, folded;
+    int harmonics, samples, coefficients, stride, width;
     double *rows;    /* samples x stride: 1, cos t, sin t, ... */
     double *columns; /* coefficients x samples */
     double *prefix;  /* (samples + 1) x width: sums of 1, cos t, ..., sin 2Ht over the samples before */
-    double *quarter; /* positions x 4 ceil(H/2): cos t, sin t, cos 2t, ... */
     double *step, *limit, *normal, *force, *trial, *matrices;
     double (*anchor_sums)[MOST_ROW];
 };
 
-varying_aft *varying_aft_of(int harmonics, int samples, int folded)
+varying_aft *varying_aft_of(int harmonics, int samples)
 {
     varying_aft *a = allocate(sizeof *a);
     const size_t n = (size_t)samples, c = (size_t)(2 * harmonics + 1);
-    *a = (varying_aft) { .harmonics = harmonics, .samples = samples, .coefficients = (int)c, .folded = folded,
+    *a = (varying_aft) { .harmonics = harmonics, .samples = samples, .coefficients = (int)c,
                          .stride = (int)((c + 3) / 4 * 4), .width = (4 * harmonics + 4) / 4 * 4 };
     a->rows = doubles(n * (size_t)a->stride);
     a->columns = doubles(n * c);
     a->prefix = doubles((n + 1) * (size_t)a->width);
-    a->quarter = doubles((n / 4 + 1) * 4 * (size_t)((harmonics + 1) / 2));
     a->step = doubles(n + 1);
     a->limit = doubles(n);
     a->normal = doubles(n);
@@ -57,9 +55,6 @@ varying_aft *varying_aft_of(int harmonics, int samples, int folded)
                 if (k <= harmonics) {
                     a->rows[i * a->stride + at] = a->columns[at * samples + i] = pair[sine];
                 }
-                if (k && k <= harmonics && i <= samples / 4) {
-                    a->quarter[i * 4 * ((harmonics + 1) / 2) + at - 1] = pair[sine];
-                }
             }
         }
     }
@@ -69,33 +64,14 @@ varying_aft *varying_aft_of(int harmonics, int samples, int folded)
 static void synthesise(const varying_aft *a, const double *restrict coefficients, double *restrict values)
 {
     const int n = a->samples;
-    if (!a->folded) {
-        for (int i = 0; i < n; ++i) {
-            values[i] = coefficients[0];
-        }
-        for (int c = 1; c < a->coefficients; ++c) {
-            const double *restrict column = a->columns + c * n, factor = coefficients[c];
-            for (int i = 0; i < n; ++i) {
-                values[i] += factor * column[i];
-            }
-        }
-        return;
+    for (int i = 0; i < n; ++i) {
+        values[i] = coefficients[0];
     }
-    const int groups = (a->harmonics + 1) / 2;
-    double padded[MOST_ROW] = { 0.0 };
-    memcpy(padded, coefficients + 1, (size_t)(a->coefficients - 1) * sizeof *padded);
-    for (int i = 0; i <= n / 4; ++i) {
-        const double *restrict row = a->quarter + i * 4 * groups;
-        double s[4] = { 0.0, 0.0, coefficients[0], 0.0 }; /* cos odd, sin odd, cos even, sin even */
-        for (int g = 0; g < groups; ++g) {
-            for (int l = 0; l < 4; ++l) {
-                s[l] += padded[4 * g + l] * row[4 * g + l];
-            }
+    for (int c = 1; c < a->coefficients; ++c) {
+        const double *restrict column = a->columns + c * n, factor = coefficients[c];
+        for (int i = 0; i < n; ++i) {
+            values[i] += factor * column[i];
         }
-        values[i] = (s[2] + s[3]) + (s[0] + s[1]);
-        values[n / 2 + i] = (s[2] + s[3]) - (s[0] + s[1]);
-        values[n / 2 - i] = (s[2] - s[3]) - (s[0] - s[1]);
-        values[i ? n - i : 0] = (s[2] - s[3]) + (s[0] - s[1]);
     }
 }
 
@@ -103,26 +79,10 @@ static void analyse(const varying_aft *a, const double *restrict values, double 
 {
     const int n = a->samples;
     double sum[MOST_ROW] = { 0.0 };
-    if (!a->folded) {
-        for (int i = 0; i < n; ++i) {
-            const double *restrict row = a->rows + i * a->stride;
-            for (int c = 0; c < a->stride; ++c) {
-                sum[c] += row[c] * values[i];
-            }
-        }
-    } else {
-        const int groups = (a->harmonics + 1) / 2;
-        for (int i = 0; i <= n / 4; ++i) {
-            const double weight = i == 0 || i == n / 4 ? 0.5 : 1.0, *restrict row = a->quarter + i * 4 * groups;
-            const double one = values[i], two = values[n / 2 - i], three = values[n / 2 + i], four = values[i ? n - i : 0];
-            const double e = one + three, f = two + four, o = one - three, p = two - four;
-            const double s[4] = { weight * (o - p), weight * (o + p), weight * (e + f), weight * (e - f) };
-            sum[0] += s[2];
-            for (int g = 0; g < groups; ++g) {
-                for (int l = 0; l < 4; ++l) {
-                    sum[1 + 4 * g + l] += s[l] * row[4 * g + l];
-                }
-            }
+    for (int i = 0; i < n; ++i) {
+        const double *restrict row = a->rows + i * a->stride;
+        for (int c = 0; c < a->stride; ++c) {
+            sum[c] += row[c] * values[i];
         }
     }
     for (int c = 0; c < a->coefficients; ++c) {

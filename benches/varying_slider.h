@@ -7,10 +7,9 @@ typedef struct varying_slider {
     double stiffness, normal_stiffness, friction_coefficient;
 } varying_slider;
 
-/* Fourier tables and buffers for one number of harmonics and of samples, a multiple of 4. Folded: the transforms use the symmetries
-   of cosines and sines, as microslip does. */
+/* Fourier tables and buffers for one number of harmonics and of samples. */
 typedef struct varying_aft varying_aft;
-varying_aft *varying_aft_of(int harmonics, int samples, int folded);
+varying_aft *varying_aft_of(int harmonics, int samples);
 
 /* Coefficients [mean, cos 1, sin 1, ...] of the tangential displacement and then of the normal approach, and of both forces;
    jacobian of 2(2H+1) columns, or NULL. */

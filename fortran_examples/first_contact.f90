@@ -1,19 +1,19 @@
 program first_contact
-  ! A flat contact with rounded edges in harmonic motion with an amplitude of half a micrometre.
+  ! A cylindrical damper in harmonic motion with an amplitude of three micrometres, below gross slip.
   use microslip
   implicit none
 
   integer, parameter :: wp = mslip_real
   integer(mslip_size), parameter :: harmonics = 1, samples = 256
-  real(wp), parameter :: amplitude = 0.5e-6_wp  ! m
+  real(wp), parameter :: amplitude = 3.0e-6_wp  ! m
   type(mslip_parameters) :: p
   type(mslip_contact) :: contact
   real(wp), allocatable :: workspace(:)
   real(wp) :: k_real, k_imag, force(3)
   integer(mslip_int) :: status
 
-  p = mslip_parameters(flat_half_width=0.5e-3_wp, edge_radius=3.0e-3_wp, length=20.0e-3_wp, normal_force=800.0_wp, &
-    friction_coefficient=0.5_wp, material=[mslip_material(2.0e11_wp, 0.3_wp), mslip_material(2.0e11_wp, 0.3_wp)], &
+  p = mslip_parameters(flat_half_width=0.0_wp, edge_radius=10.0e-3_wp, length=3.0e-3_wp, normal_force=800.0_wp, &
+    friction_coefficient=0.4_wp, material=[mslip_material(1.14e11_wp, 0.32_wp), mslip_material(1.14e11_wp, 0.32_wp)], &
     displacement_reference=MSLIP_RIGID_STRIP)
   allocate (workspace(mslip_harmonic_workspace_length(harmonics, samples)))
 

@@ -8,7 +8,7 @@ use crate::limits::{MAX_DISPLACEMENT, check_displacement, in_range};
 use crate::numerics::fp_class::{in_0_to, is_finite, le};
 use crate::numerics::quadrature::gauss_nodes;
 use crate::parameters::{EllipticParameters, Pair, Parameters, check_moduli};
-use crate::shape::{HertzEllipse, Layer, Layered, Plane, Relation, RoundedFlat, Shape, TINY};
+use crate::shape::{HertzEllipse, Layer, Layered, Plane, Quantity, RoundedFlat, Shape, TINY};
 use crate::tag::LAYOUT;
 use core::array::from_fn;
 pub(crate) use table::Curvature;
@@ -65,16 +65,14 @@ pub struct Element {
     pub(crate) largest_shift: f64,
     /// The contact counts as open up to this input, [`SMALLEST_LOAD`] or [`SMALLEST_OF_SPRINGS`] of that of the tables.
     smallest_input: f64,
-    /// S = `shift_per_approach` U + `shift_per_load` N, exactly, unless there is a table of the third quantity.
-    shift_per_approach: f64,
-    shift_per_load: f64,
-    has_third: u64,
+    /// N, U and S under [`SMALLEST_LOAD`] of the normal force.
+    smallest: [f64; 3],
     flat: Layered<RoundedFlat>,
     ellipse: Layered<HertzEllipse>,
-    /// N(U) or S(N): the quantity that the input does not give.
+    /// N(U) or U(N): what the input does not give.
     of_input: Table,
-    /// S(U) or U(N), the third quantity, with most layers.
-    third: Table,
+    /// S of the input.
+    shift: Table,
     /// N(S).
     load_of_shift: Table,
     /// M at the middle of each quarter of `load_of_shift`.
@@ -228,8 +226,9 @@ impl Element {
             largest = largest.min(plane.largest);
         }
         let w = shape.at_load(normal_force);
+        let compliances = [Quantity::Approach, Quantity::Shift].map(|quantity| shape.compliance(quantity, w));
         if !layer.is_none() {
-            layer.check_share(normal_force, [shape.normal_compliance(w), shape.tangential_compliance(w)])?;
+            layer.check_share(normal_force, compliances)?;
             // The contact stiffens with the load, so that a layer has energies of the order of N² where those of a contact are smaller.
             let most = normal_force * MOST_LOAD_WITH_LAYER;
             if shape.load(largest) > most {
@@ -239,7 +238,7 @@ impl Element {
         if w >= largest {
             return Err(Error::LengthTooShort);
         }
-        let (approach, shift) = (shape.approach(w), shape.shift(w));
+        let [approach, shift] = [Quantity::Approach, Quantity::Shift].map(|quantity| shape.value(quantity, w));
         for value in [approach, shift, normal_force] {
             // The element accepts its own load and approach.
             if !in_0_to(MAX_DISPLACEMENT, value) {
@@ -251,11 +250,14 @@ impl Element {
             }
         }
         self.largest_load = shape.load(largest);
-        (self.largest_approach, self.largest_shift) = (shape.approach(largest), shape.shift(largest));
+        [self.largest_approach, self.largest_shift] =
+            [Quantity::Approach, Quantity::Shift].map(|quantity| shape.value(quantity, largest));
         if directions == Directions::Two {
             self.largest_load = self.largest_load.min(normal_force / SMALLEST_LOAD);
             self.largest_approach = self.largest_approach.min(approach * MOST_APPROACH);
         }
+        let least = shape.at_load(SMALLEST_LOAD * normal_force);
+        self.smallest = Quantity::ALL.map(|quantity| shape.value(quantity, least));
         let smallest = if directions == Directions::Two { SMALLEST_OF_SPRINGS } else { SMALLEST_LOAD };
         self.smallest_input = smallest * if input == NormalInput::Force { normal_force } else { approach };
         self.friction_coefficient = friction_coefficient;
@@ -263,21 +265,13 @@ impl Element {
         self.normal_force = normal_force;
         self.half_width = shape.half_width(w);
         self.approach = approach;
-        self.normal_stiffness = 1.0 / shape.normal_compliance(w);
-        self.tangential_stiffness = 1.0 / shape.tangential_compliance(w);
+        [self.normal_stiffness, self.tangential_stiffness] = compliances.map(f64::recip);
         (self.directions, self.normal_input) = (directions as i32, input as i32);
         self.tag = TAG | tag_of(directions) | if input == NormalInput::Force { FORCE_INPUT } else { 0 };
-        let compliances = [shape.normal_compliance(w), shape.tangential_compliance(w)];
-        let per_load = layer.shift_per_load(plane.per_approach[0], plane.per_load[0], compliances);
-        (self.shift_per_approach, self.shift_per_load) = (plane.per_approach[0], per_load.unwrap_or(0.0));
-        self.has_third = per_load.is_none().into();
         self.checksum = 0;
         let ratio = plane.per_approach[1] / plane.per_approach[0];
         let own = [plane.per_load[1] - ratio * plane.per_load[0], (1.0 - ratio) * layer.compliance(0.0)];
         self.lateral = [ratio, if layer.is_linear() { own[0] + own[1] } else { own[0] }];
-        if !self.has_third() {
-            self.third = Table::EMPTY;
-        }
         self.key = key_of(&[
             normal_force,
             friction_coefficient,
@@ -292,27 +286,21 @@ impl Element {
         // singular. Where that is at less than 2.25 times the argument, it would lie within 9 half-lengths of a quarter.
         let regular = |value: f64, largest: f64| value.min(largest / 2.25);
         let mut potentials = self.potential.iter_mut();
-        self.load_of_shift.fill(regular(shift, self.largest_shift), &mut |x| {
-            let w = shape.at_shift(x);
+        Table::fill([&mut self.load_of_shift], regular(shift, self.largest_shift), &mut |x| {
+            let w = shape.size_at(Quantity::Shift, x);
             potentials.next().into_iter().for_each(|value| *value = shape.potential(w));
-            shape.series(w, Relation::LoadOfShift)
+            let [load, ..] = shape.series(w, Quantity::Shift);
+            [load]
         });
-        match input {
-            NormalInput::Approach => {
-                let largest = regular(approach, self.largest_approach);
-                self.of_input.fill(largest, &mut |x| shape.series(shape.at_approach(x), Relation::LoadOfApproach));
-                if self.has_third() {
-                    self.third.fill(largest, &mut |x| shape.series(shape.at_approach(x), Relation::ShiftOfApproach));
-                }
-            }
-            NormalInput::Force => {
-                // The load of the parameters without the rounding error of its size.
-                self.of_input.fill(normal_force, &mut |x| shape.series(shape.at_load(x), Relation::ShiftOfLoad));
-                if self.has_third() {
-                    self.third.fill(normal_force, &mut |x| shape.series(shape.at_load(x), Relation::ApproachOfLoad));
-                }
-            }
-        }
+        // The load of the parameters without the rounding error of its size.
+        let (argument, largest) = match input {
+            NormalInput::Approach => (Quantity::Approach, regular(approach, self.largest_approach)),
+            NormalInput::Force => (Quantity::Load, normal_force),
+        };
+        Table::fill([&mut self.of_input, &mut self.shift], largest, &mut |x| {
+            let [load, approach, shift] = shape.series(shape.size_at(argument, x), argument);
+            [if input == NormalInput::Force { approach } else { load }, shift]
+        });
         Ok(())
     }
 
@@ -375,17 +363,92 @@ impl Element {
         if self.tag & TWO_DIRECTIONS == 0 { Directions::One } else { Directions::Two }
     }
 
+    /// Values and slopes of quantities as functions of an argument, from their tables or, outside, from the shape.
+    #[inline(always)]
+    fn functions<const SLOPES: bool, const K: usize, const L: usize>(
+        &self,
+        tables: [&Table; K],
+        quantities: [Quantity; K],
+        argument: Quantity,
+        x: &[f64; L],
+    ) -> [([f64; L], [f64; L]); K] {
+        let mut found = [([0.0; L], [0.0; L]); K];
+        for (found, table) in found.iter_mut().zip(tables) {
+            let Some(values) = table.at::<SLOPES, L>(x) else {
+                return self.one_by_one(tables, quantities, argument, x);
+            };
+            *found = values;
+        }
+        found
+    }
+
+    #[inline(never)]
+    fn one_by_one<const K: usize, const L: usize>(
+        &self,
+        tables: [&Table; K],
+        quantities: [Quantity; K],
+        argument: Quantity,
+        x: &[f64; L],
+    ) -> [([f64; L], [f64; L]); K] {
+        let mut found = [([0.0; L], [0.0; L]); K];
+        for (lane, &x) in x.iter().enumerate() {
+            let outside = if tables.iter().all(|table| table.position(x).is_some()) {
+                None
+            } else {
+                Some(self.outside(quantities, argument, x))
+            };
+            for k in 0..K {
+                (found[k].0[lane], found[k].1[lane]) = match &outside {
+                    Some(values) => values[k],
+                    None => tables[k].one_at(x),
+                };
+            }
+        }
+        found
+    }
+
+    /// Quantities as functions of an argument >= 0, from the shape. Below the smallest size all are proportional to each other.
+    #[inline(never)]
+    fn outside<const K: usize>(&self, quantities: [Quantity; K], argument: Quantity, x: f64) -> [(f64, f64); K] {
+        let shape = self.shape();
+        if x > 0.0 && x < self.smallest(argument) {
+            return quantities.map(|quantity| {
+                let slope = self.smallest(quantity) / self.smallest(argument);
+                (slope * x, slope)
+            });
+        }
+        if x <= 0.0 && shape.half_width(0.0) <= 0.0 {
+            // A point is infinitely compliant.
+            return [(0.0, if argument == Quantity::Load { f64::INFINITY } else { 0.0 }); K];
+        }
+        let w = if x > 0.0 { shape.size_at(argument, x) } else { 0.0 };
+        quantities
+            .map(|quantity| (shape.value(quantity, w), shape.compliance(quantity, w) / shape.compliance(argument, w)))
+    }
+
+    /// N, U or S of the smallest size that is distinguished.
+    fn smallest(&self, quantity: Quantity) -> f64 {
+        let [load, approach, shift] = self.smallest;
+        match quantity {
+            Quantity::Load => load,
+            Quantity::Approach => approach,
+            Quantity::Shift => shift,
+        }
+    }
+
+    /// The normal force at approaches \[m\] that [`Element::check_approach`] accepts; 0 for an approach <= 0, an open contact.
+    #[inline(always)]
+    pub(crate) fn normal_forces<const L: usize>(&self, approach: &[f64; L]) -> [NormalPoint; L] {
+        let table = if self.by_approach() { &self.of_input } else { &Table::EMPTY };
+        let [(value, slope)] = self.functions::<true, 1, L>([table], [Quantity::Load], Quantity::Approach, approach);
+        from_fn(|k| NormalPoint { value: value[k], slope: if approach[k] > 0.0 { slope[k] } else { 0.0 } })
+    }
+
     /// The normal force at an approach \[m\] that [`Element::check_approach`] accepts; 0 for an approach <= 0, an open contact.
     #[must_use]
-    #[inline(always)]
     pub fn normal_force_at(&self, approach: f64) -> NormalPoint {
-        let position = if self.by_approach() { self.of_input.position(approach) } else { None };
-        let (value, slope) = match position {
-            Some(at) => self.of_input.value_and_slope(approach, at),
-            None if approach <= 0.0 => (0.0, 0.0),
-            None => self.load_of_approach_outside(approach),
-        };
-        NormalPoint { value, slope }
+        let [point] = self.normal_forces(&[approach]);
+        point
     }
 
     /// The approach under a normal force \[N\] that [`Element::check_normal_force`] accepts. Its derivative at 0 is infinite for a
@@ -393,44 +456,10 @@ impl Element {
     #[must_use]
     #[inline(always)]
     pub fn approach_under(&self, normal_force: f64) -> NormalPoint {
-        let position = if self.by_approach() { None } else { self.of_input.position(normal_force) };
-        let Some(at) = position else { return self.approach_outside(normal_force) };
-        if self.has_third() {
-            let (value, slope) = self.third.value_and_slope(normal_force, at);
-            return NormalPoint { value, slope };
-        }
-        let (shift, slope) = self.of_input.value_and_slope(normal_force, at);
-        let per_approach = 1.0 / self.shift_per_approach;
-        let value = per_approach * (shift - self.shift_per_load * normal_force);
-        NormalPoint { value, slope: per_approach * (slope - self.shift_per_load) }
-    }
-
-    /// Values and slopes of [`Element::normal_force_at`] at four approaches, with the same bits.
-    #[inline(always)]
-    pub(crate) fn four_normal_forces(&self, approach: &[f64; 4]) -> [NormalPoint; 4] {
-        match if self.by_approach() { self.of_input.four::<true>(approach) } else { None } {
-            Some((value, slope)) => from_fn(|k| NormalPoint { value: value[k], slope: slope[k] }),
-            None => approach.map(|approach| self.normal_force_at(approach)),
-        }
-    }
-
-    /// The smallest size that is distinguished: [`SMALLEST_LOAD`] of the normal force of the parameters. Below it N, U and S are
-    /// proportional to each other, so that no power of a size underflows.
-    fn smallest_size(&self) -> f64 {
-        self.shape().at_load(SMALLEST_LOAD * self.normal_force)
-    }
-
-    #[inline(never)]
-    fn approach_outside(&self, normal_force: f64) -> NormalPoint {
-        let shape = self.shape();
-        if normal_force > 0.0 && normal_force < SMALLEST_LOAD * self.normal_force {
-            let w = self.smallest_size();
-            let slope = shape.approach(w) / shape.load(w);
-            return NormalPoint { value: slope * normal_force, slope };
-        }
-        let w = shape.at_load(normal_force);
-        let slope = if w > 0.0 || shape.half_width(0.0) > 0.0 { shape.normal_compliance(w) } else { f64::INFINITY };
-        NormalPoint { value: shape.approach(w), slope }
+        let table = if self.by_approach() { &Table::EMPTY } else { &self.of_input };
+        let [([value], [slope])] =
+            self.functions::<true, 1, 1>([table], [Quantity::Approach], Quantity::Load, &[normal_force]);
+        NormalPoint { value, slope }
     }
 
     /// # Errors
@@ -476,14 +505,12 @@ impl Element {
                 .map(|(x, part)| consumed * part * self.tangential_shift(direction, normal_force - x * consumed).slope)
                 .sum()
         };
-        let vanishes = stuck <= 0.0 && self.shape().half_width(0.0) <= 0.0;
-        let slope = if vanishes { f64::INFINITY } else { start.slope };
-        NormalPoint { value: mu.copysign(force) * shift, slope }
+        NormalPoint { value: mu.copysign(force) * shift, slope: start.slope }
     }
 
     /// S in a direction and its derivative by the normal force, from the shape.
     fn tangential_shift(&self, direction: usize, load: f64) -> NormalPoint {
-        let (shift, shift_slope) = self.shift_of_load(load);
+        let [(shift, shift_slope)] = self.outside([Quantity::Shift], Quantity::Load, load);
         if direction == 0 {
             return NormalPoint { value: shift, slope: shift_slope };
         }
@@ -502,7 +529,8 @@ impl Element {
     /// The tangential shift S \[m\] under a normal force \[N\]; 0 if that is 0.
     #[must_use]
     pub fn shift_under(&self, load: f64) -> f64 {
-        if load > 0.0 { self.shift_of_load(load).0 } else { 0.0 }
+        let [(shift, _)] = self.outside([Quantity::Shift], Quantity::Load, load);
+        shift
     }
 
     /// The normal force \[N\] at a tangential shift \[m\].
@@ -514,12 +542,6 @@ impl Element {
     /// Whether the normal component of a displacement is the approach.
     pub(crate) fn by_approach(&self) -> bool {
         self.tag & FORCE_INPUT == 0
-    }
-
-    /// Whether there is a table of the third quantity: with a layer, S is no sum of U and N with constant factors.
-    #[inline(always)]
-    fn has_third(&self) -> bool {
-        self.has_third != 0
     }
 
     /// The family of sizes.
@@ -583,37 +605,21 @@ impl Element {
     /// The normal state at an input that closes the contact.
     #[inline(always)]
     pub(crate) fn normal(&self, input: f64) -> Normal {
-        let (value, slope) = match self.of_input.position(input) {
-            Some(at) => self.of_input.value_and_slope(input, at),
-            None => self.outside(input),
-        };
-        if self.by_approach() {
-            if self.has_third() {
-                let (shift, shift_slope) = self.shift_of_approach(input);
-                return Normal { load: value, shift, load_slope: slope, shift_slope };
-            }
-            Normal {
-                load: value,
-                shift: self.shift_per_approach * input + self.shift_per_load * value,
-                load_slope: slope,
-                shift_slope: self.shift_per_approach + self.shift_per_load * slope,
-            }
-        } else {
-            Normal { load: input, shift: value, load_slope: 1.0, shift_slope: slope }
-        }
+        let [[load], [shift], [load_slope], [shift_slope]] = self.closed::<true, 1>(&[input]);
+        Normal { load, shift, load_slope, shift_slope }
     }
 
     /// N, S and, if requested, their derivatives at four inputs; zeros for an open contact.
     #[inline(always)]
     pub(crate) fn four_normals<const SLOPES: bool>(&self, input: &[f64; 4]) -> [[f64; 4]; 4] {
         if input.iter().all(|input| *input > 0.0) {
-            return self.four_closed::<SLOPES>(input);
+            return self.closed::<SLOPES, 4>(input);
         }
         // A closed contact in place of each open one.
         let substitute = self.of_input.smallest();
         let mut closed = *input;
         closed.iter_mut().for_each(|input| *input = if *input > 0.0 { *input } else { substitute });
-        let mut states = self.four_closed::<SLOPES>(&closed);
+        let mut states = self.closed::<SLOPES, 4>(&closed);
         for values in &mut states {
             for (value, input) in values.iter_mut().zip(input) {
                 *value = if *input > 0.0 { *value } else { 0.0 };
@@ -623,134 +629,30 @@ impl Element {
     }
 
     #[inline(always)]
-    fn four_closed<const SLOPES: bool>(&self, input: &[f64; 4]) -> [[f64; 4]; 4] {
-        let (value, slope) = match self.of_input.four::<SLOPES>(input) {
-            Some(values) => values,
-            None => self.four_outside(input),
-        };
-        if !self.by_approach() {
-            return [*input, value, [1.0; 4], slope];
-        }
-        let (ratio, per_load) = (self.shift_per_approach, self.shift_per_load);
-        let (mut shift, mut shift_slope) = ([0.0; 4], [0.0; 4]);
-        if self.has_third() {
-            (shift, shift_slope) = self.third.four::<SLOPES>(input).unwrap_or_else(|| self.four_shifts_outside(input));
-            return [value, shift, slope, shift_slope];
-        }
-        for k in 0..4 {
-            shift[k] = ratio * input[k] + per_load * value[k];
-            shift_slope[k] = ratio + per_load * slope[k];
-        }
-        [value, shift, slope, shift_slope]
-    }
-
-    #[inline(never)]
-    fn four_outside(&self, input: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
-        let (mut value, mut slope) = ([0.0; 4], [0.0; 4]);
-        for ((value, slope), &input) in value.iter_mut().zip(&mut slope).zip(input) {
-            (*value, *slope) = match self.of_input.position(input) {
-                Some(at) => self.of_input.value_and_slope(input, at),
-                None => self.outside(input),
-            };
-        }
-        (value, slope)
-    }
-
-    /// S(U) and its slope.
-    #[inline(never)]
-    fn shift_of_approach(&self, approach: f64) -> (f64, f64) {
-        if let Some(at) = self.third.position(approach) {
-            return self.third.value_and_slope(approach, at);
-        }
-        let (load, load_slope) = self.load_of_approach_outside(approach);
-        let (shift, slope) = self.shift_of_load(load);
-        (shift, slope * load_slope)
-    }
-
-    #[inline(never)]
-    fn four_shifts_outside(&self, approach: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
-        let (mut shift, mut shift_slope) = ([0.0; 4], [0.0; 4]);
-        for ((shift, slope), &approach) in shift.iter_mut().zip(&mut shift_slope).zip(approach) {
-            (*shift, *slope) = self.shift_of_approach(approach);
-        }
-        (shift, shift_slope)
-    }
-
-    /// N and, if requested, 1/K_t at four shifts S >= 0.
-    #[inline(always)]
-    pub(crate) fn four_loads<const SLOPES: bool>(&self, shift: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
-        match self.load_of_shift.four::<SLOPES>(shift) {
-            Some(values) => values,
-            None => self.four_loads_outside(shift),
-        }
-    }
-
-    #[inline(never)]
-    fn four_loads_outside(&self, shift: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
-        let (mut load, mut stiffness) = ([0.0; 4], [0.0; 4]);
-        for ((load, stiffness), &shift) in load.iter_mut().zip(&mut stiffness).zip(shift) {
-            (*load, *stiffness) = self.load_at_shift(shift);
-        }
-        (load, stiffness)
-    }
-
-    /// N(U) or S(N) and its slope, from the shape.
-    #[inline(never)]
-    fn outside(&self, input: f64) -> (f64, f64) {
+    fn closed<const SLOPES: bool, const L: usize>(&self, input: &[f64; L]) -> [[f64; L]; 4] {
         if self.by_approach() {
-            return self.load_of_approach_outside(input);
+            let (tables, quantities) = ([&self.of_input, &self.shift], [Quantity::Load, Quantity::Shift]);
+            let [(load, load_slope), (shift, shift_slope)] =
+                self.functions::<SLOPES, 2, L>(tables, quantities, Quantity::Approach, input);
+            return [load, shift, load_slope, shift_slope];
         }
-        self.shift_of_load(input)
+        let [(shift, slope)] = self.functions::<SLOPES, 1, L>([&self.shift], [Quantity::Shift], Quantity::Load, input);
+        [*input, shift, [1.0; L], slope]
     }
 
-    /// S(N) and its slope, from the shape.
-    fn shift_of_load(&self, load: f64) -> (f64, f64) {
-        let shape = self.shape();
-        if load < SMALLEST_LOAD * self.normal_force {
-            let w = self.smallest_size();
-            let slope = shape.shift(w) / shape.load(w);
-            return (slope * load, slope);
-        }
-        let w = shape.at_load(load);
-        (shape.shift(w), shape.tangential_compliance(w))
-    }
-
-    #[inline(never)]
-    fn load_of_approach_outside(&self, approach: f64) -> (f64, f64) {
-        let shape = self.shape();
-        if approach < self.approach {
-            let w = self.smallest_size();
-            let smallest = shape.approach(w);
-            if approach < smallest {
-                let slope = shape.load(w) / smallest;
-                return (slope * approach, slope);
-            }
-        }
-        let w = shape.at_approach(approach);
-        (shape.load(w), 1.0 / shape.normal_compliance(w))
+    /// N and, if requested, 1/K_t at shifts S >= 0.
+    #[inline(always)]
+    pub(crate) fn loads_at<const SLOPES: bool, const L: usize>(&self, shift: &[f64; L]) -> ([f64; L], [f64; L]) {
+        let table = [&self.load_of_shift];
+        let [load] = self.functions::<SLOPES, 1, L>(table, [Quantity::Load], Quantity::Shift, shift);
+        load
     }
 
     /// N and 1/K_t at a shift S >= 0.
     #[inline(always)]
     pub(crate) fn load_at_shift(&self, shift: f64) -> (f64, f64) {
-        match self.load_of_shift.position(shift) {
-            Some(at) => self.load_of_shift.value_and_slope(shift, at),
-            None => self.load_at_shift_outside(shift),
-        }
-    }
-
-    #[inline(never)]
-    fn load_at_shift_outside(&self, shift: f64) -> (f64, f64) {
-        match self.size_at_shift(shift) {
-            Ok(w) => (self.shape().load(w), 1.0 / self.shape().tangential_compliance(w)),
-            Err(slope) => (slope * shift.max(0.0), slope),
-        }
-    }
-
-    /// 1/K_t at first touch: 0 unless the contact has a flat.
-    fn touching_stiffness(&self) -> f64 {
-        let shape = self.shape();
-        if shape.half_width(0.0) > 0.0 { 1.0 / shape.tangential_compliance(0.0) } else { 0.0 }
+        let ([load], [stiffness]) = self.loads_at::<true, 1>(&[shift]);
+        (load, stiffness)
     }
 
     /// N'' at four monotone shifts S > 0. The quarter of the table from an earlier call is kept.
@@ -762,23 +664,15 @@ impl Element {
         }
     }
 
-    /// From the shape.
+    /// From the shape; 0 where N and S are proportional.
     #[inline(never)]
     fn curvature_outside(&self, shift: f64) -> f64 {
-        let Ok(w) = self.size_at_shift(shift) else { return 0.0 };
-        let [_, _, curvature, ..] = self.shape().series(w, Relation::LoadOfShift);
-        2.0 * curvature / (shift * shift)
-    }
-
-    /// The size at a shift outside the tables; below the smallest size, N/S as an error.
-    fn size_at_shift(&self, shift: f64) -> Result<f64, f64> {
-        let shape = self.shape();
-        if shift <= 0.0 {
-            return Err(self.touching_stiffness());
+        if shift <= self.smallest(Quantity::Shift) {
+            return 0.0;
         }
-        let smallest = self.smallest_size();
-        let smallest_shift = shape.shift(smallest);
-        if shift < smallest_shift { Err(shape.load(smallest) / smallest_shift) } else { Ok(shape.at_shift(shift)) }
+        let w = self.shape().size_at(Quantity::Shift, shift);
+        let [[_, _, curvature, ..], ..] = self.shape().series(w, Quantity::Shift);
+        2.0 * curvature / (shift * shift)
     }
 
     /// M, the integral of N, at a shift S >= 0.
@@ -795,10 +689,10 @@ impl Element {
 
     #[inline(never)]
     fn potential_outside(&self, shift: f64) -> f64 {
-        match self.size_at_shift(shift) {
-            Ok(w) => self.shape().potential(w),
-            Err(slope) => 0.5 * slope * shift * shift,
+        if shift <= self.smallest(Quantity::Shift) {
+            return 0.5 * self.load_under(shift) * shift;
         }
+        self.shape().potential(self.shape().size_at(Quantity::Shift, shift))
     }
 }
 
@@ -828,13 +722,11 @@ const EMPTY: Element = Element {
     largest_approach: 0.0,
     largest_shift: 0.0,
     smallest_input: 0.0,
-    shift_per_approach: 0.0,
-    shift_per_load: 0.0,
-    has_third: 0,
+    smallest: [0.0; 3],
     flat: Layered { shape: RoundedFlat::EMPTY, layer: Layer::NONE },
     ellipse: Layered { shape: HertzEllipse::EMPTY, layer: Layer::NONE },
     of_input: Table::EMPTY,
-    third: Table::EMPTY,
+    shift: Table::EMPTY,
     load_of_shift: Table::EMPTY,
     potential: [0.0; PIECES],
     lateral: [0.0; 2],

@@ -31,23 +31,14 @@ pub trait Shape {
     /// Half-width s \[m\]; for an ellipse the semi-axis x.
     fn half_width(&self, w: f64) -> f64;
 
-    /// Normal force N \[N\].
-    fn load(&self, w: f64) -> f64;
+    /// N, U or S \[N, m\].
+    fn value(&self, quantity: Quantity, w: f64) -> f64;
 
-    /// Normal approach U \[m\].
-    fn approach(&self, w: f64) -> f64;
-
-    /// Tangential shift S \[m\].
-    fn shift(&self, w: f64) -> f64;
+    /// The derivative of N, U or S by N: 1, K_n, K_t \[m/N\].
+    fn compliance(&self, quantity: Quantity, w: f64) -> f64;
 
     /// M = ∫ N dS \[J\].
     fn potential(&self, w: f64) -> f64;
-
-    /// K_n = dU/dN \[m/N\].
-    fn normal_compliance(&self, w: f64) -> f64;
-
-    /// K_t = dS/dN \[m/N\].
-    fn tangential_compliance(&self, w: f64) -> f64;
 
     /// K_n \[m/N\] of a flat punch of the half-width s below that of the flat; not used without a flat.
     fn compliance_under_flat(&self, half_width: f64) -> f64;
@@ -58,14 +49,8 @@ pub trait Shape {
     /// d(w²)/dN \[m²/N\].
     fn size_slope(&self, w: f64) -> f64;
 
-    /// The size w that carries a normal force \[N\].
-    fn at_load(&self, load: f64) -> f64;
-
-    /// The size w at a normal approach \[m\].
-    fn at_approach(&self, approach: f64) -> f64;
-
-    /// The size w at a tangential shift \[m\].
-    fn at_shift(&self, shift: f64) -> f64;
+    /// The size w at which N, U or S has a value.
+    fn size_at(&self, quantity: Quantity, value: f64) -> f64;
 
     /// The largest size for which the laws hold.
     fn largest_size(&self) -> f64;
@@ -74,9 +59,34 @@ pub trait Shape {
     /// the x axis.
     fn pressure_between(&self, from: f64, to: f64, x: f64) -> f64;
 
-    /// Taylor coefficients about the size w > 0 of one quantity as a function of another, x: the coefficients of the powers of ρ
-    /// for the argument `x (1 + ρ)`.
-    fn series(&self, w: f64, relation: Relation) -> Series;
+    /// N, U and S about the size w > 0 as functions of one of them: Taylor coefficients in ρ for the argument `x (1 + ρ)`.
+    fn series(&self, w: f64, argument: Quantity) -> [Series; 3];
+
+    /// N \[N\].
+    fn load(&self, w: f64) -> f64 {
+        self.value(Quantity::Load, w)
+    }
+
+    /// The size w under a normal force \[N\].
+    fn at_load(&self, load: f64) -> f64 {
+        self.size_at(Quantity::Load, load)
+    }
+}
+
+/// What grows with the size.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Quantity {
+    /// Normal force N.
+    Load,
+    /// Normal approach U.
+    Approach,
+    /// Tangential shift S.
+    Shift,
+}
+
+impl Quantity {
+    /// N, U and S.
+    pub const ALL: [Quantity; 3] = [Quantity::Load, Quantity::Approach, Quantity::Shift];
 }
 
 /// A contact under forces in both directions of the plane of contact, x and y.
@@ -96,7 +106,7 @@ pub(crate) struct Plane<'a> {
 impl Plane<'_> {
     /// N, and S in both directions.
     pub fn load_and_shifts(&self, w: f64) -> [f64; 3] {
-        let (load, approach) = (self.shape.load(w), self.shape.approach(w));
+        let (load, approach) = (self.shape.load(w), self.shape.value(Quantity::Approach, w));
         let layer = self.layer.shift(load);
         let shift = |k: usize| self.per_approach[k] * approach + self.per_load[k] * load + layer;
         [load, shift(0), shift(1)]
@@ -115,19 +125,11 @@ pub(crate) const ORDER: usize = 16;
 /// Taylor coefficients.
 pub type Series = [f64; ORDER];
 
-/// A relation between two quantities of a family of sizes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Relation {
-    /// N as a function of U.
-    LoadOfApproach,
-    /// N as a function of S.
-    LoadOfShift,
-    /// S as a function of N.
-    ShiftOfLoad,
-    /// U as a function of N.
-    ApproachOfLoad,
-    /// S as a function of U.
-    ShiftOfApproach,
+/// The series of an argument itself, `x (1 + ρ)`.
+pub(crate) fn identity(x: f64) -> Series {
+    let mut series = [0.0; ORDER];
+    (series[0], series[1]) = (x, x);
+    series
 }
 
 /// A power series whose coefficients are stored from the last to the first, with zeros behind, so that the sums over k of products of

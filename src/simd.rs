@@ -17,29 +17,39 @@ pub(crate) fn has_avx2() -> bool {
     std::is_x86_feature_detected!("avx2")
 }
 
-/// Calls a kernel, which must be `#[inline(always)]`, in the variant for the present processor:
-/// `dispatch!(kernel, x: &[f64] => f64)`.
+/// Runs a kernel in code for AVX2; the caller checked the processor.
+#[cfg(target_arch = "x86_64")]
+#[target_feature(enable = "avx2")]
+#[inline(never)]
+pub(crate) fn on_avx2<R>(kernel: impl FnOnce() -> R) -> R {
+    kernel()
+}
+
+/// Runs a kernel in code for all processors.
+#[inline(never)]
+pub(crate) fn on_baseline<R>(kernel: impl FnOnce() -> R) -> R {
+    kernel()
+}
+
+/// Returns the result of a call of a kernel, in the variant for the present processor: `dispatch!(kernel(x, y))`. The kernel must be
+/// `#[inline(always)]`, like the closures around the call, so that it is compiled for the processor of the function that runs it.
 macro_rules! dispatch {
-    ($kernel:expr, $([$(const $generic:ident: $kind:ty),+])? $($argument:ident: $type:ty),+ => $result:ty) => {{
-        #[inline(never)]
-        fn on_baseline$(<$(const $generic: $kind),+>)?($($argument: $type),+) -> $result {
-            $kernel($($argument),+)
-        }
-
-        #[cfg(target_arch = "x86_64")]
-        #[target_feature(enable = "avx2")]
-        #[inline(never)]
-        fn on_avx2$(<$(const $generic: $kind),+>)?($($argument: $type),+) -> $result {
-            $kernel($($argument),+)
-        }
-
+    ($call:expr) => {{
         #[cfg(target_arch = "x86_64")]
         if $crate::simd::has_avx2() {
             // SAFETY: the processor has AVX2.
             #[allow(unsafe_code)]
-            return unsafe { on_avx2$(::<$($generic),+>)?($($argument),+) };
+            return unsafe {
+                $crate::simd::on_avx2(
+                    #[inline(always)]
+                    move || $call,
+                )
+            };
         }
-        on_baseline$(::<$($generic),+>)?($($argument),+)
+        $crate::simd::on_baseline(
+            #[inline(always)]
+            move || $call,
+        )
     }};
 }
 

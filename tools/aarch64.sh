@@ -49,10 +49,9 @@ drivers() {
     MICROSLIP_PREFIX="$installed" MICROSLIP_TARGET=$triple MICROSLIP_RUNNER="$emulator" \
         CC=${cross}gcc CXX=${cross}g++ FC=${cross}gfortran "$CARGO" test --locked --test c_drivers
 }
-# Imports and the bounded memory are no matter of the processor.
+# Imports are no matter of the processor.
 rust() {
-    "$CARGO" test --locked --package microslip --target $triple --lib --test harmonic_balance --test properties \
-        --test two_directions --test varying_load
+    "$CARGO" test --locked --package microslip --target $triple --lib --test histories --test two_directions
 }
 
 # application COMPILER PREFIX PROGRAM FLAG...: the program that makes all calls.

@@ -24,14 +24,13 @@ rust() {
     step 'lints: shell' sh -c 'git ls-files "*.sh" | xargs shellcheck .ci/run'
     step 'coverage: 98 % of the lines of src/' tools/coverage.sh
     step 'Miri' tools/miri.sh
-    step 'properties of random contacts and histories' "$CARGO" test --locked --test properties --test varying_load
     step 'accuracy, 1e5 points' "$CARGO" run --quiet --locked --package accuracy -- --points 1e5
     step 'stress: adversarial histories' "$CARGO" run --quiet --locked --package stress -- --scale 0.01
     step 'verdicts of 40 fits of each kind' env MICROSLIP_FITS=40 \
         "$CARGO" test --locked --package microslip-fit --test wrong_models -- plateau microslip
     step 'two directions: Jacobians of 4,000 random motions' \
         "$CARGO" test --locked --test two_directions -- --ignored
-    step 'bounded memory, 20,000 cycles' env MICROSLIP_CYCLES=20000 "$CARGO" test --locked --test bounded_memory
+    step 'histories: random, and 20,000 cycles' env MICROSLIP_CYCLES=20000 "$CARGO" test --locked --test histories
     step 'references of the interfaces' tools/docs.sh
 }
 

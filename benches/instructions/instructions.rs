@@ -57,10 +57,10 @@ const RELATIONS: &[(&str, f64, &str, &str)] = &[
     ("element_harmonics_open", 0.05, "element_harmonics", "an open contact has no force"),
     ("curve_layer", 1.02, "curve_force", "a layer with N_c >= N/12 changes the polynomials only"),
     ("harmonics_layer", 1.02, "harmonics", "a layer with N_c >= N/12 changes the polynomials only"),
-    ("stiffness_layer", 3.0, "stiffness", "a layer with N_c < N/4 takes more nodes"),
+    ("stiffness_layer", 1.3, "stiffness", "a layer with N_c >= N/12 changes the polynomials only"),
     ("curve_rough_layer", 20.0, "curve_force", "the documented cost of a small N_c"),
     ("harmonics_rough_layer", 15.0, "harmonics", "the documented cost of a small N_c"),
-    ("stiffness_rough_layer", 80.0, "stiffness", "the documented cost of a small N_c"),
+    ("stiffness_rough_layer", 50.0, "stiffness", "the documented cost of a small N_c"),
 ];
 
 /// N_c over N of layers as compliant as the contact; without a layer.

@@ -889,10 +889,10 @@ fn errors_in_files_name_file_and_line() {
         ("poisson_ratio", "length", "unknown field `length`, expected `young_modulus` or `poisson_ratio`"),
         ("units = \"si\"", "young_modulus = 1", "unknown field `young_modulus`"),
         ("\"si\"", "\"inch\"", "unknown variant `inch`, expected `si` or `mm`"),
-        ("0.5e-3", "-1", &format!("{}, not -1", Error::BadFlatHalfWidth)),
-        ("3e-3", "nan", &format!("{}, not NaN", Error::BadEdgeRadius)),
+        ("= 0.0 ", "= -1 ", &format!("{}, not -1", Error::BadFlatHalfWidth)),
+        ("10e-3", "nan", &format!("{}, not NaN", Error::BadEdgeRadius)),
         ("800", "'800'", "invalid type: string \"800\", expected f64"),
-        ("20e-3", "20e", "line 5"),
+        ("= 3e-3", "= 3e", "line 5"),
         ("[[material]]", "[[material]]\n[[material]]\n[[material]]", "at most two tables [[material]]"),
     ] {
         assert!(example.contains(from));

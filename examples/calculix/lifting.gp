@@ -15,11 +15,11 @@ set key top left reverse Left samplen 2
 set xrange [-10:*]
 
 set terminal svg size wide, high dynamic background rgb 'white' font 'Helvetica,14'
-set output 'results/lifting.svg'
+set output '| python3 ../../tools/svg.py > results/lifting.svg'
 set multiplot layout 1, 2 margins 0.075, 0.985, 0.14, 0.9 spacing 0.09
 do for [name in 'lifting lifting_dynamic'] {
   set title name eq 'lifting' ? 'loads, slip, lift and return' : 'four periods of 300 Hz across, 200 Hz sideways'
-  plot sprintf('results/%s.csv', name) using 7:6 with linespoints ls 1 title 'CalculiX', \
+  plot sprintf('%s/%s.csv', name eq 'lifting' ? 'results' : 'build/jobs', name) every (name eq 'lifting' ? 1 : 2) using 7:6 with linespoints ls 1 title 'CalculiX', \
        x < 0 ? NaN : 0.5*x with lines ls 2 title '±μN', x < 0 ? NaN : -0.5*x with lines ls 2 notitle
 }
 unset multiplot

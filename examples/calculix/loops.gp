@@ -15,12 +15,12 @@ set key top left reverse Left samplen 2
 set offsets graph 0.04, graph 0.04, graph 0.12, graph 0.06
 
 set terminal svg size wide, high dynamic background rgb 'white' font 'Helvetica,14'
-set output 'results/loops.svg'
+set output '| python3 ../../tools/svg.py > results/loops.svg'
 set multiplot layout 1, 2 margins 0.075, 0.985, 0.14, 0.92 spacing 0.09
 set title 'loads back and forth'
 plot 'build/jobs/static_curve.csv' using (1e3*$1):2 with lines ls 1 title 'microslip', \
      'results/static.csv' using (1e3*$3):4 with points ls 2 ps 0.8 title 'CalculiX'
 set title 'five periods of 380 Hz from rest, every fourth increment'
 plot 'build/jobs/dynamic_curve.csv' using (1e3*$1):2 with lines ls 1 title 'microslip', \
-     'results/dynamic.csv' using (1e3*$3):4 every 4 with points ls 2 ps 0.4 title 'CalculiX'
+     'build/jobs/dynamic.csv' using (1e3*$3):4 every 4 with points ls 2 ps 0.4 title 'CalculiX'
 unset multiplot

@@ -14,7 +14,7 @@ set key top left reverse Left samplen 2
 set samples 200
 
 set terminal svg size wide, high dynamic background rgb 'white' font 'Helvetica,14'
-set output 'results/orbit.svg'
+set output '| python3 ../../tools/svg.py > results/orbit.svg'
 set multiplot layout 1, 2 margins 0.075, 0.985, 0.13, 0.92 spacing 0.09
 set title 'two turns of the load'
 set xlabel 'displacement v along the blade (µm)' offset 0, 0.3

@@ -1,6 +1,6 @@
 #!/bin/sh
 # run.sh PREFIX: builds CalculiX 2.20 from Debian's source package with the contact as its user element U1, runs the models,
-# compares the results with the library, and rewrites tables and figure in results/. PREFIX is the installation of microslip;
+# compares the results with the library, and rewrites the tables of static jobs and the figures in results/. PREFIX is the installation of microslip;
 # everything else is in build/.
 set -eu
 
@@ -76,13 +76,15 @@ for name in static dynamic frequency matrices lifting lifting_dynamic orbit orbi
 cp static.rout resumed.rin
 job resumed
 table static > ../../results/static.csv
-table dynamic > ../../results/dynamic.csv
+table dynamic > dynamic.csv
 table resumed > resumed.csv
 awk '$1 == 1 && NF == 5 { print $2; exit }' frequency.dat > ../../results/frequency.csv
 header='time,tip_y,tip_z,displacement,approach,force,normal_force,dissipated'
-for name in lifting lifting_dynamic; do table_element "$header" $name > ../../results/$name.csv; done
+table_element "$header" lifting > ../../results/lifting.csv
+table_element "$header" lifting_dynamic > lifting_dynamic.csv
 header='time,tip_x,tip_y,tip_z,displacement_u,displacement_v,approach,force_x,force_y,normal_force,dissipated'
-for name in orbit orbit_dynamic; do table_element "$header" $name > ../../results/$name.csv; done
+table_element "$header" orbit > ../../results/orbit.csv
+table_element "$header" orbit_dynamic > orbit_dynamic.csv
 cp law.inp element.inp ../../results/
 
 tail -n +2 resumed.csv > resumed.tail

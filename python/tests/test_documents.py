@@ -43,6 +43,14 @@ def test_pictures(tmp_path):
     assert min(pictures.values()) > 10_000
 
 
+@pytest.mark.parametrize("name", ["rebound"])
+def test_examples_print_what_they_say(name, tmp_path):
+    printed = run(str(EXAMPLES / f"{name}.py"), directory=tmp_path).splitlines()
+    text = (EXAMPLES / f"{name}.py").read_text()
+    assert printed
+    assert re.findall(r"^    (.*)$", text.split('"""')[1], re.MULTILINE) == printed
+
+
 @pytest.mark.parametrize("name", ["times", "pyharm_microslip", "tmdsimpy_microslip"])
 def test_programs_that_measure_times(name, tmp_path):
     output = run(str(EXAMPLES / f"{name}.py"), directory=tmp_path)

@@ -91,8 +91,7 @@ impl Contact {
 
     /// F and dF/dξ at ξ = 1 - e, in units of the initial stiffness.
     pub(crate) fn cycle_integrals(&self, xi: f64, e: f64) -> [f64; 2] {
-        let contact = self;
-        dispatch!(Contact::cycle_integrals_kernel, contact: &Contact, xi: f64, e: f64 => [f64; 2])
+        dispatch!(self.cycle_integrals_kernel(xi, e))
     }
 
     #[inline(always)]
@@ -246,8 +245,7 @@ impl ComplexStiffness<'_> {
     /// K'' and its derivative.
     #[inline(always)]
     pub(crate) fn imaginary_with_derivative(&self) -> (f64, f64) {
-        let stiffness = self;
-        dispatch!(ComplexStiffness::imaginary_kernel, stiffness: &ComplexStiffness => (f64, f64))
+        dispatch!(self.imaginary_kernel())
     }
 
     #[inline(always)]

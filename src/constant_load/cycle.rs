@@ -76,7 +76,7 @@ impl Contact {
     #[inline(always)]
     pub(crate) fn load_at(&self, displacement: Complement) -> Option<(Complement, f64)> {
         match self.evaluator().load_at(displacement) {
-            None if self.is_layered() => self.load_with_knee(displacement.consumed),
+            None if self.is_layered() => self.load_with_knee(displacement.remaining),
             load => load,
         }
     }

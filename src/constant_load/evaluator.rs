@@ -66,14 +66,7 @@ impl Contact {
     /// Force and stiffness at displacements of either sign.
     #[inline(always)]
     pub(crate) fn responses(&self, displacement: &[f64], force: Option<&mut [f64]>, stiffness: Option<&mut [f64]>) {
-        let contact = self;
-        dispatch!(
-            Contact::responses_kernel,
-            contact: &Contact,
-            displacement: &[f64],
-            force: Option<&mut [f64]>,
-            stiffness: Option<&mut [f64]> => ()
-        );
+        dispatch!(self.responses_kernel(displacement, force, stiffness));
     }
 
     #[inline(always)]
@@ -110,7 +103,7 @@ impl Contact {
         if self.is_frictionless() {
             return Response { force: 0.0, stiffness: 0.0 };
         }
-        if let Some((load, stiffness)) = self.load_with_knee(displacement) {
+        if let Some((load, stiffness)) = self.load_with_knee(self.slip_displacement - displacement) {
             return Response { force: self.slip_force - self.slip_force * load.remaining, stiffness };
         }
         let zone = self.stick_zone_at_displacement(displacement);
@@ -128,15 +121,19 @@ impl Contact {
     fn solved_stiffnesses(&self, x: &[f64], rho: &[f64], stiffnesses: &mut [f64]) {
         let (zones, slip) = (self.stick_zones(), self.stick_zones().slip_shift());
         for ((stiffness, x), rho) in stiffnesses.iter_mut().zip(x).zip(rho) {
-            *stiffness = self.stiffness_of(&zones.at_shift(Complement { consumed: x * slip, remaining: rho * slip }));
+            *stiffness = match self.load_with_knee(rho * self.slip_displacement) {
+                Some((_, stiffness)) => stiffness,
+                None => self.stiffness_of(&zones.at_shift(Complement { consumed: x * slip, remaining: rho * slip })),
+            };
         }
     }
 
-    /// The load at a displacement and the stiffness, of a contact whose layer bends the curve strongly, beyond half of mu N: Newton's method
-    /// in the logarithm of the remaining shift of the contact without its layer, which has an interpolant.
-    pub(crate) fn load_with_knee(&self, displacement: f64) -> Option<(Complement, f64)> {
+    /// The load at a distance from the displacement of gross slip and the stiffness, of a contact whose layer bends the curve strongly,
+    /// beyond half of mu N: Newton's method in the logarithm of the remaining shift of the contact without its layer, which has an
+    /// interpolant.
+    pub(crate) fn load_with_knee(&self, distance: f64) -> Option<(Complement, f64)> {
         let (zones, alone) = (self.layered_zones(), self.layered_zones().contact());
-        let remaining = (self.slip_displacement - displacement) * self.per_displacement_scale;
+        let remaining = distance * self.per_displacement_scale;
         let has_curve = self.is_ellipse() || self.interpolant().is_without_layer();
         if !self.is_layered()
             || self.interpolant().is_converged()

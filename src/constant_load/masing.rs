@@ -71,16 +71,7 @@ impl BranchEvaluator<'_> {
         forces: &mut [f64],
         stiffnesses: &mut [f64],
     ) {
-        let evaluator = self;
-        dispatch!(
-            BranchEvaluator::along_kernel::<STIFFNESS>,
-            [const STIFFNESS: bool] evaluator: &BranchEvaluator,
-            count: usize,
-            displacement: &[f64],
-            scratch: [&mut [f64]; 2],
-            forces: &mut [f64],
-            stiffnesses: &mut [f64] => ()
-        );
+        dispatch!(self.along_kernel::<STIFFNESS>(count, displacement, scratch, forces, stiffnesses));
     }
 
     #[inline(always)]

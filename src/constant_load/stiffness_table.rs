@@ -22,7 +22,7 @@ use crate::constant_load::interpolant::{CYCLE_WEIGHTS, INNER_FRACTION};
 use crate::constant_load::interpolant::{ENERGY_WEIGHTS, Place, eighth_root, weighted};
 use crate::numerics::chebyshev::{Interpolant, MORE_FROM_END, Polynomial, powers};
 use crate::numerics::polynomial::{Rows, rows, value_and_slope};
-use crate::numerics::quadrature::{MAX_GAUSS_BLOCKS, gauss_nodes};
+use crate::numerics::quadrature::gauss;
 use crate::shape::stick_zone::Complement;
 use crate::simd::dispatch;
 use crate::tag::Kind;
@@ -93,27 +93,31 @@ struct Pieces<const R: usize> {
 impl<const R: usize> Pieces<R> {
     const NONE: Pieces<R> = Pieces { rows_of_first: 0.0, first: [[0.0; 4]; _], others: [[[0.0; 4]; R]; PIECES - 1] };
 
-    /// The mean over (0, d) of a function of a distance d up to TOP, which is interpolated on some pieces first.
+    /// The mean over (0, d) of a function of a distance d up to TOP, which is interpolated on some pieces first. It is a sum over pieces:
+    /// for a small a/b, one of them contains singularities close to the real axis, to which a rule over (0, d) would not converge.
     #[inline(never)]
     fn mean_of<const MORE: usize>(rate: impl Fn(f64) -> f64) -> Pieces<R> {
-        let rates: [Rows<{ POINTS / 4 }>; MORE] = from_fn(|piece| {
-            powers(Interpolant::<POINTS>::through(|z| rate(TOP * Place { piece, z }.distance())).terms())
-        });
-        let mean = |piece: usize| {
-            // ∫ 8 y⁷ f(d y⁸) dy from 0 to 1.
-            Interpolant::<POINTS>::through(|z| {
-                let term = |(y, weight): (&f64, &f64)| {
-                    let (square, place) = (y * y, Place::of(Place { piece, z }.root() * y, MORE));
-                    let value = rates.get(place.piece).map_or(0.0, |rows| value_and_slope(rows, place.z).0);
-                    8.0 * weight * y * square * square * square * value
-                };
-                gauss_nodes(MAX_GAUSS_BLOCKS).map(term).sum()
-            })
-        };
-        let mut pieces = Pieces { first: powers(mean(0).terms()), ..Pieces::NONE };
+        let (mut pieces, mut mean_below) = (Pieces::NONE, None);
+        for piece in (0..MORE).rev() {
+            let rates = Interpolant::<POINTS>::through(|z| rate(TOP * Place { piece, z }.distance()));
+            let rates: Rows<{ POINTS / 4 }> = powers(rates.terms());
+            let rate = |z| value_and_slope(&rates, z).0;
+            let below = mean_below.unwrap_or_else(|| rate(-1.0));
+            // The part below the piece, and ∫ 8 y⁷ f(d y⁸) dy from its end to 1.
+            let mean = Interpolant::<POINTS>::through(|z| {
+                let end = 2.0 / (3.0 + z);
+                let on_piece = |y: f64| 8.0 * (y * (y * y) * (y * y) * (y * y)) * rate((3.0 + z) * y - 3.0);
+                end.powi(8) * below + gauss(1.0 - end, |from_end| on_piece(end + from_end))
+            });
+            mean_below = Some(mean.terms().iter().sum());
+            match pieces.others.get_mut(piece.wrapping_sub(1)) {
+                Some(rows) => *rows = powers(mean.terms()),
+                None if piece == 0 => pieces.first = powers(mean.terms()),
+                None => {}
+            }
+        }
         let used = pieces.first.iter().rposition(|row| row.iter().any(|power| *power != 0.0));
         pieces.rows_of_first = used.map_or(0.0, |last| (last + 1) as f64);
-        pieces.others.iter_mut().zip(1..).for_each(|(rows, piece)| *rows = powers(mean(piece).terms()));
         pieces
     }
 
@@ -232,14 +236,7 @@ impl StiffnessTable {
     /// Writes what is requested of K', K'' and their derivatives at amplitudes \[m\] of a contact with friction of this shape.
     #[inline(always)]
     pub fn write(&self, contact: &Contact, amplitude: &[f64], outputs: StiffnessOutputs) {
-        let table = self;
-        dispatch!(
-            StiffnessTable::write_kernel,
-            table: &StiffnessTable,
-            contact: &Contact,
-            amplitude: &[f64],
-            outputs: StiffnessOutputs => ()
-        );
+        dispatch!(self.write_kernel(contact, amplitude, outputs));
     }
 
     #[inline(always)]

@@ -38,20 +38,28 @@ pub(crate) struct Table {
 pub(crate) struct Position {
     index: usize,
     t: f64,
-    /// x over the half-length of the quarter.
-    scaled: f64,
 }
 
 impl Table {
-    pub const EMPTY: Table = Table { base: 0, quarters: [[0.0; TERMS]; PIECES] };
+    pub const EMPTY: Table = Table { base: u64::MAX, quarters: [[0.0; TERMS]; PIECES] };
 
-    /// Fills the table up to (at least) the argument `largest`, a normal number, from the Taylor series of y about the middle x of
-    /// each quarter in powers of ρ, for the argument x (1 + ρ), in the order of the quarters.
-    pub fn fill(&mut self, largest: f64, series_about: &mut dyn FnMut(f64) -> Series) {
-        self.base = (largest.to_bits() >> SHIFT).saturating_sub(PIECES as u64 - 1);
-        for (number, quarter) in (self.base..).zip(&mut self.quarters) {
+    /// Fills tables of several functions of one argument up to (at least) the argument `largest`, a normal number, from their Taylor
+    /// series about the middle x of each quarter in powers of ρ, for the argument x (1 + ρ), in the order of the quarters.
+    pub fn fill<const K: usize>(
+        tables: [&mut Table; K],
+        largest: f64,
+        series_about: &mut dyn FnMut(f64) -> [Series; K],
+    ) {
+        let base = (largest.to_bits() >> SHIFT).saturating_sub(PIECES as u64 - 1);
+        let mut tables = tables.map(|table| {
+            table.base = base;
+            table.quarters.iter_mut()
+        });
+        for number in base..base + PIECES as u64 {
             let [middle, half_length] = middle_and_half_length(number);
-            *quarter = economized(&series_about(middle), middle, half_length);
+            for (series, quarters) in series_about(middle).iter().zip(&mut tables) {
+                quarters.next().into_iter().for_each(|quarter| *quarter = economized(series, middle, half_length));
+            }
         }
     }
 
@@ -60,7 +68,7 @@ impl Table {
     pub fn position(&self, x: f64) -> Option<Position> {
         let bits = x.to_bits();
         let index = (bits >> SHIFT).wrapping_sub(self.base) as usize;
-        (index < PIECES).then_some(Position { index, t: position_in(x), scaled: POSITION * mantissa(x, 52) })
+        (index < PIECES).then_some(Position { index, t: position_in(x) })
     }
 
     #[inline(always)]
@@ -68,34 +76,34 @@ impl Table {
         self.quarters.get(at.index).unwrap_or(&[0.0; TERMS])
     }
 
-    /// y and dy/dx: the operations of [`two`], with the same bits.
+    /// y and, if requested, dy/dx at some arguments; `None` if one is outside.
     #[inline(always)]
-    pub fn value_and_slope(&self, x: f64, at: Position) -> (f64, f64) {
-        let t = at.t;
-        let t2 = t * t;
-        let (low, high) = cubic::<true>(self.coefficients(at), t2 * t2);
-        let ([[c0, c1], [d0, d1]], [[c2, c3], [d2, d3]]) = (low.map(f64x2::to_array), high.map(f64x2::to_array));
-        let q = (c0 + c1 * t) + t2 * (c2 + c3 * t);
-        let by_blocks = (d0 + d1 * t) + t2 * (d2 + d3 * t);
-        let by_cubic = (c1 + (c2 + c2) * t) + 3.0 * (c3 * t2);
-        (x * q, q + at.scaled * (by_cubic + 4.0 * (t * t2) * by_blocks))
+    pub fn at<const SLOPES: bool, const L: usize>(&self, x: &[f64; L]) -> Option<([f64; L], [f64; L])> {
+        let mut rows = [&[0.0; TERMS]; L];
+        for (row, x) in rows.iter_mut().zip(x) {
+            *row = self.quarters.get((x.to_bits() >> SHIFT).wrapping_sub(self.base) as usize)?;
+        }
+        let (mut values, mut slopes) = ([0.0; L], [0.0; L]);
+        let (pairs, last) = (values.as_chunks_mut::<2>(), slopes.as_chunks_mut::<2>());
+        let inputs = x.as_chunks::<2>().0.iter().zip(rows.as_chunks::<2>().0);
+        for ((value, slope), (&x, &rows)) in pairs.0.iter_mut().zip(last.0).zip(inputs) {
+            (*value, *slope) = two::<SLOPES>(x, rows);
+        }
+        if let ([value], [slope], Some((&x, row))) = (pairs.1, last.1, x.last().zip(rows.last())) {
+            (*value, *slope) = one(x, row);
+        }
+        Some((values, slopes))
+    }
+
+    /// y and dy/dx at an argument inside.
+    pub fn one_at(&self, x: f64) -> (f64, f64) {
+        self.position(x).map_or((0.0, 0.0), |at| one(x, self.coefficients(at)))
     }
 
     /// The smallest argument inside.
     #[inline(always)]
     pub fn smallest(&self) -> f64 {
         f64::from_bits(self.base << SHIFT)
-    }
-
-    /// Values and, if requested, slopes at four arguments; `None` if one is outside.
-    #[inline(always)]
-    pub fn four<const SLOPES: bool>(&self, &[a, b, c, d]: &[f64; 4]) -> Option<([f64; 4], [f64; 4])> {
-        let row = |x: f64| self.quarters.get((x.to_bits() >> SHIFT).wrapping_sub(self.base) as usize);
-        let rows = (row(a), row(b), row(c), row(d));
-        let (Some(row_a), Some(row_b), Some(row_c), Some(row_d)) = rows else { return None };
-        let ([a, b], [slope_a, slope_b]) = two::<SLOPES>([a, b], [row_a, row_b]);
-        let ([c, d], [slope_c, slope_d]) = two::<SLOPES>([c, d], [row_c, row_d]);
-        Some(([a, b, c, d], [slope_a, slope_b, slope_c, slope_d]))
     }
 
     /// y'' at four monotone arguments; `None` if one is outside. The quarter of an earlier call is kept.
@@ -152,6 +160,19 @@ fn mantissa(x: f64, bits: u32) -> f64 {
 #[inline(always)]
 fn position_in(x: f64) -> f64 {
     POSITION * mantissa(x, SHIFT) - (POSITION + 1.0)
+}
+
+/// Value and slope at an argument from its row: the operations of [`two`], with the same bits.
+#[inline(always)]
+fn one(x: f64, row: &[f64; TERMS]) -> (f64, f64) {
+    let t = position_in(x);
+    let t2 = t * t;
+    let (low, high) = cubic::<true>(row, t2 * t2);
+    let ([[c0, c1], [d0, d1]], [[c2, c3], [d2, d3]]) = (low.map(f64x2::to_array), high.map(f64x2::to_array));
+    let q = (c0 + c1 * t) + t2 * (c2 + c3 * t);
+    let by_blocks = (d0 + d1 * t) + t2 * (d2 + d3 * t);
+    let by_cubic = (c1 + (c2 + c2) * t) + 3.0 * (c3 * t2);
+    (x * q, q + POSITION * mantissa(x, 52) * (by_cubic + 4.0 * (t * t2) * by_blocks))
 }
 
 /// Values and, if requested, slopes at two arguments from their rows.
@@ -291,22 +312,22 @@ static MONIC_CHEBYSHEV: [[f64; ORDER]; ORDER - TERMS] = monic_powers(0.0, 1.0);
 mod tests {
     use super::*;
     use crate::constant_load::contact::tests::{FLATS, parameters};
-    use crate::shape::{Layer, Layered, Relation, RoundedFlat, Shape};
+    use crate::shape::{Layer, Layered, Quantity, RoundedFlat, Shape};
 
     #[test]
     fn tables_are_the_laws_of_the_shape_to_rounding() {
         for flat in FLATS {
             let shape = RoundedFlat::new(&parameters(flat)).unwrap();
-            let largest = shape.shift(shape.at_load(150.0));
+            let largest = shape.value(Quantity::Shift, shape.at_load(150.0));
             let mut table = Table::EMPTY;
-            table.fill(largest, &mut |x| shape.series(shape.at_shift(x), Relation::LoadOfShift));
+            let at = |x: f64| shape.size_at(Quantity::Shift, x);
+            let series = |x: f64| shape.series(at(x), Quantity::Shift)[0];
+            Table::fill([&mut table], largest, &mut |x| [series(x)]);
             assert!(table.position(largest).is_some() && table.position(2.0 * largest).is_none());
             assert!(table.position(largest * 0.25_f64.powi(11)).is_none() && table.position(0.0).is_none());
             let mut x = largest;
-            while let Some(at) = table.position(x) {
-                let w = shape.at_shift(x);
-                let (load, slope) = table.value_and_slope(x, at);
-                let [exact, first, second, ..] = shape.series(w, Relation::LoadOfShift);
+            while let Some(([load], [slope])) = table.at::<true, 1>(&[x]) {
+                let [exact, first, second, ..] = series(x);
                 // The shape's own laws and their inverse have relative errors of up to 4e-15.
                 assert!((load / exact - 1.0).abs() < 1e-14, "{flat} {x}");
                 // Derivatives of polynomials with errors of a few units in each coefficient, 9 and 81 half-lengths per x.
@@ -325,7 +346,7 @@ mod tests {
         for (ratio, stated) in [(0.1, 3e-15), (0.01, 3e-13), (0.001, 1.3e-10)] {
             let mut worst = 0.0_f64;
             for (shape, k) in contacts.iter().flat_map(|shape| (0..100).map(move |k| (shape, k))) {
-                let compliance = 1.06_f64.powi(k) * shape.normal_compliance(shape.at_load(150.0));
+                let compliance = 1.06_f64.powi(k) * shape.compliance(Quantity::Approach, shape.at_load(150.0));
                 let layer = crate::parameters::Layer {
                     normal_compliance: compliance,
                     tangential_compliance: compliance,
@@ -333,13 +354,13 @@ mod tests {
                     reference_load: 0.0,
                 };
                 let both = Layered { shape: *shape, layer: Layer::new(&layer, 150.0).unwrap().0 };
-                let largest = both.approach(both.at_load(150.0));
+                let largest = both.value(Quantity::Approach, both.at_load(150.0));
                 let mut table = Table::EMPTY;
-                table.fill(largest, &mut |x| both.series(both.at_approach(x), Relation::LoadOfApproach));
+                let at = |x: f64| both.size_at(Quantity::Approach, x);
+                Table::fill([&mut table], largest, &mut |x| [both.series(at(x), Quantity::Approach)[0]]);
                 let mut x = largest;
-                while let Some(at) = table.position(x) {
-                    let (load, _) = table.value_and_slope(x, at);
-                    worst = worst.max((load / both.load(both.at_approach(x)) - 1.0).abs());
+                while let Some(([load], _)) = table.at::<true, 1>(&[x]) {
+                    worst = worst.max((load / both.load(at(x)) - 1.0).abs());
                     // The lower end, then another quarter.
                     let low = f64::from_bits(x.to_bits() >> SHIFT << SHIFT);
                     x = if x > low { low } else { 0.97 * x };
@@ -357,10 +378,10 @@ mod tests {
             let y = x * x * x / 8.0;
             let mut series = [0.0; ORDER];
             series[..4].copy_from_slice(&[y, 3.0 * y, 3.0 * y, y]);
-            series
+            [series]
         };
         let mut table = Table::EMPTY;
-        table.fill(1.9, &mut cube);
+        Table::fill([&mut table], 1.9, &mut cube);
         for x in [1.75, 1.8, 1.875, 1.99] {
             let integral = table.integral_from_middle(table.position(x).unwrap());
             let exact = (x.powi(4) - 1.875_f64.powi(4)) / 32.0;

@@ -117,7 +117,7 @@ pub unsafe extern "C" fn mslip_normal_force(
         approach,
         [normal_force, stiffness, half_width],
         Element::check_approach,
-        Element::four_normal_forces,
+        Element::normal_forces::<4>,
         |_, value| value,
     )
 }

@@ -94,8 +94,7 @@ impl<'a> FoldedFourier<'a> {
     /// Evaluates the series with coefficients c0, a1, b1, a2, b2, ... at all samples.
     #[inline(always)]
     pub fn synthesise(&self, coefficients: &[f64], values: &mut [f64]) {
-        let fourier = self;
-        dispatch!(FoldedFourier::synthesis_kernel, fourier: &FoldedFourier, coefficients: &[f64], values: &mut [f64] => ());
+        dispatch!(self.synthesis_kernel(coefficients, values));
     }
 
     #[inline(always)]
@@ -140,8 +139,7 @@ impl<'a> FoldedFourier<'a> {
     /// Sums of the samples times 1, cos t, sin t, cos 2t, ..., one for each of `sums`. Continues the values periodically.
     #[inline(always)]
     pub fn sum(&mut self, values: &mut [f64], sums: &mut [f64]) {
-        let fourier = self;
-        dispatch!(FoldedFourier::sum_kernel, fourier: &mut FoldedFourier, values: &mut [f64], sums: &mut [f64] => ());
+        dispatch!(self.sum_kernel(values, sums));
     }
 
     #[inline(always)]

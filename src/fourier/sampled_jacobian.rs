@@ -68,14 +68,7 @@ impl<'a> Assembly<'a> {
     /// Writes `Σ w φ ⊗ φ`, normalised, to the rows from `offset` on of columns that are `stride` apart.
     #[inline(always)]
     pub fn write_sums(&mut self, columns: &mut [f64], stride: usize, offset: usize) {
-        let assembly = self;
-        dispatch!(
-            Assembly::sums_kernel,
-            assembly: &mut Assembly,
-            columns: &mut [f64],
-            stride: usize,
-            offset: usize => ()
-        );
+        dispatch!(self.sums_kernel(columns, stride, offset));
     }
 
     /// Writes `Σ w φ ⊗ φ` and the outer products with the rows Y of an index to the first rows of the columns. Under half-wave symmetry
@@ -89,16 +82,7 @@ impl<'a> Assembly<'a> {
         columns: &mut [f64],
         stride: usize,
     ) {
-        let assembly = self;
-        dispatch!(
-            Assembly::kernel::<D>,
-            [const D: usize] assembly: &mut Assembly,
-            outer: &OuterProducts<D>,
-            index: usize,
-            symmetry: Option<f64>,
-            columns: &mut [f64],
-            stride: usize => ()
-        );
+        dispatch!(self.kernel::<D>(outer, index, symmetry, columns, stride));
     }
 
     #[inline(always)]

@@ -33,7 +33,7 @@ struct Slip {
 /// Energy \[J\] dissipated from a closed contact with the diagram `knots`, which must not be empty.
 #[inline(always)]
 pub(crate) fn dissipated(element: &Element, knots: &[[f64; 4]], path: &Path) -> f64 {
-    dispatch!(dissipated_kernel, element: &Element, knots: &[[f64; 4]], path: &Path => f64)
+    dispatch!(dissipated_kernel(element, knots, path))
 }
 
 #[inline(always)]
@@ -138,7 +138,7 @@ fn mean_load(element: &Element, [from, to]: [f64; 2]) -> f64 {
     let (low, high) = (from.min(to), from.max(to));
     if 16.0 * width.abs() < room(element, low, high) {
         let [[nodes, weights]] = PATH_RULE;
-        let (loads, _) = element.four_loads::<false>(&nodes.map(|node| from + node * width));
+        let (loads, _) = element.loads_at::<false, 4>(&nodes.map(|node| from + node * width));
         return dot(&weights, &loads);
     }
     if 16.0 * width.abs() < low {
@@ -153,7 +153,7 @@ fn mean_load(element: &Element, [from, to]: [f64; 2]) -> f64 {
 fn mean_load_near_the_largest_size(element: &Element, low: f64, high: f64) -> f64 {
     let blocks = LONGEST_RULE.iter().map(|block| {
         let [places, weights] = squared(*block);
-        let (loads, _) = element.four_loads::<false>(&places.map(|y| high - y * (high - low)));
+        let (loads, _) = element.loads_at::<false, 4>(&places.map(|y| high - y * (high - low)));
         dot(&weights, &loads)
     });
     blocks.sum()
@@ -190,7 +190,7 @@ impl Slip {
         }
         let inner = if 16.0 * swept < room(element, c1, c0) {
             let [[nodes, weights]] = PATH_RULE;
-            let (loads, slopes) = element.four_loads::<true>(&nodes.map(|node| c0 - node * swept));
+            let (loads, slopes) = element.loads_at::<true, 4>(&nodes.map(|node| c0 - node * swept));
             let mut tangents = [0.0; 4];
             for k in 0..4 {
                 tangents[k] = loads[k] + slopes[k] * self.width(nodes[k]);
@@ -315,7 +315,7 @@ mod tests {
     use crate::constant_load::contact::tests::{FLATS, parameters};
     use crate::element::{Directions, NormalInput};
     use crate::parameters::{Layer, Material, Parameters, RIGID_STRIP};
-    use crate::shape::Relation;
+    use crate::shape::Quantity;
 
     #[test]
     fn near_the_largest_size_the_energy_of_a_small_slip_zone_has_no_cancellation() {
@@ -377,7 +377,7 @@ mod tests {
             let width = slip.width(*fraction);
             for (y, share) in nodes() {
                 let s = outer - width * y;
-                let [_, _, second, ..] = shape.series(shape.at_shift(s), Relation::LoadOfShift);
+                let [[_, _, second, ..], ..] = shape.series(shape.size_at(Quantity::Shift, s), Quantity::Shift);
                 sum += part * share * y * (width / s).powi(2) * 2.0 * second;
             }
         }

@@ -21,7 +21,8 @@ use crate::error::Error;
 use crate::limits::in_range;
 use crate::parameters::{EllipticParameters, Pair};
 use crate::shape::rounded_punch::TINY;
-use crate::shape::{Layer, ORDER, Plane, Relation, Series, Shape};
+use crate::shape::{Layer, Plane, Quantity, Series, Shape, identity};
+use core::array::from_fn;
 use core::f64::consts::{FRAC_PI_2, PI};
 
 /// An elliptical Hertz contact.
@@ -90,6 +91,11 @@ impl HertzEllipse {
         })
     }
 
+    /// C_n or C_t.
+    fn punch_compliance(&self, quantity: Quantity) -> f64 {
+        if quantity == Quantity::Approach { self.normal } else { self.tangential }
+    }
+
     /// C_t: displacement per force of the fully stuck contact under the normal force of the parameters \[m/N\].
     pub(crate) fn initial_compliance(&self) -> f64 {
         self.tangential
@@ -101,31 +107,23 @@ impl Shape for HertzEllipse {
         w
     }
 
-    fn load(&self, w: f64) -> f64 {
+    fn value(&self, quantity: Quantity, w: f64) -> f64 {
         let ratio = w / self.semi_axis_x;
-        self.normal_force * (ratio * ratio * ratio)
+        match quantity {
+            Quantity::Load => self.normal_force * (ratio * ratio * ratio),
+            _ => 1.5 * self.punch_compliance(quantity) * self.normal_force * (ratio * ratio),
+        }
     }
 
-    fn approach(&self, w: f64) -> f64 {
-        let ratio = w / self.semi_axis_x;
-        1.5 * self.normal * self.normal_force * (ratio * ratio)
-    }
-
-    fn shift(&self, w: f64) -> f64 {
-        let ratio = w / self.semi_axis_x;
-        1.5 * self.tangential * self.normal_force * (ratio * ratio)
+    fn compliance(&self, quantity: Quantity, w: f64) -> f64 {
+        match quantity {
+            Quantity::Load => 1.0,
+            _ => self.punch_compliance(quantity) * (self.semi_axis_x / w.max(TINY)),
+        }
     }
 
     fn potential(&self, w: f64) -> f64 {
-        0.4 * self.load(w) * self.shift(w)
-    }
-
-    fn normal_compliance(&self, w: f64) -> f64 {
-        self.normal * (self.semi_axis_x / w.max(TINY))
-    }
-
-    fn tangential_compliance(&self, w: f64) -> f64 {
-        self.tangential * (self.semi_axis_x / w.max(TINY))
+        0.4 * self.load(w) * self.value(Quantity::Shift, w)
     }
 
     fn compliance_under_flat(&self, _: f64) -> f64 {
@@ -140,16 +138,12 @@ impl Shape for HertzEllipse {
         2.0 / 3.0 * (w / self.load(w).max(TINY)) * w
     }
 
-    fn at_load(&self, load: f64) -> f64 {
-        self.semi_axis_x * (load / self.normal_force).cbrt()
-    }
-
-    fn at_approach(&self, approach: f64) -> f64 {
-        self.semi_axis_x * (approach / (1.5 * self.normal * self.normal_force)).sqrt()
-    }
-
-    fn at_shift(&self, shift: f64) -> f64 {
-        self.semi_axis_x * (shift / (1.5 * self.tangential * self.normal_force)).sqrt()
+    fn size_at(&self, quantity: Quantity, value: f64) -> f64 {
+        self.semi_axis_x
+            * match quantity {
+                Quantity::Load => (value / self.normal_force).cbrt(),
+                _ => (value / (1.5 * self.punch_compliance(quantity) * self.normal_force)).sqrt(),
+            }
     }
 
     /// Loads up to 2^498 N, approaches and shifts up to 2^498 m.
@@ -172,20 +166,22 @@ impl Shape for HertzEllipse {
     }
 
     /// Binomial series: N scales as the powers 3/2 of U and of S.
-    fn series(&self, w: f64, relation: Relation) -> Series {
-        let (value, exponent) = match relation {
-            Relation::LoadOfApproach | Relation::LoadOfShift => (self.load(w), 1.5),
-            Relation::ShiftOfLoad => (self.shift(w), 2.0 / 3.0),
-            Relation::ApproachOfLoad => (self.approach(w), 2.0 / 3.0),
-            Relation::ShiftOfApproach => (self.shift(w), 1.0),
+    fn series(&self, w: f64, argument: Quantity) -> [Series; 3] {
+        let binomial = |value: f64, exponent: f64| -> Series {
+            let mut term = value;
+            from_fn(|k| {
+                let coefficient = term;
+                term *= (exponent - k as f64) / (k + 1) as f64;
+                coefficient
+            })
         };
-        let mut series = [value; ORDER];
-        let mut term = value;
-        for (k, coefficient) in series.iter_mut().enumerate() {
-            *coefficient = term;
-            term *= (exponent - k as f64) / (k + 1) as f64;
+        let [load, approach, shift] = Quantity::ALL.map(|quantity| self.value(quantity, w));
+        if argument == Quantity::Load {
+            let power = binomial(1.0, 2.0 / 3.0);
+            [identity(load), power.map(|term| approach * term), power.map(|term| shift * term)]
+        } else {
+            [binomial(load, 1.5), identity(approach), identity(shift)]
         }
-        series
     }
 }
 

@@ -19,7 +19,7 @@ use crate::shape::stick_zone::ellipse::EllipseZones;
 use crate::shape::stick_zone::rounded_flat::RoundedFlatZones;
 use crate::shape::stick_zone::small_load::{RETAINED_TERMS, SmallLoadSeries};
 use crate::shape::stick_zone::{Complement, CurvePoint, StickZone, StickZones, SurfacePoint};
-use crate::shape::{ORDER, Relation, Reversed, Series, Shape, TINY};
+use crate::shape::{ORDER, Quantity, Reversed, Series, Shape, TINY, identity};
 
 /// The layer of a contact, in absolute terms.
 #[repr(C)]
@@ -84,13 +84,13 @@ impl Layer {
         }
     }
 
-    /// S less the U of layer and contact `per_approach` times, over N, from that of the contact alone, if it does not depend on N and is no
-    /// difference of larger terms.
-    pub fn shift_per_load(&self, per_approach: f64, per_load: f64, compliances: [f64; 2]) -> Option<f64> {
-        let [normal, tangential] = compliances;
-        let is_small = per_approach * self.normal <= 4.0 * tangential && self.tangential <= 4.0 * per_approach * normal;
-        let is_constant = self.stiffening == 0.0 || self.is_none();
-        (is_constant && is_small).then_some(per_load + (self.tangential - per_approach * self.normal))
+    /// The compliance without load that enters U or S; 0 for N.
+    fn unloaded(&self, quantity: Quantity) -> f64 {
+        match quantity {
+            Quantity::Load => 0.0,
+            Quantity::Approach => self.normal,
+            Quantity::Shift => self.tangential,
+        }
     }
 
     /// `ln(1 + N/N_c) N_c`: U2 and S2 over their compliance without load \[N\].
@@ -511,77 +511,24 @@ pub(crate) struct Layered<S> {
     pub layer: Layer,
 }
 
-impl<S: Shape> Layered<S> {
-    /// A part of the layer under the load of a size; 0 without a layer.
-    #[inline(always)]
-    fn added(&self, w: f64, part: impl FnOnce(&Layer, f64) -> f64) -> f64 {
-        if self.layer.is_none() { 0.0 } else { part(&self.layer, self.shape.load(w)) }
-    }
-
-    /// The size at which a quantity of shape and layer has a value. The size at which the shape alone has it and that at which the
-    /// layer alone has it are both too large, and at the smaller one of both the quantity is at most twice the value: Newton's method in
-    /// the logarithms, from there.
-    fn size_at(&self, value: f64, of_shape: f64, unloaded: f64, quantity: impl Fn(f64) -> [f64; 2]) -> f64 {
-        let of_layer = if unloaded > 0.0 {
-            self.shape.at_load(self.layer.load_of_extent(value / unloaded))
-        } else {
-            f64::INFINITY
-        };
-        let mut w = of_shape.min(of_layer);
-        for _ in 0..20 {
-            if w <= 0.0 {
-                break;
-            }
-            let [found, compliance] = quantity(w);
-            // dN/d(ln w) = 2w²/(dw²/dN).
-            let growth = 2.0 * w / self.shape.size_slope(w) * w * compliance;
-            let step = (value / found).ln() * (found / growth);
-            w *= step.exp();
-            if step.abs() < 1e-8 {
-                break;
-            }
-        }
-        w
-    }
-
-    /// N, U and S about a size as series in ν, for the load N (1 + ν).
-    fn series_of_load(&self, w: f64, relation: Relation) -> Series {
-        let mut series = self.shape.series(w, relation);
-        let compliance = if relation == Relation::ApproachOfLoad { self.layer.normal } else { self.layer.tangential };
-        for (sum, term) in series.iter_mut().zip(self.layer.series(self.shape.load(w))) {
-            *sum += compliance * term;
-        }
-        series
-    }
-}
-
 impl<S: Shape> Shape for Layered<S> {
     fn half_width(&self, w: f64) -> f64 {
         self.shape.half_width(w)
     }
 
-    fn load(&self, w: f64) -> f64 {
-        self.shape.load(w)
+    fn value(&self, quantity: Quantity, w: f64) -> f64 {
+        let (of_shape, unloaded) = (self.shape.value(quantity, w), self.layer.unloaded(quantity));
+        if unloaded > 0.0 { of_shape + unloaded * self.layer.extent(self.shape.load(w)) } else { of_shape }
     }
 
-    fn approach(&self, w: f64) -> f64 {
-        self.shape.approach(w) + self.added(w, |layer, load| layer.normal * layer.extent(load))
-    }
-
-    fn shift(&self, w: f64) -> f64 {
-        self.shape.shift(w) + self.added(w, Layer::shift)
+    fn compliance(&self, quantity: Quantity, w: f64) -> f64 {
+        let (of_shape, unloaded) = (self.shape.compliance(quantity, w), self.layer.unloaded(quantity));
+        if unloaded > 0.0 { of_shape + unloaded * self.layer.softness(self.shape.load(w)) } else { of_shape }
     }
 
     fn potential(&self, w: f64) -> f64 {
-        self.shape.potential(w) + self.added(w, Layer::potential)
-    }
-
-    fn normal_compliance(&self, w: f64) -> f64 {
-        self.shape.normal_compliance(w) + self.added(w, |layer, load| layer.normal * layer.softness(load))
-    }
-
-    fn tangential_compliance(&self, w: f64) -> f64 {
-        self.shape.tangential_compliance(w) + self.added(w, Layer::compliance)
+        let of_shape = self.shape.potential(w);
+        if self.layer.tangential > 0.0 { of_shape + self.layer.potential(self.shape.load(w)) } else { of_shape }
     }
 
     fn compliance_under_flat(&self, half_width: f64) -> f64 {
@@ -596,26 +543,21 @@ impl<S: Shape> Shape for Layered<S> {
         self.shape.size_slope(w)
     }
 
-    fn at_load(&self, load: f64) -> f64 {
-        self.shape.at_load(load)
-    }
-
-    fn at_approach(&self, approach: f64) -> f64 {
-        if self.layer.is_none() {
-            return self.shape.at_approach(approach);
+    /// The size at which the shape alone has the value and that at which the layer alone has it are both too large; at the smaller one of
+    /// both the sum is at most twice the value.
+    fn size_at(&self, quantity: Quantity, value: f64) -> f64 {
+        let unloaded = self.layer.unloaded(quantity);
+        if unloaded <= 0.0 || value <= 0.0 {
+            return self.shape.size_at(quantity, value);
         }
-        let largest = self.shape.approach(self.shape.largest_size());
-        let of_shape = self.shape.at_approach(approach.min(largest));
-        self.size_at(approach, of_shape, self.layer.normal, |w| [self.approach(w), self.normal_compliance(w)])
-    }
-
-    fn at_shift(&self, shift: f64) -> f64 {
-        if self.layer.is_none() {
-            return self.shape.at_shift(shift);
-        }
-        let largest = self.shape.shift(self.shape.largest_size());
-        let of_shape = self.shape.at_shift(shift.min(largest));
-        self.size_at(shift, of_shape, self.layer.tangential, |w| [self.shift(w), self.tangential_compliance(w)])
+        let largest = self.shape.value(quantity, self.shape.largest_size());
+        let of_shape = self.shape.size_at(quantity, value.min(largest));
+        let of_layer = self.shape.at_load(self.layer.load_of_extent(value / unloaded));
+        inverse_of_sum(value, of_shape.min(of_layer), f64::INFINITY, |w| {
+            let sum = self.value(quantity, w);
+            // dN/d(ln w) = 2w²/(dw²/dN).
+            [sum, 2.0 * w / self.shape.size_slope(w) * w * self.compliance(quantity, w) / sum]
+        })
     }
 
     /// That of the shape; approach and shift of the layer up to 2^498 m.
@@ -632,26 +574,44 @@ impl<S: Shape> Shape for Layered<S> {
         self.shape.pressure_between(from, to, x)
     }
 
-    fn series(&self, w: f64, relation: Relation) -> Series {
+    fn series(&self, w: f64, argument: Quantity) -> [Series; 3] {
         if self.layer.is_none() {
-            return self.shape.series(w, relation);
+            return self.shape.series(w, argument);
         }
-        match relation {
-            Relation::ApproachOfLoad | Relation::ShiftOfLoad => self.series_of_load(w, relation),
-            Relation::LoadOfApproach | Relation::LoadOfShift => {
-                let of_load =
-                    if relation == Relation::LoadOfShift { Relation::ShiftOfLoad } else { Relation::ApproachOfLoad };
-                let load = self.shape.load(w);
-                let mut identity = [0.0; ORDER];
-                (identity[0], identity[1]) = (load, load);
-                composed(&identity, &inverse_powers(&self.series_of_load(w, of_load)))
+        // As functions of the load N (1 + ν).
+        let [load, mut approach, mut shift] = self.shape.series(w, Quantity::Load);
+        for (k, term) in self.layer.series(self.shape.load(w)).iter().enumerate() {
+            approach[k] += self.layer.normal * term;
+            shift[k] += self.layer.tangential * term;
+        }
+        match argument {
+            Quantity::Load => [load, approach, shift],
+            Quantity::Approach => {
+                let powers = inverse_powers(&approach);
+                [composed(&load, &powers), identity(approach[0]), composed(&shift, &powers)]
             }
-            Relation::ShiftOfApproach => composed(
-                &self.series_of_load(w, Relation::ShiftOfLoad),
-                &inverse_powers(&self.series_of_load(w, Relation::ApproachOfLoad)),
-            ),
+            Quantity::Shift => {
+                let powers = inverse_powers(&shift);
+                [composed(&load, &powers), composed(&approach, &powers), identity(shift[0])]
+            }
         }
     }
+}
+
+/// The argument, at most the largest one, at which a growing sum has a value > 0: Newton's method in the logarithms of argument and sum,
+/// given the sum and the derivative of its logarithm by that of the argument.
+pub(crate) fn inverse_of_sum(value: f64, start: f64, largest: f64, sum: impl Fn(f64) -> [f64; 2]) -> f64 {
+    let mut argument = start.min(largest);
+    for _ in 0..30 {
+        let [found, power] = sum(argument);
+        let step = (value / found).ln() / power;
+        argument = largest.min(argument * step.exp());
+        // Quadratic convergence: the next step is below rounding.
+        if step.abs() < 1e-8 {
+            break;
+        }
+    }
+    argument
 }
 
 /// Powers of the series ν(ρ) that inverts `y(ν) = y_0 (1 + ρ)`, at `[power][order]`.
@@ -704,15 +664,15 @@ pub(crate) mod tests {
     fn layer_of(shape: &dyn Shape, [normal, tangential, ratio]: [f64; 3]) -> parameters::Layer {
         let w = shape.at_load(150.0);
         parameters::Layer {
-            normal_compliance: normal * shape.normal_compliance(w),
-            tangential_compliance: tangential * shape.tangential_compliance(w),
+            normal_compliance: normal * shape.compliance(Quantity::Approach, w),
+            tangential_compliance: tangential * shape.compliance(Quantity::Shift, w),
             stiffening_load: ratio * 150.0,
             reference_load: 0.0,
         }
     }
 
     fn with_layers<S: Shape + Copy + 'static>(shape: S) -> impl Iterator<Item = std::boxed::Box<dyn Shape>> {
-        LAYERS.into_iter().map(move |layer| {
+        LAYERS.into_iter().chain([[0.0; 3]]).map(move |layer| {
             let layer = Layer::new(&layer_of(&shape, layer), 150.0).unwrap().0;
             std::boxed::Box::new(Layered { shape, layer }) as std::boxed::Box<dyn Shape>
         })
@@ -739,14 +699,14 @@ pub(crate) mod tests {
                 let (w, h) = (shape.at_load(load), 1e-4);
                 // Central differences in ln w, relative error h².
                 let (low, high) = (w * (1.0 - h), w * (1.0 + h));
-                let dload = shape.load(high) - shape.load(low);
-                let slope = |f: &dyn Fn(f64) -> f64| (f(high) - f(low)) / dload;
-                let normal = slope(&|w| shape.approach(w)) / shape.normal_compliance(w);
-                let tangential = slope(&|w| shape.shift(w)) / shape.tangential_compliance(w);
-                let potential = slope(&|w| shape.potential(w)) / (shape.tangential_compliance(w) * shape.load(w));
-                for ratio in [normal, tangential, potential] {
-                    assert!((ratio - 1.0).abs() < 1e-7, "{load}: {ratio}");
+                let difference = |f: &dyn Fn(f64) -> f64| (f(high) - f(low)) / (shape.load(high) - shape.load(low));
+                for quantity in Quantity::ALL {
+                    let ratio = difference(&|w| shape.value(quantity, w)) / shape.compliance(quantity, w);
+                    assert!((ratio - 1.0).abs() < 1e-7, "{load} {quantity:?}: {ratio}");
                 }
+                let exact = shape.compliance(Quantity::Shift, w) * shape.load(w);
+                let ratio = difference(&|w| shape.potential(w)) / exact;
+                assert!((ratio - 1.0).abs() < 1e-7, "{load}: {ratio}");
             }
         }
     }
@@ -756,8 +716,9 @@ pub(crate) mod tests {
         for shape in shapes() {
             for k in -40..8 {
                 let w = shape.at_load(150.0) * 10f64.powf(0.25 * f64::from(k));
-                for back in [shape.at_approach(shape.approach(w)), shape.at_shift(shape.shift(w))] {
-                    assert!((back / w - 1.0).abs() < 4e-15, "{k}: {}", back / w - 1.0);
+                for quantity in Quantity::ALL {
+                    let back = shape.size_at(quantity, shape.value(quantity, w));
+                    assert!((back / w - 1.0).abs() < 4e-15, "{k} {quantity:?}: {}", back / w - 1.0);
                 }
             }
         }
@@ -768,20 +729,15 @@ pub(crate) mod tests {
     fn series_are_the_functions() {
         for shape in shapes() {
             for load in [1e-3, 0.1, 1.0, 30.0, 150.0] {
-                let w = shape.at_load(load);
-                let quantities = |w: f64| [shape.load(w), shape.approach(w), shape.shift(w)];
-                let other = quantities(shape.at_load(1.05 * load));
-                for (relation, of, by) in [
-                    (Relation::LoadOfApproach, 0, 1),
-                    (Relation::LoadOfShift, 0, 2),
-                    (Relation::ShiftOfLoad, 2, 0),
-                    (Relation::ApproachOfLoad, 1, 0),
-                    (Relation::ShiftOfApproach, 2, 1),
-                ] {
-                    let rho = other[by] / quantities(w)[by] - 1.0;
-                    let sum = shape.series(w, relation).iter().rev().fold(0.0, |sum, term| sum * rho + term);
-                    // The argument has rounding errors, of which one enters with the power of a nearly flat contact.
-                    assert!((sum / other[of] - 1.0).abs() < 1e-14, "{load} {relation:?} {}", sum / other[of] - 1.0);
+                let sizes = [load, 1.05 * load].map(|load| shape.at_load(load));
+                for argument in Quantity::ALL {
+                    let [x, other] = sizes.map(|w| shape.value(argument, w));
+                    for (quantity, series) in Quantity::ALL.into_iter().zip(shape.series(sizes[0], argument)) {
+                        let sum = series.iter().rev().fold(0.0, |sum, term| sum * (other / x - 1.0) + term);
+                        let error = sum / shape.value(quantity, sizes[1]) - 1.0;
+                        // The argument has rounding errors, of which one enters with the power of a nearly flat contact.
+                        assert!(error.abs() < 1e-14, "{load} {quantity:?} of {argument:?}: {error}");
+                    }
                 }
             }
         }

@@ -103,10 +103,7 @@ impl Contact<f64> {
 
     /// The contact under a load, and its compliance.
     pub fn press(rows: &Rows, now: &Pressed<f64>, under_flat: usize, compliance: &mut Both<Matrix>) -> Contact<f64> {
-        dispatch!(
-            press_kernel,
-            rows: &Rows, now: &Pressed<f64>, under_flat: usize, compliance: &mut Both<Matrix> => Contact<f64>
-        )
+        dispatch!(press_kernel(rows, now, under_flat, compliance))
     }
 
     /// The contact with derivatives.
@@ -118,7 +115,7 @@ impl Contact<f64> {
 
 /// The derivatives that are multiplied with columns are those by the load at the end and the alignment.
 pub(crate) fn derive(contact: &Contact<f64>, tables: [&Rows; 2], slopes: &Pressed<f64>) -> Contact<Dual<4>> {
-    dispatch!(derive_kernel, contact: &Contact<f64>, tables: [&Rows; 2], slopes: &Pressed<f64> => Contact<Dual<4>>)
+    dispatch!(derive_kernel(contact, tables, slopes))
 }
 
 #[inline(always)]

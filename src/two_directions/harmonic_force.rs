@@ -386,12 +386,7 @@ fn columns<const L: usize, const M: usize>(
     slip: &Slip,
     springs: &mut Columns<L>,
 ) -> Both<[f64; L]> {
-    dispatch!(
-        columns_kernel,
-        [const L: usize, const M: usize]
-        tables: [&Rows; 2], contact: &Contact<Dual<PADDED>>, motion: &Motion<Dual<PADDED>, Dual<M>>, slip: &Slip,
-        springs: &mut Columns<L> => Both<[f64; L]>
-    )
+    dispatch!(columns_kernel(tables, contact, motion, slip, springs))
 }
 
 #[inline(always)]
@@ -555,7 +550,7 @@ fn row(matrix: &[f64], n: usize, r: usize) -> &[f64] {
 
 /// Adds the derivatives of both forces times each value of the basis.
 fn accumulate(sums: &mut [f64], basis: &[f64], forces: &[f64]) {
-    dispatch!(accumulate_kernel, sums: &mut [f64], basis: &[f64], forces: &[f64] => ());
+    dispatch!(accumulate_kernel(sums, basis, forces));
 }
 
 #[inline(always)]

@@ -112,11 +112,7 @@ impl Slip {
         derivatives: bool,
     ) {
         let slip = self;
-        dispatch!(
-            find_kernel,
-            slip: &mut Slip, t: &Rows, contact: &Contact<f64>, compliance: &Both<Matrix>, motion: &Motion<f64, f64>,
-            trial: &Trial, old: &Values, derivatives: bool => ()
-        );
+        dispatch!(find_kernel(slip, t, contact, compliance, motion, trial, old, derivatives));
     }
 
     /// A step without slip.

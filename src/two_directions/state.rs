@@ -404,11 +404,7 @@ fn tangent(
     slip: &Slip,
     springs: &Values,
 ) -> Both<Dual<4>> {
-    dispatch!(
-        tangent_kernel,
-        tables: &Rows, contact: &Contact<f64>, slopes: &Pressed<f64>, motion: &Motion<Dual<1>, Dual<4>>, slip: &Slip,
-        springs: &Values => Both<Dual<4>>
-    )
+    dispatch!(tangent_kernel(tables, contact, slopes, motion, slip, springs))
 }
 
 #[inline(always)]

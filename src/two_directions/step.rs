@@ -306,11 +306,7 @@ pub(crate) fn advance(
     energy: bool,
     springs: &mut Values,
 ) -> (Both<f64>, f64) {
-    dispatch!(
-        kernel,
-        t: &Rows, contacts: [&Contact<f64>; 2], motion: &Motion<f64, f64>, slip: &Slip, r: &Both<Row<f64>>,
-        energy: bool, springs: &mut Values => (Both<f64>, f64)
-    )
+    dispatch!(kernel(t, contacts, motion, slip, r, energy, springs))
 }
 
 #[inline(always)]

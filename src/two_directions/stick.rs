@@ -7,7 +7,7 @@ use crate::simd::dispatch;
 
 /// Moves the springs, unless a point or a fine spring would slip.
 pub(crate) fn stick(t: &Rows, c: &Contact<f64>, by: &Both<f64>, springs: &mut Values) -> bool {
-    dispatch!(kernel, t: &Rows, c: &Contact<f64>, by: &Both<f64>, springs: &mut Values => bool)
+    dispatch!(kernel(t, c, by, springs))
 }
 
 #[inline(always)]

@@ -84,7 +84,7 @@ pub(crate) struct Trial {
 
 /// The trial state of a step of values.
 pub(crate) fn trial(t: &Rows, c: &Contact<f64>, motion: &Motion<f64, f64>, old: &Values) -> Trial {
-    dispatch!(trial_kernel, t: &Rows, c: &Contact<f64>, motion: &Motion<f64, f64>, old: &Values => Trial)
+    dispatch!(trial_kernel(t, c, motion, old))
 }
 
 #[inline(always)]

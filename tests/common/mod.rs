@@ -6,7 +6,6 @@ use microslip::Contact;
 use microslip::constant_load::harmonic_force::{HarmonicOutput, Rule, Workspace, harmonic_force};
 use microslip::constant_load::masing;
 use microslip::constant_load::state::{state_init, state_length};
-use proptest::test_runner::{Config as ProptestConfig, RngSeed};
 
 /// Harmonic force and its Jacobian, column-major, and dissipated energy.
 #[inline(never)]
@@ -45,10 +44,9 @@ impl Random {
     }
 }
 
-/// The given number of random cases; their seed is `MICROSLIP_SEED`, or 1.
-pub fn random_cases(cases: u32) -> ProptestConfig {
-    let seed = std::env::var("MICROSLIP_SEED").map_or(1, |seed| seed.parse().expect("MICROSLIP_SEED is a number"));
-    ProptestConfig { cases, rng_seed: RngSeed::Fixed(seed), failure_persistence: None, ..ProptestConfig::default() }
+/// The seed of random cases: `MICROSLIP_SEED`, or 1.
+pub fn seed() -> u64 {
+    std::env::var("MICROSLIP_SEED").map_or(1, |seed| seed.parse().expect("MICROSLIP_SEED is a number"))
 }
 
 pub fn unloaded(reversals: usize) -> Vec<f64> {

@@ -33,7 +33,7 @@ fn add_harmonic(target: &mut [f64], [a, b]: [f64; 2], cosines: &[f64], sines: &[
 /// half-wave symmetric: the number of samples is even, and only odd harmonics are present.
 #[inline(always)]
 pub(super) fn synthesise(columns: &[f64], half: usize, values: &mut [f64], coefficients: &[f64]) -> bool {
-    dispatch!(synthesis, columns: &[f64], half: usize, values: &mut [f64], coefficients: &[f64] => bool)
+    dispatch!(synthesis(columns, half, values, coefficients))
 }
 
 #[inline(always)]

@@ -22,14 +22,7 @@ pub(super) fn add_reversal_term(
     phi_sums: &[f64],
     stiffness_sums: &[f64],
 ) {
-    dispatch!(
-        reversal_kernel,
-        jacobian: &mut [f64],
-        phi: &[f64],
-        gradient: &[f64],
-        phi_sums: &[f64],
-        stiffness_sums: &[f64] => ()
-    );
+    dispatch!(reversal_kernel(jacobian, phi, gradient, phi_sums, stiffness_sums));
 }
 
 #[inline(always)]

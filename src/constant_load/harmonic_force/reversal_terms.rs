@@ -83,14 +83,7 @@ impl ReversalTerms<'_> {
 
     #[inline(always)]
     fn gather_strips<const N: usize>(&mut self, branches: &Branches, farthest: usize, stiffness: &[f64]) {
-        let terms = self;
-        dispatch!(
-            ReversalTerms::strips_kernel::<N>,
-            [const N: usize] terms: &mut ReversalTerms,
-            branches: &Branches,
-            farthest: usize,
-            stiffness: &[f64] => ()
-        );
+        dispatch!(self.strips_kernel::<N>(branches, farthest, stiffness));
     }
 
     #[inline(always)]

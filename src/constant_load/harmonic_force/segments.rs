@@ -145,14 +145,7 @@ impl Integrals<'_> {
 /// Evaluates cos and sin of all orders up to `orders`, and the displacement, at the nodes of a panel.
 #[inline(always)]
 fn fill_basis(basis: &mut [f64], motion: &Motion, orders: usize, times: &[[f64; 4]], displacement: &mut Nodes) {
-    dispatch!(
-        basis_kernel,
-        basis: &mut [f64],
-        motion: &Motion,
-        orders: usize,
-        times: &[[f64; 4]],
-        displacement: &mut Nodes => ()
-    );
+    dispatch!(basis_kernel(basis, motion, orders, times, displacement));
 }
 
 #[inline(always)]
@@ -187,7 +180,7 @@ fn basis_kernel(basis: &mut [f64], motion: &Motion, orders: usize, times: &[[f64
 /// Adds the weighted values at the nodes of a panel to Fourier sums.
 #[inline(always)]
 fn add_sums(sums: &mut [f64], basis: &[f64], values: &[[f64; 4]]) {
-    dispatch!(sums_kernel, sums: &mut [f64], basis: &[f64], values: &[[f64; 4]] => ());
+    dispatch!(sums_kernel(sums, basis, values));
 }
 
 #[inline(always)]

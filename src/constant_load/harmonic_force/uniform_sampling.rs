@@ -182,14 +182,7 @@ pub(super) fn harmonic_sensitivity(
 /// Samples a displacement, from the farthest sample on.
 #[inline(always)]
 fn sample(count: usize, fourier: &FoldedFourier, period: &mut [f64], path: &mut Path, displacement: &[f64]) -> Order {
-    dispatch!(
-        sample_kernel,
-        count: usize,
-        fourier: &FoldedFourier,
-        period: &mut [f64],
-        path: &mut Path,
-        displacement: &[f64] => Order
-    )
+    dispatch!(sample_kernel(count, fourier, period, path, displacement))
 }
 
 #[inline(always)]
@@ -231,16 +224,7 @@ impl Order {
     /// half-wave symmetry the path is first completed by values of the given sign.
     #[inline(always)]
     fn sum(&self, fourier: &mut FoldedFourier, path: &mut [f64], sign: f64, period: &mut [f64], sums: &mut [f64]) {
-        let order = self;
-        dispatch!(
-            Order::sum_kernel,
-            order: &Order,
-            fourier: &mut FoldedFourier,
-            path: &mut [f64],
-            sign: f64,
-            period: &mut [f64],
-            sums: &mut [f64] => ()
-        );
+        dispatch!(self.sum_kernel(fourier, path, sign, period, sums));
     }
 
     #[inline(always)]

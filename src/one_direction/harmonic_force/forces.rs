@@ -28,7 +28,7 @@ impl Forces<'_> {
         let loads = self.cut_load.as_chunks_mut::<4>().0;
         let stiffnesses = self.cut_stiffness.as_chunks_mut::<4>().0;
         for ((shift, load), stiffness) in cut_shift.iter().zip(loads).zip(stiffnesses) {
-            let (loads, stiffnesses) = element.four_loads::<SLOPES>(shift);
+            let (loads, stiffnesses) = element.loads_at::<SLOPES, 4>(shift);
             *load = loads;
             if SLOPES {
                 *stiffness = stiffnesses;
@@ -57,15 +57,7 @@ impl Forces<'_> {
         cut_shift: &[[f64; 4]],
         runs: Runs,
     ) {
-        let forces = self;
-        dispatch!(
-            Forces::kernel::<SLOPES>,
-            [const SLOPES: bool] forces: &mut Forces,
-            element: &Element,
-            samples: &Samples,
-            cut_shift: &[[f64; 4]],
-            runs: Runs => ()
-        );
+        dispatch!(self.kernel::<SLOPES>(element, samples, cut_shift, runs));
     }
 
     #[inline(always)]

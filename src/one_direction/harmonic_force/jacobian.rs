@@ -171,14 +171,7 @@ impl Sensitivity<'_> {
 
     #[inline(always)]
     fn gather_strips<const N: usize>(&mut self, context: &Context, cuts: &Cuts, runs: &Runs) {
-        let sensitivity = self;
-        dispatch!(
-            Sensitivity::strips_kernel::<N>,
-            [const N: usize] sensitivity: &mut Sensitivity,
-            context: &Context,
-            cuts: &Cuts,
-            runs: &Runs => ()
-        );
+        dispatch!(self.strips_kernel::<N>(context, cuts, runs));
     }
 
     #[inline(always)]

@@ -83,8 +83,7 @@ impl Samples<'_> {
     /// The normal states of all samples, with derivatives if requested.
     #[inline(always)]
     pub fn press<const SLOPES: bool>(&mut self, element: &Element) {
-        let samples = self;
-        dispatch!(Samples::press_kernel::<SLOPES>, [const SLOPES: bool] samples: &mut Samples, element: &Element => ());
+        dispatch!(self.press_kernel::<SLOPES>(element));
     }
 
     #[inline(always)]
@@ -127,8 +126,7 @@ impl Samples<'_> {
     ///   At the sample where that is attained everything beyond is slip zone.
     #[inline(always)]
     pub fn enter_steady_state(&mut self, element: &Element, half_wave_symmetric: bool) -> Part {
-        let samples = self;
-        dispatch!(Samples::entry_kernel, samples: &mut Samples, element: &Element, half_wave_symmetric: bool => Part)
+        dispatch!(self.entry_kernel(element, half_wave_symmetric))
     }
 
     #[inline(always)]

@@ -1,8 +1,8 @@
 //! Measures the error of every output of the library against the multi-precision reference.
 //!
-//!     accuracy [--check] [--points N] [--only TEXT] [--regions FILE] [--document FILE] [--replay FILE]
+//!     accuracy [--check] [--points N] [--only TEXT] [--regions FILE] [--promises FILE] [--replay FILE]
 //!
-//! `--check` is short. `MICROSLIP_SEED` is the seed, 1 without it. Regions are written to a CSV, tables to a document. `--only` takes the
+//! `--check` is short. `MICROSLIP_SEED` is the seed, 1 without it. Regions and promises are written to CSV files. `--only` takes the
 //! measurements whose name contains a text. `--replay` compares the worst inputs of a CSV of regions again, beside the random points.
 
 mod bounds;
@@ -78,7 +78,7 @@ fn jobs(points: f64, only: &str) -> Vec<Job> {
 
 fn main() {
     let mut arguments = std::env::args().skip(1);
-    let (mut points, mut only, mut regions, mut document, mut worst) = (1e7, String::new(), None, None, None);
+    let (mut points, mut only, mut regions, mut promises, mut worst) = (1e7, String::new(), None, None, None);
     while let Some(argument) = arguments.next() {
         let mut value = || arguments.next().unwrap_or_else(|| panic!("{argument} needs a value"));
         match argument.as_str() {
@@ -87,7 +87,7 @@ fn main() {
             "--only" => only = value(),
             "--regions" => regions = Some(PathBuf::from(value())),
             "--replay" => worst = Some(PathBuf::from(value())),
-            "--document" => document = Some(PathBuf::from(value())),
+            "--promises" => promises = Some(PathBuf::from(value())),
             other => panic!("unknown argument {other}"),
         }
     }
@@ -123,8 +123,8 @@ fn main() {
     if let Some(path) = regions {
         report::write_regions(&tally, &path);
     }
-    if let Some(path) = document {
-        report::write_table(&tally, &path);
+    if let Some(path) = promises {
+        report::write_promises(&tally, &path);
     }
     let (passed, failed) = report::summary(&tally);
     println!("{passed} passed, {failed} failed");

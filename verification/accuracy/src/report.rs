@@ -1,4 +1,4 @@
-//! The tables: a row for each output in the document, and a row for each region in a CSV.
+//! The tables: a row for each output, and a row for each region.
 
 use crate::bounds::BOUNDS;
 use crate::tally::{Cell, Key, Tally};
@@ -32,40 +32,25 @@ pub fn summary(tally: &Tally) -> (usize, usize) {
     (passed, failed)
 }
 
-fn table(tally: &Tally) -> String {
-    let mut text = String::from(
-        "| output | domain | promised k | relative to | κ | worst k | worst error, κ <= 1 | points | reason |\n\
-         |---|---|---:|---|---|---:|---:|---:|---|\n",
-    );
+/// A row for each output.
+pub fn write_promises(tally: &Tally, path: &Path) {
+    let mut csv = "output,domain,promised_k,relative_to,condition,worst_k,worst_plain_error,points,reason\n".to_owned();
     for bound in BOUNDS {
         let Some((_, cell)) = worst(tally, bound.output) else { continue };
         let plain = of(tally, bound.output).map(|(_, cell)| cell.plain).fold(0.0, f64::max);
-        let points = tally.points(bound.output);
+        let points = tally.points(bound.output) as f64;
         writeln!(
-            text,
-            "| `{}` | {} | {} | {} | {} | {:.2} | {:.1e} | {:.1e} | {} |",
-            bound.output,
-            bound.domain,
-            bound.k,
-            bound.scale,
-            bound.condition,
-            cell.worst,
-            plain,
-            points as f64,
-            bound.reason
+            csv,
+            "{},\"{}\",{},\"{}\",\"{}\",{:.2},{plain:.1e},{points:.1e},\"{}\"",
+            bound.output, bound.domain, bound.k, bound.scale, bound.condition, cell.worst, bound.reason
         )
         .unwrap();
     }
-    text
+    write(path, &csv);
 }
 
-/// Replaces the table between two markers of a document.
-pub fn write_table(tally: &Tally, path: &Path) {
-    let (begin, end) = ("<!-- errors: begin -->\n", "<!-- errors: end -->");
-    let old = std::fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-    let (head, rest) = old.split_once(begin).expect("markers");
-    let (_, tail) = rest.split_once(end).expect("markers");
-    std::fs::write(path, format!("{head}{begin}{}{end}{tail}", table(tally))).unwrap();
+fn write(path: &Path, text: &str) {
+    std::fs::write(path, text).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
 }
 
 /// A row for each region.
@@ -89,5 +74,5 @@ pub fn write_regions(tally: &Tally, path: &Path) {
         )
         .unwrap();
     }
-    std::fs::write(path, csv).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    write(path, &csv);
 }

@@ -18,7 +18,7 @@ set grid lc rgb '#d8d8d8' lw 0.6 dt 1
 set tics textcolor rgb '#222222'
 set key samplen 4.5 spacing 1.25 Left reverse
 
-file(name) = sprintf('%s/data/%s.csv', docs, name)
+file(name) = sprintf('../../target/figures/%s.csv', name)
 
 # The quantities, as in the paper: displacement and energy in the units of Eq. 10 and 16.
 displacement = 'displacement  δ π E^* / (2 μ P)'

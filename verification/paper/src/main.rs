@@ -1,8 +1,8 @@
 //! The figures of the paper and of the guide computed by the library, and a check of each claim of the paper.
 //!
-//! - `paper` writes `docs/figures/data/*.csv`, the tables of claims in `docs/paper.md`, and the tables of samples and of
+//! - `paper` writes the data of the figures to `target/figures`, the tables of claims in `docs/paper.md`, and the tables of samples and of
 //!   periods in `docs/guide.md`;
-//! - `paper --check` compares them with what the library computes now.
+//! - `paper --check` compares the tables with what the library computes now.
 
 mod cases;
 mod claims;

@@ -10,10 +10,6 @@ pub struct Table {
 
 /// Significant digits of a number; the last is below the resolution of any picture.
 const DIGITS: usize = 6;
-/// On another machine the mathematical functions may round differently, which may change the last digit by a unit.
-const LAST_DIGIT: f64 = 1.001e-5;
-/// Relative to the largest value of a column: a root of rounding errors, where a quantity vanishes at an edge.
-const ROUNDING: f64 = 1e-8;
 
 impl Table {
     pub fn new(name: &'static str) -> Table {
@@ -44,29 +40,6 @@ impl Table {
             writeln!(text, "{}", cells.join(",")).expect("a string");
         }
         text
-    }
-
-    /// Compares with the text of a file.
-    pub fn check(&self, file: &str) -> Result<(), String> {
-        let text = self.csv();
-        let (mut ours, mut theirs) = (text.lines(), file.lines());
-        if ours.next() != theirs.next() || text.lines().count() != file.lines().count() {
-            return Err(format!("{}: other columns or rows", self.name));
-        }
-        for (row, (ours, theirs)) in ours.zip(theirs).enumerate() {
-            let pairs = ours.split(',').zip(theirs.split(','));
-            for ((column, values), (ours, theirs)) in self.columns.iter().zip(pairs) {
-                let largest = values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
-                let agree = match (ours.parse::<f64>(), theirs.parse::<f64>()) {
-                    (Ok(ours), Ok(theirs)) => (ours - theirs).abs() <= LAST_DIGIT * ours.abs() + ROUNDING * largest,
-                    _ => false,
-                };
-                if !agree {
-                    return Err(format!("{}: {column}, row {}: {theirs}, not {ours}", self.name, row + 1));
-                }
-            }
-        }
-        Ok(())
     }
 }
 

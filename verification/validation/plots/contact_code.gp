@@ -1,5 +1,5 @@
 # The cylinder: seven straight paths, and loads that swing, by the law (lines) and by boundary elements (points).
-load '../paper/plots/style.gp'
+load 'plots/style.gp'
 wide = 920; high = 470
 set xlabel 'tangential force  T / μN_0'
 set ylabel '(displacement - T/K_0) over that of gross slip'

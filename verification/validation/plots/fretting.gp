@@ -1,5 +1,5 @@
 # Energy per cycle of a sliding cylinder against the smallest load over the largest: bands of the friction coefficient and measurements.
-load '../paper/plots/style.gp'
+load 'plots/style.gp'
 wide = 720; high = 470
 
 @set_terminal

@@ -1,6 +1,6 @@
 # The cylinder in two directions: forces and energy along two orbits (colours), by the law (lines), boundary elements (points) and
 # two elements at right angles (dots).
-load '../paper/plots/style.gp'
+load 'plots/style.gp'
 wide = 920; high = 470
 name = 'two_directions'
 

@@ -1,8 +1,8 @@
 //! The law against Kalker and Vollebregt's boundary-element code CONTACT, row by row; in two directions against boundary elements of
 //! our own; strips of finite length against boundary elements; a sliding cylinder against published measurements.
 //!
-//! - `validation` writes the data of the figures to `docs/figures/data`, and the tables of `docs/validation.md`;
-//! - `validation --check` compares both with what the library computes now, and the differences with their bounds.
+//! - `validation` writes the data of the figures to `target/figures`, and the tables of `docs/validation.md`;
+//! - `validation --check` compares the tables with what the library computes now, and the differences with their bounds.
 
 #[path = "../../paper/src/documents.rs"]
 mod documents;
@@ -10,6 +10,7 @@ mod drive;
 mod finite_elements;
 mod fretting;
 mod histories;
+mod rebound;
 mod strips;
 #[path = "../../paper/src/table.rs"]
 mod table;
@@ -244,9 +245,17 @@ fn main() -> ExitCode {
     documents.results.extend(fretting.results());
     let (opening, opening_results) = fretting::opening();
     documents.results.extend(opening_results);
-    let drawings = drawings(&comparisons).into_iter().chain([directions.drawings()]).chain(fretting.drawings());
+    let rebound = rebound::Comparison::new();
+    documents.results.extend(rebound.results());
+    let drawings = drawings(&comparisons)
+        .into_iter()
+        .chain([directions.drawings()])
+        .chain(fretting.drawings())
+        .chain(rebound.drawings());
     drawings.for_each(|table| documents.data(&table));
     let mut tables = Vec::from(directions.tables());
+    let [measured, computed] = rebound.tables();
+    tables.extend([("rebound", measured), ("rebound by finite elements", computed)]);
     tables.extend([
         ("strips", strips),
         ("finite elements", finite_elements),

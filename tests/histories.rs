@@ -1,0 +1,552 @@
+//! Properties of histories and cycles, of every kind of contact and element, with a layer and without: a comparison with exact values does
+//! not show them. `verification/verify` compares values.
+//!
+//! Random numbers have the seed `MICROSLIP_SEED`, or 1. `MICROSLIP_CYCLES` sets the number of cycles of a decaying vibration; 1000000 is
+//! the full test.
+
+mod common;
+
+use common::{Random, advance, harmonic, seed, step, unloaded};
+use microslip::constant_load::harmonic_force::Rule;
+use microslip::constant_load::state::{state_check, state_error};
+use microslip::element::{Directions, Element, NormalInput};
+use microslip::one_direction::tractions::tractions;
+use microslip::one_direction::{self as varying, Step};
+use microslip::parameters::CENTRE_POINT;
+use microslip::{Contact, EllipticParameters, Error, Layer, Material, Parameters};
+use std::f64::consts::{PI, TAU};
+use std::sync::Mutex;
+
+const NORMAL_FORCE: f64 = 800.0;
+const FRICTION: f64 = 0.5;
+const SLIP_FORCE: f64 = FRICTION * NORMAL_FORCE;
+const LENGTH: f64 = 20e-3;
+const MATERIAL: [Material; 2] = [Material { young_modulus: 2e11, poisson_ratio: 0.3 }; 2];
+
+/// Parameters of a contact: a flat with rounded edges, or an ellipse.
+#[derive(Clone, Copy, Debug)]
+enum Input {
+    Flat(Parameters),
+    Ellipse(EllipticParameters),
+}
+
+impl Input {
+    /// A flat of this half-width.
+    fn flat(flat_half_width: f64) -> Input {
+        Input::Flat(Parameters {
+            flat_half_width,
+            edge_radius: 3e-3,
+            length: LENGTH,
+            normal_force: NORMAL_FORCE,
+            friction_coefficient: FRICTION,
+            material: MATERIAL,
+            displacement_reference: CENTRE_POINT,
+            ..Parameters::default()
+        })
+    }
+
+    fn ellipse(semi_axis_x: f64, semi_axis_y: f64) -> Input {
+        Input::Ellipse(EllipticParameters {
+            semi_axis_x,
+            semi_axis_y,
+            normal_force: NORMAL_FORCE,
+            friction_coefficient: FRICTION,
+            material: MATERIAL,
+            ..EllipticParameters::default()
+        })
+    }
+
+    fn with_layer(self, layer: Layer) -> Input {
+        match self {
+            Input::Flat(parameters) => Input::Flat(Parameters { layer, ..parameters }),
+            Input::Ellipse(parameters) => Input::Ellipse(EllipticParameters { layer, ..parameters }),
+        }
+    }
+
+    fn contact(&self) -> Contact {
+        match self {
+            Input::Flat(parameters) => Contact::rounded_flat(parameters).unwrap(),
+            Input::Ellipse(parameters) => Contact::elliptic(parameters).unwrap(),
+        }
+    }
+
+    fn element(&self, directions: Directions, input: NormalInput) -> Element {
+        match self {
+            Input::Flat(parameters) => Element::rounded_flat(parameters, directions, input).unwrap(),
+            Input::Ellipse(parameters) => Element::elliptic(parameters, directions, input).unwrap(),
+        }
+    }
+}
+
+/// Compliances in units of that of the contact, and N_c in units of the normal force.
+const LAYERS: [(f64, f64); 6] = [(10.0, f64::INFINITY), (0.3, 0.0), (1.0, 3.0), (0.3, 0.3), (0.1, 0.01), (3.0, 1e-3)];
+const SHAPES: usize = 4;
+
+/// Cylinder, flats with a/b of 0.5 and 0.97, ellipse: first without a layer, then with each of these layers.
+fn inputs(layers: &[(f64, f64)]) -> Vec<Input> {
+    let shapes = [Input::flat(0.0), Input::flat(6e-5), Input::flat(5e-4), Input::ellipse(1e-4, 2e-4)];
+    let with_layers = shapes.into_iter().flat_map(|input| {
+        let compliance = 1.0 / input.contact().initial_stiffness;
+        layers.iter().map(move |(share, ratio)| {
+            input.with_layer(Layer {
+                normal_compliance: 0.5 * share * compliance,
+                tangential_compliance: share * compliance,
+                stiffening_load: ratio * NORMAL_FORCE,
+                reference_load: 0.0,
+            })
+        })
+    });
+    shapes.into_iter().chain(with_layers).collect()
+}
+
+/// Mean over (0, 1) by Gauss and Legendre's rule of 8 nodes on parts that become shorter towards 1.
+fn graded(integrand: impl Fn(f64) -> f64) -> f64 {
+    const NODES: [[f64; 2]; 4] = [
+        [0.183_434_642_495_649_8, 0.362_683_783_378_362],
+        [0.525_532_409_916_329, 0.313_706_645_877_887_3],
+        [0.796_666_477_413_626_7, 0.222_381_034_453_374_48],
+        [0.960_289_856_497_536_3, 0.101_228_536_290_376_26],
+    ];
+    let part = |number: i32| {
+        let (low, high) = (1.0 - 0.75_f64.powi(number), 1.0 - 0.75_f64.powi(number + 1));
+        let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
+        let pair = |[node, weight]: [f64; 2]| {
+            half * weight * (integrand(middle - node * half) + integrand(middle + node * half))
+        };
+        NODES.into_iter().map(pair).sum::<f64>()
+    };
+    (0..130).map(part).sum()
+}
+
+/// K' and K'' as integrals over the monotonic curve; one harmonic, event-driven, has the same.
+#[test]
+fn complex_stiffness_of_the_curve() {
+    for input in inputs(&LAYERS) {
+        let contact = input.contact();
+        let curve = |force| contact.curve_at_force(force).unwrap();
+        for part in [0.1, 0.3, 0.5, 0.75, 0.9, 0.98, 0.9995, 1.02, 1.3, 5.0] {
+            let amplitude = part * contact.slip_displacement;
+            let top = contact.curve_at_displacement(amplitude).unwrap().force();
+            // K' = 8/(π δ0²) ∫ sqrt(δ (δ0 - δ)) dT, with T = T0 sin² φ.
+            let real = 8.0 / PI / amplitude / amplitude
+                * graded(|x| {
+                    let (sine, cosine) = (0.5 * PI * x).sin_cos();
+                    let displacement = curve(top * sine * sine).displacement();
+                    (displacement * (amplitude - displacement).max(0.0)).sqrt() * top * PI * sine * cosine
+                });
+            // The area of a loop by Masing's rule, 8 ∫ (T - T0/2) dδ, by parts, and gross slip.
+            let slip = (amplitude - contact.slip_displacement).max(0.0);
+            let mean = graded(|x| curve(top * x).displacement());
+            let energy = 4.0 * top * (curve(top).displacement() - 2.0 * mean);
+            let imaginary = (energy + 4.0 * contact.slip_force * slip) / (PI * amplitude * amplitude);
+            let found = contact.complex_stiffness(amplitude).unwrap();
+            let scale = real.hypot(imaginary);
+            assert!((found.real() - real).abs() < 1e-11 * scale, "{input:?} {part} {} {real}", found.real());
+            assert!((found.imaginary() - imaginary).abs() < 1e-11 * scale, "{input:?} {part} {imaginary}");
+            let (sine, cosine) = (7.0 * part).sin_cos();
+            let motion = [0.0, amplitude * cosine, amplitude * sine, 0.0, 0.0];
+            let (force, _, dissipated) = harmonic(&contact, Rule::EventDriven, 64, &motion);
+            let of_force = [cosine * force[1] + sine * force[2], sine * force[1] - cosine * force[2]];
+            // Worst for a reversal just before gross slip: the integrand is nearly singular.
+            for (got, want) in of_force.iter().zip([found.real(), found.imaginary()]) {
+                assert!((got / amplitude - want).abs() < 1e-8 * contact.initial_stiffness, "{input:?} {part} {got}");
+            }
+            assert!((dissipated / found.dissipated() - 1.0).abs() < 1e-9, "{input:?} {part}");
+        }
+    }
+}
+
+/// The definition: the second of two periods from the unloaded state, step by step. The Jacobian by differences.
+#[test]
+fn harmonic_forces_of_the_second_period() {
+    const COEFFICIENTS: usize = 9;
+    let mut random = Random(seed());
+    for input in inputs(&LAYERS) {
+        let contact = input.contact();
+        for case in 0..16 {
+            let (samples, size) = (9 + random.below(61), 0.05 + 3.0 * random.next());
+            let present = |k: usize| case % 2 == 0 || k.div_ceil(2) % 2 == 1;
+            let displacement: Vec<f64> = (0..COEFFICIENTS)
+                .map(|k| if present(k) { size * random.signed() / 3.0 * contact.slip_displacement } else { 0.0 })
+                .collect();
+            let row = |sample: usize| -> [f64; COEFFICIENTS] {
+                std::array::from_fn(|k| {
+                    let periods = (k.div_ceil(2) * (sample % samples) % samples) as f64 / samples as f64;
+                    if k % 2 == 1 {
+                        (TAU * periods).cos()
+                    } else if k == 0 {
+                        1.0
+                    } else {
+                        (TAU * periods).sin()
+                    }
+                })
+            };
+            let mut state = unloaded(64);
+            let (mut sums, mut dissipated) = ([0.0; COEFFICIENTS], 0.0);
+            for sample in 0..2 * samples {
+                let row = row(sample);
+                let u: f64 = row.iter().zip(&displacement).map(|(phi, u)| phi * u).sum();
+                let (force, _, energy) = advance(&contact, &mut state, u);
+                if sample >= samples {
+                    sums.iter_mut().zip(&row).for_each(|(sum, phi)| *sum += force * phi);
+                    dissipated += energy;
+                }
+            }
+            let (force, jacobian, energy) = harmonic(&contact, Rule::UniformSampling, samples, &displacement);
+            for (k, (sum, force)) in sums.iter().zip(&force).enumerate() {
+                let mean = sum * if k == 0 { 1.0 } else { 2.0 } / samples as f64;
+                // Displacements are summed in another order; near gross slip that changes the force by more than its rounding error.
+                assert!((mean - force).abs() < 1e-11 * contact.slip_force, "{input:?} {samples} {k}: {mean} {force}");
+            }
+            let scale = energy + 1e-3 * contact.slip_energy;
+            assert!((dissipated - energy).abs() < 1e-9 * scale, "{input:?}: {dissipated} {energy}");
+            let h = 1e-7 * contact.slip_displacement;
+            let mut wrong = 0;
+            for column in 0..COEFFICIENTS {
+                let at = |step: f64| {
+                    let mut displacement = displacement.clone();
+                    displacement[column] += step;
+                    harmonic(&contact, Rule::UniformSampling, samples, &displacement).0
+                };
+                let derivatives = &jacobian[COEFFICIENTS * column..][..COEFFICIENTS];
+                let differences = at(h).into_iter().zip(at(-h)).map(|(one, other)| (one - other) / (2.0 * h));
+                // A sample within h of gross slip or of a reversal has another derivative on the other side.
+                wrong += differences
+                    .zip(derivatives)
+                    .filter(|(difference, derivative)| {
+                        (difference - *derivative).abs() > 1e-4 * contact.initial_stiffness
+                    })
+                    .count();
+            }
+            assert!(wrong == 0, "{input:?} {samples} {displacement:?}: {wrong} derivatives");
+        }
+    }
+}
+
+/// An element in a history.
+struct History<'a> {
+    element: &'a Element,
+    state: Vec<f64>,
+}
+
+impl History<'_> {
+    fn new(element: &Element, pieces: usize) -> History<'_> {
+        let mut state = vec![0.0; varying::state_length(pieces)];
+        varying::state_init(&mut state).unwrap();
+        History { element, state }
+    }
+
+    fn step(&mut self, u: f64, w: f64) -> Step {
+        varying::advance(self.element, &mut self.state, [u, w], true).unwrap()
+    }
+}
+
+/// A step may be divided: on the way of a contact, and on the straight line of an element in (S, u). Only reversals are stored.
+#[test]
+fn steps_may_be_divided() {
+    let mut random = Random(seed());
+    // The energy of an element is exact to 1e-12 for N_c of a hundredth of the normal force and above.
+    for (number, input) in inputs(&LAYERS[..5]).into_iter().enumerate() {
+        let (contact, element) = (input.contact(), input.element(Directions::One, NormalInput::Force));
+        let unit = contact.slip_displacement;
+        for _ in 0..40 {
+            let (mut whole, mut divided) = (unloaded(64), unloaded(64));
+            let (mut one, mut other) = (History::new(&element, 64), History::new(&element, 64));
+            let (parts, mut from) = (2 + random.below(4), [0.0; 2]);
+            for _ in 0..20 {
+                let far = if random.below(5) == 0 { 3.0 } else { 1.0 };
+                let to = [
+                    far * unit * random.signed(),
+                    (NORMAL_FORCE * (1.5 * random.next() - 0.3)).clamp(0.0, NORMAL_FORCE),
+                ];
+                let (force, _, energy) = advance(&contact, &mut whole, to[0]);
+                let step = one.step(to[0], to[1]);
+                let shifts = [from, to].map(|[_, load]| element.shift_under(load));
+                let (mut last, mut end, mut sums) = (0.0, step, [0.0; 2]);
+                for part in 1..=parts {
+                    let along = |from: f64, to: f64| {
+                        if part == parts { to } else { from + (to - from) * part as f64 / parts as f64 }
+                    };
+                    let u = along(from[0], to[0]);
+                    let load = if part == parts { to[1] } else { element.load_under(along(shifts[0], shifts[1])) };
+                    let (now, _, dissipated) = advance(&contact, &mut divided, u);
+                    end = other.step(u, load);
+                    last = now;
+                    sums = [sums[0] + dissipated, sums[1] + end.dissipated];
+                }
+                assert!((last - force).abs() <= 1e-13 * contact.slip_force, "{input:?}");
+                assert!((end.force[0] - step.force[0]).abs() < 1e-13 * SLIP_FORCE, "{input:?}");
+                // In units of mu N and the farthest displacement. Each step has an error of up to 1e-12 with a layer, and they add up.
+                let of_layer = if number < SHAPES { 1.0 } else { 1.0 + parts as f64 };
+                for ((sum, energy), allowed) in sums.into_iter().zip([energy, step.dissipated]).zip([1e-13, 1e-12]) {
+                    let off = (sum - energy).abs() / (contact.slip_force * 3.0 * unit);
+                    assert!(off <= of_layer * allowed, "{off:e} {input:?}");
+                }
+                from = to;
+            }
+            // The number of reversals is in the last 40 bits of the first double.
+            let used = 5 + 3 * (whole[0].to_bits() & 0xff_ffff_ffff) as usize;
+            assert_eq!(whole[..used], divided[..used]);
+        }
+    }
+}
+
+/// At a constant normal force an element has the law of a contact under that force: along a history, and under static forces in each
+/// direction, also under less load than that of its layer.
+#[test]
+fn elements_under_a_constant_normal_force_are_contacts() {
+    let static_forces = |element: &Element, direction: usize, contact: &Contact, normal_force: f64| {
+        for part in [1e-12, -1e-3, 0.1, 0.24, 0.26, -0.7, 0.99, 1.0, -1.0] {
+            let force = part * contact.slip_force;
+            let (found, point) =
+                (element.displacement_under(direction, force, normal_force), contact.curve_at_force(force).unwrap());
+            assert!((found.value / point.displacement() - 1.0).abs() < 4e-14, "{part} {found:?}");
+            let compliance = point.compliance();
+            let same = found.slope == compliance || (found.slope / compliance - 1.0).abs() < 1e-13;
+            assert!(same, "{part} {found:?} {compliance}");
+        }
+        let beyond = element.check_static(1.001 * contact.slip_force, normal_force);
+        assert_eq!(beyond, Err(Error::ForceExceedsSlip));
+    };
+    let layer =
+        Layer { normal_compliance: 1e-9, tangential_compliance: 5e-9, stiffening_load: 30.0, reference_load: 0.0 };
+    let shapes = [Input::flat(0.0), Input::flat(6e-5), Input::flat(5e-4), Input::ellipse(1e-4, 2e-4)];
+    for input in shapes.into_iter().chain(shapes.map(|input| input.with_layer(layer))) {
+        for normal_input in [NormalInput::Approach, NormalInput::Force] {
+            let (contact, element) = (input.contact(), input.element(Directions::One, normal_input));
+            let whole = if normal_input == NormalInput::Force { NORMAL_FORCE } else { element.approach };
+            let mut memory = History::new(&element, 64);
+            memory.step(0.0, whole);
+            let (mut state, mut phase) = (unloaded(64), 0.7_f64);
+            for _ in 0..500 {
+                phase = (phase * 997.0).sin();
+                let u = 1.3 * phase * contact.slip_displacement;
+                let step = memory.step(u, whole);
+                let (force, stiffness, dissipated) = advance(&contact, &mut state, u);
+                // Both laws store and invert with rounding errors of a few units, with a layer and by approach of a few more.
+                assert!((step.force[0] - force).abs() < 2e-13 * contact.slip_force);
+                assert!((step.tangent[0] - stiffness).abs() < 1e-9 * contact.initial_stiffness, "{input:?}");
+                assert!((step.dissipated - dissipated).abs() < 1e-12 * contact.slip_force * contact.slip_displacement);
+            }
+            static_forces(&element, 0, &contact, NORMAL_FORCE);
+            assert_eq!(element.check_direction(1), Err(Error::BadDirections));
+            match input {
+                Input::Flat(parameters) => {
+                    let normal_force = 0.4 * NORMAL_FORCE;
+                    let layer = Layer { reference_load: NORMAL_FORCE, ..parameters.layer };
+                    let less = Input::Flat(Parameters { normal_force, layer, ..parameters }).contact();
+                    static_forces(&element, 0, &less, normal_force);
+                }
+                Input::Ellipse(EllipticParameters { semi_axis_x, semi_axis_y, layer, .. }) => {
+                    let across = Input::ellipse(semi_axis_y, semi_axis_x).with_layer(layer).contact();
+                    let element = input.element(Directions::Two, normal_input);
+                    static_forces(&element, 0, &contact, NORMAL_FORCE);
+                    static_forces(&element, 1, &across, NORMAL_FORCE);
+                }
+            }
+        }
+    }
+}
+
+/// Contact and layer have together 60 N/um under 300 N, as measured, whatever the normal force of the parameters. A reference load of 0
+/// is that normal force.
+#[test]
+fn a_layer_holds_at_its_reference_load() {
+    let (measured, reference_load, rated) = (60e6, 300.0, 4000.0);
+    let of_load = |normal_force, layer| match Input::flat(5e-4) {
+        Input::Flat(parameters) => Input::Flat(Parameters { normal_force, layer, ..parameters }),
+        ellipse @ Input::Ellipse(_) => ellipse,
+    };
+    let compliance = 1.0 / measured - 1.0 / of_load(reference_load, Layer::none()).contact().initial_stiffness;
+    for stiffening_load in [0.0, 15.0, f64::INFINITY] {
+        let of = |reference_load| Layer {
+            normal_compliance: 0.8 * compliance,
+            tangential_compliance: compliance,
+            stiffening_load,
+            reference_load,
+        };
+        let element = |load, layer| of_load(load, layer).element(Directions::One, NormalInput::Approach);
+        let found = element(rated, of(reference_load)).displacement_under(0, 1e-9, reference_load);
+        // The displacement under 1e-9 N has lost nothing, and nothing slips yet: 1e-9/(mu N) = 7e-12.
+        assert!((measured * found.slope - 1.0).abs() < 1e-11, "{stiffening_load} {found:?}");
+        let contact = of_load(reference_load, of(0.0)).contact();
+        assert!((contact.initial_stiffness / measured - 1.0).abs() < 4e-15);
+        let texts = |layer| (format!("{:?}", of_load(rated, layer).contact()), format!("{:?}", element(rated, layer)));
+        assert!(texts(of(0.0)) == texts(of(rated)));
+    }
+}
+
+/// In units in which the load is about 1e150: an element that is accepted takes its own load.
+#[test]
+fn the_load_of_the_parameters_is_accepted() {
+    let Input::Flat(parameters) = Input::flat(1e49) else { unreachable!() };
+    for (normal_force, accepted) in [(0.99e150, true), (1.01e150, false), (4e150, false)] {
+        let material = [Material { young_modulus: 4e-100 * normal_force, poisson_ratio: 0.3 }; 2];
+        let parameters = Parameters { edge_radius: 1e50, length: 1e50, normal_force, material, ..parameters };
+        let element = Element::rounded_flat(&parameters, Directions::One, NormalInput::Force);
+        assert_eq!(element.map(|element| element.check_normal_force(normal_force)).ok(), accepted.then_some(Ok(())));
+    }
+}
+
+/// The tractions of an element carry its forces, and the state has them too, also if pieces were merged.
+#[test]
+fn tractions_integrate_to_the_forces() {
+    const VARYING: [(f64, f64); 6] = [(0.1, 0.4), (0.3, 0.9), (0.7, 0.8), (0.5, 1.1), (-0.2, 0.9), (0.3, 1.0)];
+    // Six pieces in a state of four, and slip zones that cut back to knots beyond the merged ones.
+    const MERGED: [(f64, f64); 9] =
+        [(0.1, 0.4), (0.2, 0.5), (0.4, 0.6), (0.5, 0.9), (0.75, 1.0), (0.8, 1.2), (0.75, 1.2), (0.6, 1.2), (0.3, 1.2)];
+    const POINTS: u32 = 20_000;
+    let elements = [0.0, 6e-5, 5e-4].map(|a| Input::flat(a).element(Directions::One, NormalInput::Force));
+    for (element, (pieces, path)) in elements.iter().flat_map(|one| [(one, (64, &VARYING[..])), (one, (4, &MERGED))]) {
+        let unit = SLIP_FORCE / element.tangential_stiffness;
+        let mut memory = History::new(element, pieces);
+        for &(u, w) in path {
+            let step = memory.step(u * unit, w * NORMAL_FORCE);
+            // Forces of a step are those before a merge; a restart from the state has those of the merged pieces.
+            let again = memory.step(u * unit, w * NORMAL_FORCE);
+            let error = varying::force_error(&memory.state);
+            assert!((again.force[0] - step.force[0]).abs() <= error + 1e-13 * SLIP_FORCE);
+            // The midpoint rule in the angle, x = b cos: its error is that of the logarithms at the edges of the pieces.
+            let half_width = element.half_width_under(w * NORMAL_FORCE);
+            let angles: Vec<f64> = (0..POINTS).map(|i| PI * (f64::from(i) + 0.5) / f64::from(POINTS)).collect();
+            let x: Vec<f64> = angles.iter().map(|angle| half_width * angle.cos()).collect();
+            let [mut pressure, mut shear] = [(); 2].map(|()| vec![f64::NAN; x.len()]);
+            tractions(element, &memory.state, &x, Some(&mut pressure), Some(&mut shear)).unwrap();
+            let integral = |values: &[f64]| -> f64 {
+                let sum: f64 = values.iter().zip(&angles).map(|(value, angle)| value * angle.sin()).sum();
+                sum * half_width * PI / f64::from(POINTS) * LENGTH
+            };
+            assert!((integral(&pressure) - step.force[1]).abs() < 1e-6 * NORMAL_FORCE);
+            assert!((integral(&shear) - again.force[0]).abs() < 1e-6 * SLIP_FORCE);
+            for (shear, pressure) in shear.iter().zip(&pressure) {
+                assert!(shear.abs() <= FRICTION * pressure + 1e-13 * pressure.max(1e8));
+            }
+        }
+        let mut outside = [1.0];
+        tractions(element, &memory.state, &[2.0 * element.half_width], None, Some(&mut outside)).unwrap();
+        assert_eq!(outside, [0.0]);
+    }
+}
+
+/// A contact in a history whose state holds all reversals, and in states that do not.
+struct Bounded<'c> {
+    contact: &'c Contact,
+    exact: Vec<f64>,
+    short: Vec<Vec<f64>>,
+    /// Largest reported error of each short state over mu N.
+    reported: Vec<f64>,
+}
+
+impl<'c> Bounded<'c> {
+    fn new(contact: &'c Contact, longest: usize, reversals: &[usize]) -> Bounded<'c> {
+        let short = reversals.iter().map(|&reversals| unloaded(reversals)).collect();
+        Bounded { contact, exact: unloaded(longest), short, reported: vec![0.0; reversals.len()] }
+    }
+
+    /// Advances all states to a displacement over that of gross slip: the forces differ by no more than the reported error.
+    fn advance(&mut self, displacement: f64) {
+        let displacement = displacement * self.contact.slip_displacement;
+        let advance = |state: &mut [f64]| {
+            let step = step(self.contact, state, displacement);
+            step.write(state);
+            [step.force(), step.stiffness()]
+        };
+        let expected = advance(&mut self.exact);
+        for (state, largest) in self.short.iter_mut().zip(&mut self.reported) {
+            let found = advance(state);
+            let reported = state_error(state).unwrap() / self.contact.slip_force;
+            if reported == 0.0 {
+                assert_eq!(found, expected, "no reversals were merged");
+            }
+            // Rounding need not be covered.
+            let excess = (found[0] - expected[0]).abs() / self.contact.slip_force - reported;
+            assert!(excess <= 16.0 * f64::EPSILON, "{excess:e} of mu N beyond {reported:e}, {:?}", self.contact);
+            *largest = largest.max(reported);
+        }
+    }
+
+    /// Gross slip erases all memory but the present point.
+    fn check_erased(&self) {
+        for state in &self.short {
+            assert_eq!(state_error(state), Ok(0.0));
+            assert_eq!(state.first_chunk::<5>(), self.exact.first_chunk::<5>());
+        }
+    }
+}
+
+/// Amplitudes of half cycles: decaying from 1 over the given number of cycles, then growing through values in between, and
+/// beyond 1 in the end.
+fn decaying(cycles: usize, decay: f64) -> impl Iterator<Item = f64> {
+    let amplitude = move |half_cycle: f64| (-decay * half_cycle / (2 * cycles) as f64).exp();
+    (0..2 * cycles)
+        .map(move |k| amplitude(k as f64))
+        .chain((0..2 * cycles).rev().map(move |k| amplitude(k as f64 + 0.25)))
+        .chain([1.0 + 1e-9, 1.0 + 2e-9])
+        .zip([1.0, -1.0].into_iter().cycle())
+        .map(|(amplitude, side)| amplitude * side)
+}
+
+/// Cylinder, flat, cylinder with `ln(2L/b) + nu/(1 - nu) = 1`, sphere.
+fn contacts_of_bounded_states() -> [Contact; 4] {
+    let (cylinder, Input::Flat(parameters)) = (Input::flat(0.0).contact(), Input::flat(0.0)) else { unreachable!() };
+    let length = 0.5 * cylinder.half_width * (1.0_f64 - 0.3 / 0.7).exp();
+    let normal_force = NORMAL_FORCE * length / LENGTH;
+    let slim = Input::Flat(Parameters { length, normal_force, ..parameters }).contact();
+    [cylinder, Input::flat(6e-5).contact(), slim, Input::ellipse(2e-4, 2e-4).contact()]
+}
+
+#[test]
+fn bounded_states_in_a_decaying_vibration() {
+    let cycles = std::env::var("MICROSLIP_CYCLES").map_or(2000, |text| text.parse().unwrap());
+    let contacts = contacts_of_bounded_states();
+    // Relative decay over all cycles: 1e-9, 1e-6 and 1e-3 per cycle in 1e6 cycles.
+    let with_decays = |(contact, amplitude)| [1e-3, 1.0, 1e3].map(|decay| (contact, amplitude, decay));
+    let of_contact = |contact| [0.5, 0.75, 0.9, 1.0].map(|amplitude| (contact, amplitude));
+    let runs: Vec<(&Contact, f64, f64)> = contacts.iter().flat_map(of_contact).flat_map(with_decays).collect();
+    let next = Mutex::new(runs.iter());
+    let work = || {
+        while let Some(&(contact, amplitude, decay)) = { next.lock().unwrap().next() } {
+            let mut bounded = Bounded::new(contact, 2 * cycles, &[2, 8, 32]);
+            decaying(cycles, decay).for_each(|displacement| bounded.advance(amplitude * displacement));
+            bounded.check_erased();
+            assert!(bounded.reported[2] <= 0.01, "{amplitude}, {decay:e}: {:?}", bounded.reported);
+        }
+    };
+    std::thread::scope(|scope| [(); 2].map(|()| scope.spawn(work)).map(|thread| thread.join().unwrap()));
+}
+
+#[test]
+fn bounded_states_in_random_histories() {
+    for contact in contacts_of_bounded_states() {
+        for number in 0..3000 {
+            let mut random = Random(seed().wrapping_add(number));
+            let reversals: Vec<usize> = (2..=8).collect();
+            let steps = 20 + random.below(100);
+            let mut bounded = Bounded::new(&contact, steps, &reversals);
+            // Nested, nearly nested, or any reversals; in some histories after gross slip.
+            let (mut low, mut high) = (-1.0, 1.0);
+            if random.below(2) == 0 {
+                bounded.advance(3.0 * random.signed());
+            }
+            let (kind, mut displacement) = (random.below(3), 0.0_f64);
+            for step in 0..steps {
+                let share = random.next();
+                let share = if kind == 1 { share.powi(4) } else { share };
+                displacement = match kind {
+                    0 => random.signed(),
+                    1 if step % 2 == 0 => high - share * (high - displacement).max(0.0),
+                    1 => low + share * (displacement - low).max(0.0),
+                    _ => (displacement + 0.5 * random.signed()).clamp(-1.0, 1.0),
+                };
+                (low, high) = if step % 2 == 0 { (low, displacement) } else { (displacement, high) };
+                if random.below(30) == 0 {
+                    (low, high) = (-1.0, 1.0);
+                }
+                bounded.advance(displacement);
+            }
+            bounded.short.iter().for_each(|state| assert_eq!(state_check(state), Ok(())));
+            bounded.advance(5.0);
+            bounded.check_erased();
+        }
+    }
+}
