@@ -495,11 +495,11 @@ fn sticking_steps_divide_and_separation_erases() {
                 contact.to([0.6 * unit, 0.2 * unit, full]);
                 contact
             };
-            // Back by 1e-3 of the slip displacement: nothing slips.
+            // Back by 1e-5 of the slip displacement: nothing slips, not even between the edge and the size inside.
             let (mut whole, mut parts) = (prepared(), prepared());
-            parts.to([0.5995 * unit, 0.1995 * unit, full]);
+            parts.to([0.599995 * unit, 0.199995 * unit, full]);
             let (one, two) =
-                (whole.to([0.599 * unit, 0.199 * unit, full]), parts.to([0.599 * unit, 0.199 * unit, full]));
+                (whole.to([0.59999 * unit, 0.19999 * unit, full]), parts.to([0.59999 * unit, 0.19999 * unit, full]));
             // Only the first of both terms of the difference is a rounding error; the energy has no such term.
             assert!(apart(&one, &two) < 1e-14 * slip_force(element) && one.dissipated == 0.0, "{one:?} {two:?}");
             // Open, by exactly 0, and closed again at the same place: the force is that of a new contact.

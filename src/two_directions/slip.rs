@@ -1,8 +1,9 @@
-//! Coulomb's law at the points: `r = r* - A σ` with |r| <= 1 and σ = 0, or |r| = 1 and σ parallel to r.
+//! Coulomb's law at the points: `r = r* - A σ` with |r| <= 1 and σ = 0, or |r| = 1 and σ parallel to `r + β r0`.
 //!
-//! r* is the traction of the trial state, from which the predicted part of the slip is released, and σ the slip: the minimum of the strictly
-//! convex `σ'Aσ/2 - σ·r* + Σ|σ_i|`. There is one solution, which depends continuously on r*. With K the inverse of A among the points that
-//! slip, `σ = K (r* - r)`, and the residual is `r × σ`: Newton's method for the angles of r. Sweeps of the points, each to its own minimum,
+//! r* is the traction of the trial state, σ the slip and r0 the traction at the start of the step: with β = 1 the slip has half the direction
+//! at the start and half that at the end, the trapezoidal rule. β depends on r0 and on the trial state only, so that each point on its own has
+//! exactly one slip: `|r* - s β a r0|/(1 + a s) = 1` has one root s > 0 if β |r0| <= 1. With K the inverse of A among the points that slip,
+//! `σ = K (r* - r)`, and the residual is `(r + β r0) × σ`: Newton's method for the angles of r. Sweeps of the points, each to its own slip,
 //! find the points that slip if Newton's method does not.
 
 use super::contact::Contact;
@@ -282,7 +283,7 @@ impl Slip {
     #[cold]
     #[inline(never)]
     fn descend(&mut self, problem: &Problem, derivatives: bool) {
-        let Problem { r, compliance, last, .. } = problem;
+        let Problem { r, start, compliance, last, .. } = problem;
         let (mut guess, mut sigma, mut sweeps, mut r) = (Guess { e: *r, set: 0 }, [[0.0; N]; 2], 0, *r);
         while sweeps < MOST_SWEEPS {
             for _ in 0..sweeps.max(SWEEPS) {
@@ -290,16 +291,16 @@ impl Slip {
                     let a = [compliance[0][i][i], compliance[1][i][i]];
                     let g = [r[0][i] + a[0] * sigma[0][i], r[1][i] + a[1] * sigma[1][i]];
                     guess.set &= !(1 << i);
-                    let mut size = 0.0;
+                    let share = self.shares[i];
+                    let before = [share * start[0][i], share * start[1][i]];
+                    let (mut size, mut e) = (0.0, [0.0; 2]);
                     if g[0] * g[0] + g[1] * g[1] > 1.0 {
-                        size = own_slip(g, a);
+                        (size, e) = own_slip(g, a, before);
                         guess.set |= 1 << i;
-                        let e = [g[0] / (1.0 + a[0] * size), g[1] / (1.0 + a[1] * size)];
-                        let length = (e[0] * e[0] + e[1] * e[1]).sqrt();
-                        (guess.e[0][i], guess.e[1][i]) = (e[0] / length, e[1] / length);
+                        (guess.e[0][i], guess.e[1][i]) = (e[0], e[1]);
                     }
                     for k in 0..2 {
-                        let now = size * g[k] / (1.0 + a[k] * size);
+                        let now = size * (e[k] + before[k]);
                         let change = now - sigma[k][i];
                         sigma[k][i] = now;
                         for m in 0..N {
@@ -412,19 +413,20 @@ fn invert(matrix: &mut Matrix, set: Set, [first, last]: [usize; 2]) {
     }
 }
 
-/// |σ| of a point on its own, whose traction without slip is g: the root of `Σ (g/(1 + a |σ|))² = 1`, of which the inverse root is concave and
-/// rises.
-fn own_slip(g: Both<f64>, a: Both<f64>) -> f64 {
-    let mut size = 0.0;
+/// The slip of a point on its own, whose traction without slip is g: its size over that of `r + β r0`, and r, by Newton's method for |r| = 1.
+fn own_slip(g: Both<f64>, a: Both<f64>, before: Both<f64>) -> (f64, Both<f64>) {
+    let (mut size, mut e) = (0.0, g);
     for _ in 0..40 {
         let d = [1.0 / (1.0 + a[0] * size), 1.0 / (1.0 + a[1] * size)];
-        let q = [g[0] * g[0] * d[0] * d[0], g[1] * g[1] * d[1] * d[1]];
-        let (square, slope) = (q[0] + q[1], q[0] * a[0] * d[0] + q[1] * a[1] * d[1]);
-        let by = (square.sqrt() - 1.0) * square / slope.max(TINY);
+        e = [0, 1].map(|k| (g[k] - a[k] * size * before[k]) * d[k]);
+        let square = e[0] * e[0] + e[1] * e[1];
+        let slope = [0, 1].map(|k| e[k] * a[k] * d[k] * (e[k] + before[k]));
+        let by = (square.sqrt() - 1.0) * square / (slope[0] + slope[1]).max(TINY);
         size += by;
         if by.abs() <= 1e-14 * size {
             break;
         }
     }
-    size
+    let length = (e[0] * e[0] + e[1] * e[1]).sqrt();
+    (size, e.map(|e| e / length))
 }

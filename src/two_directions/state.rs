@@ -16,7 +16,7 @@ use super::scalar::Dual;
 use super::slip::Slip;
 use super::step::{advance, separated, step};
 use super::stick;
-use super::tables::{Both, END, FINE, MOST_PARTS, Matrix, N, ROWS, Row, Rows, Units, fill, starts, under_flat};
+use super::tables::{Both, END, FINE, INSIDE, MOST_PARTS, Matrix, N, ROWS, Row, Rows, Units, fill, starts, under_flat};
 use super::trial::{FINE_SPRING, Motion, SPRINGS, TRACTION, Values, trial};
 use super::{Requested, Step};
 use crate::element::{Element, Normal};
@@ -200,15 +200,17 @@ impl Memory<'_> {
         [self.header[0][0], self.header[0][1], self.header[0][2], self.header[0][3]] = [tag, v, u, input];
     }
 
-    /// A step to a displacement under the same load, unless something slips.
-    fn stick(&mut self, contact: &Contact<f64>, path: &Path, header: &mut Header) -> bool {
+    /// A step to a displacement under the same load, unless something slips; the displacement of the spring at the edge.
+    fn stick(&mut self, contact: &Contact<f64>, path: &Path, header: &mut Header) -> Option<Both<f64>> {
         let force = [0, 1].map(|k| header.force[k] + path.by[k] * contact.total(k));
         let bound = contact.now.load * contact.now.load;
         if path.scale > 1.0 || force[0] * force[0] + force[1] * force[1] > bound {
-            return false;
+            return None;
         }
-        header.force = force;
-        stick::stick(self.tables, contact, &path.by, self.springs)
+        let edge = stick::stick(self.tables, contact, &path.by, self.springs)?;
+        let ends = |k: usize| self.springs[(FINE_SPRING + k * FINE + INSIDE) / N][INSIDE % N];
+        header.force = [0, 1].map(|k| force[k] + contact.fine_inside(k) * (ends(k) - edge[k]));
+        Some(edge)
     }
 
     /// The place of a state in which nothing slipped.
@@ -345,13 +347,16 @@ pub(super) fn advance_state(element: &Element, state: &mut [f64], to: [f64; 3], 
             contact = Contact::press(memory.tables, &now, from.under_flat, memory.compliance);
         }
     }
-    if same && memory.stick(&contact, &path, &mut header) {
+    if same && let Some(edge) = memory.stick(&contact, &path, &mut header) {
         result.force = [force_unit * header.force[0], force_unit * header.force[1], normal.load];
         if requested.tangent {
-            let [stiffness, by_normal] = stick::tangent(memory.tables, &contact, &slopes, memory.springs);
-            let [x, y] = stiffness.map(|stiffness| force_unit * path.per_distance * stiffness);
-            let [w_x, w_y] = by_normal.map(|slope| force_unit * slope);
-            result.tangent = [x, 0.0, 0.0, 0.0, y, 0.0, w_x, w_y, normal.load_slope];
+            let slopes = stick::tangent(memory.tables, &contact, &slopes, &edge, memory.springs);
+            for k in 0..2 {
+                let [w, x, y] = slopes[k].map(|slope| force_unit * slope);
+                let [u, v] = [x, y].map(|slope| path.per_distance * slope);
+                (result.tangent[k], result.tangent[3 + k], result.tangent[6 + k]) = (u, v, w);
+            }
+            result.tangent[8] = normal.load_slope;
         }
         memory.move_to(to, &header.force);
         return result;

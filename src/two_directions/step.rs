@@ -97,7 +97,7 @@ pub(crate) fn step<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
 }
 
 /// Gross slip in the direction of the force, `v = (S_b - S) e`, into which springs of a contact that slides far are blended.
-struct Far<X> {
+pub(crate) struct Far<X> {
     rest: X,
     slides: Both<X>,
 }
@@ -129,7 +129,7 @@ impl<X: Real> Far<X> {
 
 /// A fine spring, returned to its limit: by values its direction, and the derivatives of the direction and of the limit.
 #[inline(always)]
-fn returned<A: Real, X: Over<A>>(v: Both<X>, limit: &Both<A>, far: Option<&Far<X>>) -> Both<X> {
+pub(crate) fn returned<A: Real, X: Over<A>>(v: Both<X>, limit: &Both<A>, far: Option<&Far<X>>) -> Both<X> {
     let [x, y] = both!(|k| limit[k].value());
     let (across, along, bound) = (v[0].value() * y, v[1].value() * x, x * y);
     let square = across * across + along * along;

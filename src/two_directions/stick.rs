@@ -1,17 +1,20 @@
 //! A step under a constant load in which nothing slips: all springs follow the motion.
 
 use super::contact::{Contact, Pressed};
-use super::tables::{Both, FINE, INSIDE, N, Rows, SHIFT};
+use super::scalar::{Dual, Over, both};
+use super::step::returned;
+use super::tables::{Both, END, FINE, INSIDE, N, Rows, SHIFT};
 use super::trial::{FINE_SPRING, ROUNDING, Values};
 use crate::simd::dispatch;
 
-/// Moves the springs, unless a point or a fine spring would slip.
-pub(crate) fn stick(t: &Rows, c: &Contact<f64>, by: &Both<f64>, springs: &mut Values) -> bool {
+/// Moves the springs, unless a point or a fine spring would slip; the displacement of the fine spring at the edge, which may, before it returns
+/// to its limit.
+pub(crate) fn stick(t: &Rows, c: &Contact<f64>, by: &Both<f64>, springs: &mut Values) -> Option<Both<f64>> {
     dispatch!(kernel(t, c, by, springs))
 }
 
 #[inline(always)]
-fn kernel(t: &Rows, c: &Contact<f64>, by: &Both<f64>, springs: &mut Values) -> bool {
+fn kernel(t: &Rows, c: &Contact<f64>, by: &Both<f64>, springs: &mut Values) -> Option<Both<f64>> {
     let (mut r, mut largest) = ([springs[2], springs[3]], [0.0; N]);
     for k in 0..2 {
         for i in 0..N {
@@ -26,10 +29,8 @@ fn kernel(t: &Rows, c: &Contact<f64>, by: &Both<f64>, springs: &mut Values) -> b
     let mut fine = *springs;
     for row in 0..rows {
         for j in 0..N {
-            let edge = row * N + j == INSIDE;
-            let inside = row * N + j <= c.part || edge;
+            let inside = row * N + j <= c.part;
             let (limit_x, limit_y) = (c.now.shift[0] - t[SHIFT + row][j], c.now.shift[1] - t[SHIFT + rows + row][j]);
-            let (limit_x, limit_y) = if edge { (c.limit_inside(0), c.limit_inside(1)) } else { (limit_x, limit_y) };
             let (x, y) = (springs[FINE_SPRING / N + row][j] + by[0], springs[FINE_SPRING / N + rows + row][j] + by[1]);
             let (x, y) = (if inside { x } else { 0.0 }, if inside { y } else { 0.0 });
             let (across, along, bound) = (x * limit_y, y * limit_x, limit_x * limit_y);
@@ -43,27 +44,41 @@ fn kernel(t: &Rows, c: &Contact<f64>, by: &Both<f64>, springs: &mut Values) -> b
         most = if largest[i] > most { largest[i] } else { most };
     }
     if most > 0.0 {
-        return false;
+        return None;
     }
+    let edge = both!(|k| springs[(FINE_SPRING + k * FINE + INSIDE) / N][INSIDE % N] + by[k]);
+    let ends = returned(edge, &both!(|k| c.limit_inside(k)), None);
     for k in 0..2 {
         for j in 0..N {
             fine[k][j] += if j <= c.last { by[k] } else { 0.0 };
         }
         fine[2 + k] = r[k];
+        fine[(FINE_SPRING + k * FINE + INSIDE) / N][INSIDE % N] = ends[k];
     }
     *springs = fine;
-    true
+    Some(edge)
 }
 
-/// Stiffness of all springs together, and the derivatives of their force by the normal component, of which `slopes` are those of the contact.
-pub(crate) fn tangent(t: &Rows, c: &Contact<f64>, slopes: &Pressed<f64>, springs: &Values) -> [Both<f64>; 2] {
+/// Derivatives of the force of such a step: by the normal component, of which `slopes` are those of the contact, and by both displacements of
+/// the springs.
+pub(crate) fn tangent(
+    t: &Rows,
+    c: &Contact<f64>,
+    slopes: &Pressed<f64>,
+    edge: &Both<f64>,
+    springs: &Values,
+) -> Both<[f64; 3]> {
     let springs = springs.as_flattened();
     let at = |place: usize| springs.get(place).copied().unwrap_or(0.0);
     let derived = c.derived::<1, _>(&t, slopes);
-    let by_normal = [0, 1].map(|k| {
-        let fine = |f: usize| derived.fine(&t, k, f).slopes[0] * at(FINE_SPRING + k * FINE + f);
-        let inside = derived.fine_inside(k).slopes[0] * at(FINE_SPRING + k * FINE + INSIDE);
-        derived.stiffness[k].slopes[0] * at(k * N + c.last) + (c.first_edge()..=c.part).map(fine).sum::<f64>() + inside
-    });
-    [[c.total(0), c.total(1)], by_normal]
+    let edge = [Dual { slopes: [0.0, 1.0, 0.0], value: edge[0] }, Dual { slopes: [0.0, 0.0, 1.0], value: edge[1] }];
+    let ends = returned(edge, &both!(|k| derived.limit_inside(k)), None);
+    both!(|k| {
+        let fine = |f: usize| derived.fine(&t, k, f).slopes[END] * at(FINE_SPRING + k * FINE + f);
+        let mut slopes = ends[k].times(derived.fine_inside(k)).slopes;
+        slopes[END] += derived.stiffness[k].slopes[END] * at(k * N + c.last);
+        slopes[END] += (c.first_edge()..=c.part).map(fine).sum::<f64>();
+        slopes[1 + k] += c.total(k) - c.fine_inside(k);
+        slopes
+    })
 }
