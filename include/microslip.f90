@@ -127,7 +127,6 @@ module microslip
     !! 2*length > b and a positive initial stiffness
   integer(mslip_int), parameter, public :: MSLIP_OUT_OF_RANGE = 13
     !! parameters out of range: a derived quantity would exceed 1e-150 .. 1e150
-  integer(mslip_int), parameter, public :: MSLIP_BAD_SPRINGS = 14  !! springs must be 0, 8, 12 or 16
   integer(mslip_int), parameter, public :: MSLIP_BAD_NORMAL_COMPLIANCE = 15
     !! normal_compliance of a layer must be finite and >= 0, and under normal_force at most 2^40 times that of the
     !! contact and 0 or 1e-150 .. 1e150
