@@ -6,8 +6,8 @@
 //!
 //! - `scalar`: numbers over which the law is written, values and duals;
 //! - `tables`, `contact`: the springs of a shape, aligned with a size, and under a present load;
-//! - `trial`, `predict`, `slip`, `step`: a step without slip, the part of the slip that is known before, Coulomb's law at the points, and the step
-//!   itself with its energy;
+//! - `trial`, `slip`, `step`: a step without slip, Coulomb's law at the points in its middle and at its end, and the step itself with its
+//!   energy;
 //! - `stick`: a step under a constant load without slip;
 //! - `path`, `state`: a step between contacts that may be open, and the state in the caller's memory;
 //! - [`harmonic_force`]: Fourier coefficients of the forces of a periodic motion.
@@ -16,7 +16,6 @@ pub mod harmonic_force;
 
 mod contact;
 mod path;
-mod predict;
 mod scalar;
 mod slip;
 mod state;

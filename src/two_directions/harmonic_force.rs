@@ -14,7 +14,7 @@ use super::Requested;
 use super::contact::{Contact, Pressed, derive};
 use super::path::Path;
 use super::scalar::Dual;
-use super::slip::Slip;
+use super::slip::Slips;
 use super::step::{advance, separated, step};
 use super::tables::{ALIGNMENT, Both, END, N, PARAMETERS, ROWS, Rows, START, Units, fill, under_flat};
 use super::trial::{Motion, SPRINGS, Springs, Values, trial};
@@ -247,7 +247,7 @@ struct Walk<'a> {
     derived: Option<Contact<Dual<PADDED>>>,
     normal: Normal,
     springs: Values,
-    slip: Slip,
+    slip: Slips,
     compliance: Both<super::tables::Matrix>,
 }
 
@@ -286,14 +286,13 @@ impl Walk<'_> {
         let motion = path.motion(&from, &self.contact, same);
         let trial = trial(self.tables[0], &self.contact, &motion, &old);
         if trial.sticks {
-            self.slip.stick(&trial, &old);
+            self.slip.stick();
         } else {
-            let (tables, compliance) = (self.tables[0], &self.compliance);
-            self.slip.find(tables, &self.contact, compliance, &motion, &trial, &old, requested.tangent);
+            self.slip.find(self.tables[0], &self.contact, &self.compliance, &motion, &trial, requested.tangent);
         }
         let contacts = [&from, &self.contact];
         let (force, dissipated) =
-            advance(self.tables[0], contacts, &motion, &self.slip, &self.slip.r, requested.energy, &mut self.springs);
+            advance(self.tables[0], contacts, &motion, &self.slip, requested.energy, &mut self.springs);
         Taken { force, dissipated: dissipated * path.scale, old, motion, path, before, closed }
     }
 
@@ -345,7 +344,6 @@ impl<const L: usize> Columns<'_, L> {
 /// With lanes of the parameters: M = L + 4.
 impl<const L: usize, const M: usize> Springs<Dual<M>> for Columns<'_, L> {
     const KEPT: bool = true;
-    const TRACTIONS: bool = true;
 
     #[inline(always)]
     fn get(&self, place: usize) -> Dual<M> {
@@ -383,7 +381,7 @@ fn columns<const L: usize, const M: usize>(
     tables: [&Rows; 2],
     contact: &Contact<Dual<PADDED>>,
     motion: &Motion<Dual<PADDED>, Dual<M>>,
-    slip: &Slip,
+    slip: &Slips,
     springs: &mut Columns<L>,
 ) -> Both<[f64; L]> {
     dispatch!(columns_kernel(tables, contact, motion, slip, springs))
@@ -394,7 +392,7 @@ fn columns_kernel<const L: usize, const M: usize>(
     tables: [&Rows; 2],
     contact: &Contact<Dual<PADDED>>,
     motion: &Motion<Dual<PADDED>, Dual<M>>,
-    slip: &Slip,
+    slip: &Slips,
     springs: &mut Columns<L>,
 ) -> Both<[f64; L]> {
     let force = step(&tables, contact, motion, slip, springs);
@@ -437,7 +435,7 @@ fn walk(element: &Element, workspace: &mut Workspace, output: HarmonicOutput) {
             derived: None,
             normal: Normal::OPEN,
             springs: [[0.0; N]; SPRINGS / N],
-            slip: Slip::NONE,
+            slip: Slips::NONE,
             compliance: [[[0.0; N]; N]; 2],
         };
         walk.press(top);
@@ -599,8 +597,10 @@ fn differentiate<const L: usize, const M: usize>(
                 by[k].slopes[PADDED + c] = path.per_input[k][0] * from + path.per_input[k][1] * to;
                 by[k].slopes[PADDED + (1 + k) * (L / 3) + c] = path.per_distance * (to - from);
             }
-            (parameters[START][c], parameters[END][c]) = (from, to);
-            parameters[ALIGNMENT][c] = by_top * at(top, coefficient);
+            // The load at the start of the first step is that of the largest one.
+            let top = at(top, coefficient);
+            parameters[START][c] = if start.is_empty() { top } else { from };
+            (parameters[END][c], parameters[ALIGNMENT][c]) = (to, by_top * top);
         }
         let motion = Motion { before: shift, by, constant_load: motion.constant_load };
         let mut springs = Columns { values: old, columns: memory, parameters: &parameters };

@@ -31,9 +31,6 @@ pub(crate) trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Outp
     /// `self += x factor`
     fn add_scaled(&mut self, x: &Self, factor: f64);
 
-    /// Adds the derivatives of x times a partial derivative.
-    fn add_slopes(&mut self, x: &Self, partial: f64);
-
     /// 1/x of a number that is not 0.
     #[inline(always)]
     fn inverse(self) -> Self {
@@ -91,9 +88,6 @@ impl Real for f64 {
     fn add_scaled(&mut self, x: &f64, factor: f64) {
         *self += x * factor;
     }
-
-    #[inline(always)]
-    fn add_slopes(&mut self, _: &f64, _: f64) {}
 }
 
 impl Over<f64> for f64 {
@@ -159,13 +153,6 @@ impl<const M: usize> Real for Dual<M> {
             self.slopes[k] += x.slopes[k] * factor;
         }
         self.value += x.value * factor;
-    }
-
-    #[inline(always)]
-    fn add_slopes(&mut self, x: &Self, partial: f64) {
-        for k in 0..M {
-            self.slopes[k] += x.slopes[k] * partial;
-        }
     }
 }
 

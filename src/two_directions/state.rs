@@ -13,11 +13,11 @@
 use super::contact::{Contact, Pressed};
 use super::path::{LONGEST, Path};
 use super::scalar::Dual;
-use super::slip::Slip;
+use super::slip::Slips;
 use super::step::{advance, separated, step};
 use super::stick;
 use super::tables::{Both, END, FINE, INSIDE, MOST_PARTS, Matrix, N, ROWS, Row, Rows, Units, fill, starts, under_flat};
-use super::trial::{FINE_SPRING, Motion, SPRINGS, TRACTION, Values, trial};
+use super::trial::{FINE_SPRING, Motion, SPRINGS, Values, trial};
 use super::{Requested, Step};
 use crate::element::{Element, Normal};
 use crate::error::Error;
@@ -74,7 +74,7 @@ pub(super) fn check_tag(tag: f64) -> Result<(), Error> {
     if Kind::TwoDirectionsState.count(tag) == Some(0) { Ok(()) } else { Err(Error::BadState) }
 }
 
-/// Validates a state in full: finite values, springs and tractions within their limits. For states from outside the process.
+/// Validates a state in full: finite values, springs within their limits. For states from outside the process.
 ///
 /// # Errors
 /// `StateTooShort`; `BadState` for an array that was not initialised, or whose values no history leads to.
@@ -90,15 +90,18 @@ pub fn state_check(state: &[f64]) -> Result<(), Error> {
     if header.normal_force == 0.0 {
         return Ok(());
     }
-    let (x, y) = (memory.springs[2], memory.springs[3]);
-    let bounded = |x: f64, y: f64| x.abs() <= 2.0 && y.abs() <= 2.0 && x * x + y * y <= 1.0 + 1e-9;
     let Units { load, shift, size } = header.units;
     let positive =
         [header.normal_force, load, shift, size, contact.now.load, contact.now.shift[0], contact.now.shift[1]];
     let held = memory.springs.as_flattened().iter().all(|value| value.abs() <= LONGEST);
     let edge = contact.edge.as_flattened().iter().chain(&contact.per_pressure).all(|value| *value >= 0.0);
-    let within = x.iter().zip(y).all(|(x, y)| bounded(*x, y)) && positive.iter().all(|value| *value > 0.0);
-    if within && held && edge { Ok(()) } else { Err(Error::BadState) }
+    let start = starts(contact.under_flat);
+    let within = (0..2).all(|k| {
+        let rounding = 1e-9 * contact.now.shift[k];
+        let limit = |j: usize| contact.limit(&&*memory.tables, k, start[j]) + rounding;
+        (0..=contact.last.min(N - 1)).all(|j| memory.springs[k][j].abs() <= limit(j))
+    });
+    if within && held && edge && positive.iter().all(|value| *value > 0.0) { Ok(()) } else { Err(Error::BadState) }
 }
 
 /// Copies a state whose header was checked to one that is as long.
@@ -271,12 +274,6 @@ fn transfer(
             new[k][j] = if inner { ratio * old[k][j] } else { fine(limit) + ratio * polygon(limit / ratio, corners) };
         }
     }
-    let still = Motion { before: to.now.shift, by: [0.0; 2], constant_load: false };
-    let r = trial(tables, to, &still, new).r;
-    for i in 0..N {
-        let over = (r[0][i] * r[0][i] + r[1][i] * r[1][i]).sqrt().max(1.0);
-        (new[TRACTION / N][i], new[TRACTION / N + 1][i]) = (r[0][i] / over, r[1][i] / over);
-    }
 }
 
 /// The value at an abscissa of a polygon that begins at (0, 0).
@@ -365,11 +362,10 @@ pub(super) fn advance_state(element: &Element, state: &mut [f64], to: [f64; 3], 
     let trial = trial(memory.tables, &contact, &motion, memory.springs);
     let mut found;
     let slip = if trial.sticks {
-        &Slip::NONE
+        &Slips::NONE
     } else {
-        found = Slip::NONE;
-        let (tables, springs) = (&*memory.tables, &*memory.springs);
-        found.find(tables, &contact, memory.compliance, &motion, &trial, springs, requested.tangent);
+        found = Slips::NONE;
+        found.find(memory.tables, &contact, memory.compliance, &motion, &trial, requested.tangent);
         &found
     };
     if requested.tangent {
@@ -386,9 +382,8 @@ pub(super) fn advance_state(element: &Element, state: &mut [f64], to: [f64; 3], 
         }
         result.tangent[8] = normal.load_slope;
     }
-    let r = if trial.sticks { &trial.r } else { &slip.r };
     let contacts = [&from, &contact];
-    let (force, energy) = advance(memory.tables, contacts, &motion, slip, r, requested.energy, memory.springs);
+    let (force, energy) = advance(memory.tables, contacts, &motion, slip, requested.energy, memory.springs);
     result.force = [force_unit * force[0], force_unit * force[1], normal.load];
     result.dissipated = energy_unit * energy;
     let header = Header { displacement: to, normal_force: normal.load, force, ..header };
@@ -406,7 +401,7 @@ fn tangent(
     contact: &Contact<f64>,
     slopes: &Pressed<f64>,
     motion: &Motion<Dual<1>, Dual<4>>,
-    slip: &Slip,
+    slip: &Slips,
     springs: &Values,
 ) -> Both<Dual<4>> {
     dispatch!(tangent_kernel(tables, contact, slopes, motion, slip, springs))
@@ -418,7 +413,7 @@ fn tangent_kernel(
     contact: &Contact<f64>,
     slopes: &Pressed<f64>,
     motion: &Motion<Dual<1>, Dual<4>>,
-    slip: &Slip,
+    slip: &Slips,
     mut springs: &Values,
 ) -> Both<Dual<4>> {
     let contact = contact.derived::<1, _>(&tables, slopes);

@@ -6,11 +6,10 @@
 //! derivatives. The fine springs have limits of their own.
 
 use super::contact::{Contact, Pressed};
-use super::predict::{bend, release, slid};
 use super::scalar::{Over, Real, both};
-use super::slip::{SLIPPED, Slip};
+use super::slip::{SLIPPED, Slip, Slips};
 use super::tables::{Both, FINE, INSIDE, Matrix, N, Row, Rows, SHIFT, Tables, starts};
-use super::trial::{FINE_SPRING, Motion, Springs, TRACTION, Values, moved};
+use super::trial::{FINE_SPRING, Motion, Springs, Values, limits_before, moved, slid};
 use crate::shape::TINY;
 use crate::simd::dispatch;
 
@@ -20,7 +19,7 @@ pub(crate) fn step<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     t: &T,
     c: &Contact<A>,
     motion: &Motion<A, X>,
-    slip: &Slip,
+    slip: &Slips,
     s: &mut S,
 ) -> Both<X> {
     let (zero, start, last) = (X::constant(0.0), starts(c.under_flat), c.last.min(N - 1));
@@ -33,16 +32,36 @@ pub(crate) fn step<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
         }
     }
     let part = if slip.slides > 0.0 { slid(t, c, &v) } else { zero };
-    let mut r = [[zero; N]; 2];
-    if slip.set != 0 {
-        slide(t, c, s, &mut v, &mut r, slip);
+    if slip.middle.set != 0 {
+        let theta = (part + X::constant(1.0)).scale(0.5);
+        let (before, first) = (limits_before(t, c, rise[0]), slip.middle.set.trailing_zeros() as usize);
+        let mut level = [zero; N];
+        for i in first..=last {
+            level[i] = X::constant(1.0).times(before[i]) + theta.times(A::constant(1.0) - before[i]);
+        }
+        let (mut at, per) = (v, theta.inverse());
+        for k in 0..2 {
+            for j in first..=last {
+                let old = s.get(k * N + j);
+                at[k][j] = old + (v[k][j] - old) * theta;
+            }
+        }
+        slide(t, c, &level, &mut at, &slip.middle);
+        for k in 0..2 {
+            for j in first..=last {
+                let old = s.get(k * N + j);
+                v[k][j] = old + (at[k][j] - old) * per;
+            }
+        }
+    }
+    if slip.end.set != 0 {
+        slide(t, c, &[X::constant(1.0); N], &mut v, &slip.end);
     }
     let far = if slip.slides > 0.0 { Some(Far::new(t, c, part, &v)) } else { None };
     for k in 0..2 {
         for j in 0..=last {
             if let Some(far) = &far {
                 v[k][j] = far.blend(k, v[k][j], c.limit(t, k, start[j]));
-                r[k][j] = far.blend(k, r[k][j], A::constant(1.0));
             }
             force[k].add_product(&v[k][j], c.stiffness(t, k, j));
         }
@@ -51,11 +70,6 @@ pub(crate) fn step<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
         }
         for j in 0..N {
             s.put(k * N + j, v[k][j]);
-            if slip.contains(j) {
-                s.put(TRACTION + k * N + j, r[k][j]);
-            } else if S::TRACTIONS {
-                s.put(TRACTION + k * N + j, if j <= last { slip.traction(t, c, k, j, &v[k]) } else { zero });
-            }
         }
     }
     let part = c.part.min(INSIDE - 1);
@@ -150,55 +164,21 @@ pub(crate) fn returned<A: Real, X: Over<A>>(v: Both<X>, limit: &Both<A>, far: Op
     v
 }
 
-impl Slip {
-    /// r of a point that sticks, if the next slip depends on it.
-    #[inline(always)]
-    fn traction<A: Real, X: Over<A>>(&self, t: &impl Tables<A>, c: &Contact<A>, k: usize, i: usize, v: &Row<X>) -> X {
-        let (x, y) = (self.r[0][i], self.r[1][i]);
-        let mut sum = X::constant(0.0);
-        if x * x + y * y > NEEDED {
-            for j in i..=c.last.min(N - 1) {
-                let above = if j < c.last { v[(j + 1).min(N - 1)] } else { X::constant(0.0) };
-                sum.add_product(&(v[j] - above), c.map(t, k, j, i));
-            }
-        }
-        sum.times(c.per_pressure[i])
-    }
-}
-
-/// |r|² up to which β of the next step is 0, with a margin.
-const NEEDED: f64 = 0.4;
-
-/// The step of Newton's method: springs, and tractions of the points that slip.
+/// The step of Newton's method: springs that slip to the limits of their points.
 #[inline(always)]
-fn slide<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
-    t: &T,
-    c: &Contact<A>,
-    s: &S,
-    v: &mut Both<Row<X>>,
-    tractions: &mut Both<Row<X>>,
-    slip: &Slip,
-) {
+fn slide<A: Real, X: Over<A>, T: Tables<A>>(t: &T, c: &Contact<A>, level: &Row<X>, v: &mut Both<Row<X>>, slip: &Slip) {
     let (zero, last) = (X::constant(0.0), c.last.min(N - 1));
     let first = (slip.set.trailing_zeros() as usize).min(last);
     let mut sigma = [[zero; N]; 2];
-    let per_slip = both!(|k| {
-        let mut row = [A::constant(0.0); N];
-        for i in first..=last {
-            row[i] = c.per_pressure[i].scale(slip.sigma[k][i]);
-        }
-        row
-    });
-    let mut trial = [[zero; N]; 2];
     for k in 0..2 {
-        // Springs by which σ relaxes the contact, and the residual of r* - A σ = e.
+        // Springs by which σ relaxes the contact, and the residual of r* - A σ = l e.
         let mut relaxed = [A::constant(0.0); N];
         let mut before = A::constant(0.0);
         for j in first..=last {
             let mut sum = A::constant(0.0);
             for i in first..=j {
                 if slip.contains(i) {
-                    sum = sum + c.map(t, k, j, i) * per_slip[k][i];
+                    sum = sum + c.map(t, k, j, i) * c.per_pressure[i].scale(slip.sigma[k][i]);
                 }
             }
             relaxed[j] = (sum - before) * c.flexibility(t, k, j);
@@ -218,31 +198,18 @@ fn slide<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
                     sum.add_product(&d[j], c.map(t, k, j, i));
                     relief = relief + less[j] * c.map(t, k, j, i);
                 }
-                trial[k][i] = sum.times(c.per_pressure[i]);
-                residual[i] = trial[k][i].minus(relief * c.per_pressure[i] + A::constant(slip.e[k][i]));
+                residual[i] = sum.times(c.per_pressure[i]).minus(relief * c.per_pressure[i]);
+                residual[i].add_scaled(&level[i], -slip.e[k][i]);
                 sigma[k][i] = X::constant(slip.sigma[k][i]);
             }
         }
         add_product(&slip.k[k], slip, [first, last], &residual, &mut sigma[k]);
     }
     // The angles.
-    let (mut residual, start) = ([zero; N], starts(c.under_flat));
+    let mut residual = [zero; N];
     for i in first..=last {
         if slip.contains(i) {
-            let mut n = [slip.e[0][i], slip.e[1][i]];
-            let slips = both!(|k| sigma[k][i].value());
-            if slip.shares[i] > 0.0 {
-                let from = both!(|k| s.get(TRACTION + k * N + i));
-                let over_limit = both!(|k| v[k][i].times(c.limit(t, k, start[i]).inverse()));
-                let bend = bend(&from, &both!(|k| trial[k][i]), &over_limit);
-                let weight = bend.value();
-                n = both!(|k| n[k] + weight * from[k].value());
-                residual[i].add_slopes(&bend, from[0].value() * slips[1] - from[1].value() * slips[0]);
-                residual[i].add_slopes(&from[0], weight * slips[1]);
-                residual[i].add_slopes(&from[1], -weight * slips[0]);
-            }
-            residual[i].add_scaled(&sigma[1][i], n[0]);
-            residual[i].add_scaled(&sigma[0][i], -n[1]);
+            residual[i] = sigma[1][i].scale(slip.e[0][i]) - sigma[0][i].scale(slip.e[1][i]);
         }
     }
     let mut turn = [zero; N];
@@ -250,11 +217,10 @@ fn slide<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     let every = slip.set.count_ones() as usize == last + 1 - first;
     for k in 0..2 {
         let (across, sign) = if k == 0 { (&slip.e[1], -1.0) } else { (&slip.e[0], 1.0) };
-        let (mut change, r) = ([zero; N], &mut tractions[k]);
+        let mut change = [zero; N];
         for i in first..=last {
             if slip.contains(i) {
-                change[i] = turn[i].scale(-sign * across[i]);
-                r[i] = X::constant(slip.e[k][i]) - change[i];
+                change[i] = turn[i].scale(-sign * across[i] * slip.level[i]);
             }
         }
         if every {
@@ -262,7 +228,7 @@ fn slide<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
             let mut d = [zero; N];
             let mut above = zero;
             for j in (first..=last).rev().map(|j| j.min(N - 1)) {
-                let mut sum = r[j].times(c.per_pressure[j].inverse());
+                let mut sum = (level[j].scale(slip.e[k][j]) - change[j]).times(c.per_pressure[j].inverse());
                 for m in j + 1..=last {
                     sum = sum - d[m].times(c.map(t, k, m, j));
                 }
@@ -275,7 +241,17 @@ fn slide<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
             for i in first..=last {
                 sigma[k][i] = sigma[k][i].times(c.per_pressure[i]);
             }
-            release(t, c, k, &sigma[k], slip.set, &mut v[k]);
+            let mut before = zero;
+            for j in first..=last {
+                let mut sum = zero;
+                for i in first..=j {
+                    if slip.contains(i) {
+                        sum.add_product(&sigma[k][i], c.map(t, k, j, i));
+                    }
+                }
+                v[k][j] = v[k][j] - (sum - before).times(c.flexibility(t, k, j));
+                before = sum;
+            }
         }
     }
 }
@@ -296,17 +272,16 @@ fn add_product<X: Real>(matrix: &Matrix, slip: &Slip, [first, last]: [usize; 2],
     }
 }
 
-/// A step of values from its trial state and its slip, in the units of the springs: force, and dissipated energy if requested.
+/// A step of values whose slip is known, in the units of the springs: force, and dissipated energy if requested.
 pub(crate) fn advance(
     t: &Rows,
     contacts: [&Contact<f64>; 2],
     motion: &Motion<f64, f64>,
-    slip: &Slip,
-    r: &Both<Row<f64>>,
+    slip: &Slips,
     energy: bool,
     springs: &mut Values,
 ) -> (Both<f64>, f64) {
-    dispatch!(kernel(t, contacts, motion, slip, r, energy, springs))
+    dispatch!(kernel(t, contacts, motion, slip, energy, springs))
 }
 
 #[inline(always)]
@@ -314,19 +289,12 @@ fn kernel(
     t: &Rows,
     [from, c]: [&Contact<f64>; 2],
     motion: &Motion<f64, f64>,
-    slip: &Slip,
-    r: &Both<Row<f64>>,
+    slip: &Slips,
     energy: bool,
     springs: &mut Values,
 ) -> (Both<f64>, f64) {
     let old = *springs;
     let force = step(&t, c, motion, slip, &mut &mut *springs);
-    for i in 0..N {
-        for k in 0..2 {
-            let r = if i <= c.last { r[k][i] } else { 0.0 };
-            springs[2 + k][i] = if slip.contains(i) { springs[2 + k][i] } else { r };
-        }
-    }
     let dissipated = if energy { dissipated(t, [from, c], motion, slip, [&old, springs]) } else { 0.0 };
     (force, dissipated)
 }
@@ -337,25 +305,17 @@ fn dissipated(
     t: &Rows,
     [from, c]: [&Contact<f64>; 2],
     motion: &Motion<f64, f64>,
-    slip: &Slip,
+    slip: &Slips,
     [old, new]: [&Values; 2],
 ) -> f64 {
     let rise = both!(|k| c.now.shift[k] - motion.before[k]);
     let mut energy = if rise[0] < 0.0 { separated(t, from, &c.now, motion.by, old) } else { 0.0 };
     let start = starts(c.under_flat);
-    if slip.set != 0 {
+    if !slip.is_empty() {
         for j in 0..(c.last + 1).min(N) {
             let w = both!(|k| c.stiffness(&t, k, j));
             let places = [[old[0][j], old[1][j]], [new[0][j], new[1][j]]];
-            energy += slipped(
-                t,
-                c,
-                start[j],
-                w,
-                places,
-                motion,
-                [if slip.contains(j) { slip.shares[j] } else { 0.0 }, slip.slides],
-            );
+            energy += slipped(t, c, start[j], w, places, motion, slip.slides);
         }
     }
     let at = |springs: &Values, f: usize| {
@@ -365,7 +325,7 @@ fn dissipated(
         let [x, y] = both!(|k| at(new, f)[k] / c.limit(&t, k, f));
         if slip.slides > 0.0 || x * x + y * y > SLIPPED {
             let w = both!(|k| c.fine(&t, k, f));
-            energy += slipped(t, c, f, w, [at(old, f), at(new, f)], motion, [0.0, slip.slides]);
+            energy += slipped(t, c, f, w, [at(old, f), at(new, f)], motion, slip.slides);
         }
     }
     if energy > 0.0 { energy } else { 0.0 }
@@ -375,7 +335,7 @@ fn dissipated(
 const LEAST_LIMIT: f64 = 1e-40;
 
 /// Energy of a spring of stiffness w: it follows its trial path until it reaches its limit, which changes evenly on the way, and slips from
-/// there to its end; points that slipped before slip on that share of the path too. A spring that slides far does so in its last direction.
+/// there to its end. A spring that slides far does so in its last direction.
 #[inline(always)]
 fn slipped(
     t: &Rows,
@@ -384,7 +344,7 @@ fn slipped(
     w: Both<f64>,
     [old, new]: [Both<f64>; 2],
     motion: &Motion<f64, f64>,
-    [bend, slides]: [f64; 2],
+    slides: f64,
 ) -> f64 {
     let limit = both!(|k| c.limit(&t, k, f));
     let per_limit = both!(|k| 1.0 / if limit[k] > LEAST_LIMIT { limit[k] } else { LEAST_LIMIT });
@@ -395,7 +355,7 @@ fn slipped(
     let (t_x, t_y) = (trial[0] * per_limit[0], trial[1] * per_limit[1]);
     let (dx, dy, change) = (t_x - x, t_y - y, ratio - 1.0);
     let (qa, qb) = (dx * dx + dy * dy - change * change, x * dx + y * dy + ratio * change);
-    let part = (1.0 - bend) * exit(qa, qb, x * x + y * y - ratio * ratio);
+    let part = exit(qa, qb, x * x + y * y - ratio * ratio);
     let limit_there = slides * (ratio - change * part);
     let of = |k: usize| {
         let leaves = (1.0 - slides) * (old[k] + part * (trial[k] - old[k])) + limit_there * new[k];

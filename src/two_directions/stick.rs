@@ -4,7 +4,7 @@ use super::contact::{Contact, Pressed};
 use super::scalar::{Dual, Over, both};
 use super::step::returned;
 use super::tables::{Both, END, FINE, INSIDE, N, Rows, SHIFT};
-use super::trial::{FINE_SPRING, ROUNDING, Values};
+use super::trial::{FINE_SPRING, ROUNDING, Values, tractions};
 use crate::simd::dispatch;
 
 /// Moves the springs, unless a point or a fine spring would slip; the displacement of the fine spring at the edge, which may, before it returns
@@ -15,7 +15,8 @@ pub(crate) fn stick(t: &Rows, c: &Contact<f64>, by: &Both<f64>, springs: &mut Va
 
 #[inline(always)]
 fn kernel(t: &Rows, c: &Contact<f64>, by: &Both<f64>, springs: &mut Values) -> Option<Both<f64>> {
-    let (mut r, mut largest) = ([springs[2], springs[3]], [0.0; N]);
+    let mut largest = [0.0; N];
+    let mut r = both!(|k| tractions(t, c, k, &springs[k]));
     for k in 0..2 {
         for i in 0..N {
             r[k][i] += c.edge[k][i] * c.per_pressure[i] * by[k];
@@ -52,7 +53,6 @@ fn kernel(t: &Rows, c: &Contact<f64>, by: &Both<f64>, springs: &mut Values) -> O
         for j in 0..N {
             fine[k][j] += if j <= c.last { by[k] } else { 0.0 };
         }
-        fine[2 + k] = r[k];
         fine[(FINE_SPRING + k * FINE + INSIDE) / N][INSIDE % N] = ends[k];
     }
     *springs = fine;

@@ -1,13 +1,12 @@
-//! The trial state of a step, in which all springs stick, and the springs.
+//! The springs, the trial state of a step, in which all stick, and the limits on the way.
 
 use super::contact::Contact;
-use super::scalar::{Over, Real};
-use super::tables::{Both, FINE, MAP, N, Row, Rows, starts};
+use super::scalar::{Over, Real, both};
+use super::tables::{Both, FINE, MAP, N, Row, Rows, Tables, starts};
 use crate::simd::dispatch;
 
-/// Places of the springs: their displacements, r of the points, and the displacements of the fine springs, x before y.
-pub(crate) const TRACTION: usize = 2 * N;
-pub(crate) const FINE_SPRING: usize = 4 * N;
+/// Places of the springs: their displacements, and those of the fine springs, x before y.
+pub(crate) const FINE_SPRING: usize = 2 * N;
 pub(crate) const SPRINGS: usize = FINE_SPRING + 2 * FINE;
 
 /// The springs as values.
@@ -15,9 +14,8 @@ pub(crate) type Values = [Row<f64>; SPRINGS / N];
 
 /// Springs as numbers of a kind.
 pub(crate) trait Springs<X> {
-    /// Whether the springs are kept, and r of points that stick: with values, the trial state gives it.
+    /// Whether the springs are kept.
     const KEPT: bool;
-    const TRACTIONS: bool;
     fn get(&self, place: usize) -> X;
     fn put(&mut self, place: usize, x: X);
 }
@@ -25,7 +23,6 @@ pub(crate) trait Springs<X> {
 /// Before a step, without derivatives.
 impl<X: Real> Springs<X> for &Values {
     const KEPT: bool = false;
-    const TRACTIONS: bool = false;
 
     #[inline(always)]
     fn get(&self, place: usize) -> X {
@@ -38,7 +35,6 @@ impl<X: Real> Springs<X> for &Values {
 
 impl Springs<f64> for &mut Values {
     const KEPT: bool = true;
-    const TRACTIONS: bool = false;
 
     #[inline(always)]
     fn get(&self, place: usize) -> f64 {
@@ -74,10 +70,10 @@ pub(crate) const ROUNDING: f64 = 1.0 + 1e-12;
 /// rounding errors of their differences.
 #[repr(align(32))]
 pub(crate) struct Trial {
-    /// v*, r*, and the springs over their limits.
+    /// v*; r of the springs at the start, and r*.
     pub v: Both<Row<f64>>,
+    pub start: Both<Row<f64>>,
     pub r: Both<Row<f64>>,
-    pub over_limit: Both<Row<f64>>,
     /// Whether |r| exceeds 1 at no point.
     pub sticks: bool,
 }
@@ -89,20 +85,18 @@ pub(crate) fn trial(t: &Rows, c: &Contact<f64>, motion: &Motion<f64, f64>, old: 
 
 #[inline(always)]
 fn trial_kernel(t: &Rows, c: &Contact<f64>, motion: &Motion<f64, f64>, old: &Values) -> Trial {
-    let (last, start) = (c.last.min(N - 1), starts(c.under_flat));
-    let (mut all, mut r, mut over_limit) = ([[0.0; N]; 2], [[0.0; N]; 2], [[0.0; N]; 2]);
+    let (last, start_of) = (c.last.min(N - 1), starts(c.under_flat));
+    let (mut all, mut start, mut r) = ([[0.0; N]; 2], [[0.0; N]; 2], [[0.0; N]; 2]);
     for k in 0..2 {
-        let (mut limit, mut v) = ([1.0; N], [0.0; N + 1]);
         let rise = c.now.shift[k] - motion.before[k];
         for j in 0..=last {
-            limit[j] = c.limit(&t, k, start[j]);
-            v[j] = old[k][j] + moved(limit[j], rise, motion.by[k]);
+            all[k][j] = old[k][j] + moved(c.limit(&t, k, start_of[j]), rise, motion.by[k]);
         }
-        r[k] = if motion.constant_load { old[2 + k] } else { tractions(t, c, k, &v) };
+        start[k] = tractions(t, c, k, &old[k]);
+        r[k] = if motion.constant_load { start[k] } else { tractions(t, c, k, &all[k]) };
         let moved = if motion.constant_load { motion.by[k] } else { 0.0 };
         for i in 0..N {
             r[k][i] += c.edge[k][i] * c.per_pressure[i] * moved;
-            (all[k][i], over_limit[k][i]) = (v[i], v[i] / limit[i]);
         }
     }
     let mut largest = 0.0;
@@ -110,21 +104,60 @@ fn trial_kernel(t: &Rows, c: &Contact<f64>, motion: &Motion<f64, f64>, old: &Val
         let square = r[0][i] * r[0][i] + r[1][i] * r[1][i];
         largest = if square > largest { square } else { largest };
     }
-    Trial { v: all, r, over_limit, sticks: largest <= ROUNDING }
+    Trial { v: all, start, r, sticks: largest <= ROUNDING }
 }
 
-/// r of displacements of the springs, 0 behind the last one.
+/// r of displacements of the springs up to the last one.
 #[inline(always)]
-pub(crate) fn tractions(t: &Rows, c: &Contact<f64>, k: usize, v: &[f64; N + 1]) -> Row<f64> {
-    let mut r = [0.0; N];
-    for j in 0..=c.last.min(N - 1) {
-        let (d, row) = (v[j] - v[j + 1], if j < c.last { &t[MAP + k * N + j] } else { &c.edge[k] });
+pub(crate) fn tractions(t: &Rows, c: &Contact<f64>, k: usize, v: &Row<f64>) -> Row<f64> {
+    let (mut r, last) = ([0.0; N], c.last.min(N - 1));
+    for j in 0..=last {
+        let (above, row) = if j < last { (v[j + 1], &t[MAP + k * N + j]) } else { (0.0, &c.edge[k]) };
         for i in 0..N {
-            r[i] += d * row[i];
+            r[i] += (v[j] - above) * row[i];
         }
     }
     for i in 0..N {
         r[i] *= c.per_pressure[i];
     }
     r
+}
+
+/// The limits of the points at the start of a step over those at its end: tractions of gross slip there.
+#[inline(always)]
+pub(crate) fn limits_before<A: Real>(t: &impl Tables<A>, c: &Contact<A>, rise: A) -> Row<A> {
+    let (last, start) = (c.last.min(N - 1), starts(c.under_flat));
+    let (zero, mut limits) = (A::constant(0.0), [A::constant(0.0); N]);
+    let mut above = zero;
+    for j in (0..=last).rev().map(|j| j.min(N - 1)) {
+        let limit = c.limit(t, 0, start[j]) - rise;
+        let limit = if limit.value() > 0.0 { limit } else { zero };
+        for i in 0..=j {
+            limits[i] = limits[i] + (limit - above) * c.map(t, 0, j, i);
+        }
+        above = limit;
+    }
+    for i in 0..=last {
+        limits[i] = limits[i] * c.per_pressure[i];
+    }
+    limits
+}
+
+/// Displacements of the innermost spring over its limit between which a contact that slides forgets: farther, the springs end in gross slip
+/// in one direction.
+const FAR: [f64; 2] = [2.5, 5.0];
+
+/// The part in which a contact that slides far forgets, from its trial state.
+#[inline(always)]
+pub(crate) fn slid<A: Real, X: Over<A>, T: Tables<A>>(t: &T, c: &Contact<A>, v: &Both<Row<X>>) -> X {
+    let [x, y] = both!(|k| v[k][0].times(c.limit(t, k, 0).inverse()));
+    let square = x * x + y * y;
+    if square.value() <= FAR[0] * FAR[0] {
+        return X::constant(0.0);
+    }
+    if square.value() >= FAR[1] * FAR[1] {
+        return X::constant(1.0);
+    }
+    let part = (square.sqrt() - X::constant(FAR[0])).scale(1.0 / (FAR[1] - FAR[0]));
+    part * part * (X::constant(3.0) - part.scale(2.0))
 }
