@@ -334,8 +334,8 @@ fn dissipated(
 /// Limits below this, in the unit of the springs, are rounding; fourth powers of a motion over it stay finite.
 const LEAST_LIMIT: f64 = 1e-40;
 
-/// Energy of a spring of stiffness w: it follows its trial path until it reaches its limit, which changes evenly on the way, and slips from
-/// there to its end. A spring that slides far does so in its last direction.
+/// Energy of a spring of stiffness w: it follows its trial path until it is as far from 0, over its limit, as at its end, and slips from there:
+/// neighbours that turn keep it within its limit, which changes evenly on the way. A spring that slides far does so in its last direction.
 #[inline(always)]
 fn slipped(
     t: &Rows,
@@ -354,8 +354,10 @@ fn slipped(
     let (x, y) = (old[0] * per_limit[0], old[1] * per_limit[1]);
     let (t_x, t_y) = (trial[0] * per_limit[0], trial[1] * per_limit[1]);
     let (dx, dy, change) = (t_x - x, t_y - y, ratio - 1.0);
-    let (qa, qb) = (dx * dx + dy * dy - change * change, x * dx + y * dy + ratio * change);
-    let part = exit(qa, qb, x * x + y * y - ratio * ratio);
+    let (end_x, end_y) = (new[0] * per_limit[0], new[1] * per_limit[1]);
+    let end = end_x * end_x + end_y * end_y;
+    let (qa, qb) = (dx * dx + dy * dy - end * change * change, x * dx + y * dy + end * ratio * change);
+    let part = exit(qa, qb, x * x + y * y - end * ratio * ratio);
     let limit_there = slides * (ratio - change * part);
     let of = |k: usize| {
         let leaves = (1.0 - slides) * (old[k] + part * (trial[k] - old[k])) + limit_there * new[k];
