@@ -285,11 +285,7 @@ impl Walk<'_> {
         }
         let motion = path.motion(&from, &self.contact, same);
         let trial = trial(self.tables[0], &self.contact, &motion, &old);
-        if trial.sticks {
-            self.slip.stick();
-        } else {
-            self.slip.find(self.tables[0], &self.contact, &self.compliance, &motion, &trial, requested.tangent);
-        }
+        self.slip.find(self.tables[0], &self.contact, &self.compliance, &motion, &trial, requested.tangent);
         let contacts = [&from, &self.contact];
         let (force, dissipated) =
             advance(self.tables[0], contacts, &motion, &self.slip, requested.energy, &mut self.springs);

@@ -9,7 +9,7 @@
 
 use super::contact::Contact;
 use super::scalar::both;
-use super::tables::{Both, Matrix, N, Row, Rows};
+use super::tables::{Both, MAP, Matrix, N, Row, Rows};
 use super::trial::{Motion, ROUNDING, Trial, limits_before, slid};
 use crate::shape::TINY;
 use crate::simd::dispatch;
@@ -20,9 +20,8 @@ pub(crate) type Set = u32;
 /// Newton steps, and changes of the set, after which a guess is given up.
 const STEPS: usize = 60;
 const CHANGES: usize = 12;
-/// Changes of angles: the last one, up to which the inverse is renewed, and the largest one of a step. A step of the law ends with one
-/// more step of Newton's method, so that the error is the square of the first one.
-const CONVERGED: f64 = 1e-10;
+/// Changes of angles: the one that would be next, at the end, that up to which the inverse is renewed, and the largest one of a step.
+const CONVERGED: f64 = 1e-14;
 const RENEWED: f64 = 1e-2;
 const LARGEST_TURN: f64 = 0.8;
 /// Beyond this a guess is lost.
@@ -48,6 +47,8 @@ pub(crate) struct Slips {
     pub end: Slip,
     /// The part in which the contact slides far.
     pub slides: f64,
+    /// The springs at the end.
+    pub v: Both<Row<f64>>,
     /// Tractions at the start of the step before.
     start: Both<Row<f64>>,
 }
@@ -60,9 +61,9 @@ pub(crate) struct Slip {
     pub level: Row<f64>,
     pub e: Both<Row<f64>>,
     pub sigma: Both<Row<f64>>,
-    /// K, and the inverse of the derivative of the residual by the angles as `[m][i]`.
+    /// K, and the angles by which e turns per excess of r* - A σ over l e, as `[m][i]`.
     pub k: Both<Matrix>,
-    pub inverse: Matrix,
+    pub turns: Both<Matrix>,
     /// The points and the load of K.
     known: (Set, f64),
 }
@@ -84,19 +85,15 @@ struct Problem<'a> {
 }
 
 impl Slips {
-    pub const NONE: Slips = Slips { middle: Slip::NONE, end: Slip::NONE, slides: 0.0, start: [[0.0; N]; 2] };
+    pub const NONE: Slips =
+        Slips { middle: Slip::NONE, end: Slip::NONE, slides: 0.0, v: [[0.0; N]; 2], start: [[0.0; N]; 2] };
 
     /// Whether nothing slips.
     pub fn is_empty(&self) -> bool {
         self.middle.set | self.end.set == 0
     }
 
-    /// A step without slip.
-    pub fn stick(&mut self) {
-        (self.middle.set, self.end.set, self.slides) = (0, 0, 0.0);
-    }
-
-    /// The slip of a step whose trial state does not stick. The inverse of the derivatives is computed if they are requested.
+    /// The slip of a step from its trial state, and what derivatives need if they are requested.
     pub fn find(
         &mut self,
         t: &Rows,
@@ -160,6 +157,10 @@ fn find_kernel(
     derivatives: bool,
 ) {
     let (last, start) = (contact.last.min(N - 1), &trial.start);
+    (slips.middle.set, slips.end.set, slips.slides, slips.v) = (0, 0, 0.0, trial.v);
+    if trial.sticks {
+        return;
+    }
     slips.slides = slid(&t, contact, &trial.v);
     let theta = 0.5 * (1.0 + slips.slides);
     (slips.middle.level, slips.end.level) = ([1.0; N], [1.0; N]);
@@ -175,6 +176,7 @@ fn find_kernel(
             r[k][i] += theta * (trial.r[k][i] - start[k][i]);
         }
     }
+    let mut v = trial.v;
     let mut guesses = slips.guesses(&r, start, &motion.by, last);
     for stage in 0..2 {
         let middle = stage == 0;
@@ -193,7 +195,6 @@ fn find_kernel(
             guesses[1] = guesses[0];
             guesses[0].set |= other.set;
         }
-        slip.set = 0;
         if guesses[1].set == 0 {
             continue;
         }
@@ -205,7 +206,26 @@ fn find_kernel(
         if !converged {
             slip.descend(other, &problem, derivatives);
         }
+        for k in 0..2 {
+            let mut sigma = [0.0; N];
+            for i in 0..N {
+                let scale = contact.per_pressure[i] / if middle { theta } else { 1.0 };
+                sigma[i] = if slip.set >> i & 1 == 1 { slip.sigma[k][i] * scale } else { 0.0 };
+            }
+            let mut before = 0.0;
+            for j in 0..=last {
+                let row = if j < last { &t[MAP + k * N + j] } else { &contact.edge[k] };
+                let mut products = [0.0; N];
+                for i in 0..N {
+                    products[i] = row[i] * sigma[i];
+                }
+                let sum = products.iter().sum::<f64>();
+                v[k][j] -= (sum - before) * contact.flexibility(&t, k, j);
+                before = sum;
+            }
+        }
     }
+    slips.v = v;
 }
 
 impl Slip {
@@ -215,7 +235,7 @@ impl Slip {
         e: [[0.0; N]; 2],
         sigma: [[0.0; N]; 2],
         k: [[[0.0; N]; N]; 2],
-        inverse: [[0.0; N]; N],
+        turns: [[[0.0; N]; N]; 2],
         known: (0, 0.0),
     };
 
@@ -239,7 +259,7 @@ impl Slip {
         }
     }
 
-    /// Newton's method from a guess; whether it converged. The inverse at the end is computed if derivatives are requested.
+    /// Newton's method from a guess; whether it converged. What derivatives need is computed if they are requested.
     #[inline(always)]
     fn solve(&mut self, other: &Slip, problem: &Problem, guess: &Guess, derivatives: bool) -> bool {
         let Problem { r: r_trial, compliance, last, load } = problem;
@@ -269,6 +289,7 @@ impl Slip {
                 }
             }
             let constant = both!(|k| times(&self.k[k], set, [first, last], &r_trial[k]));
+            let mut inverse = [[0.0; N]; N];
             let (mut turn, mut reviewed, mut done, mut fresh) = (9.0f64, false, false, false);
             loop {
                 let ([e_x, e_y], level) = (self.e, self.level);
@@ -300,15 +321,27 @@ impl Slip {
                             let own = if i == m { diagonal[i] } else { 0.0 };
                             let (k_x, k_y) = (self.k[0][m][i], self.k[1][m][i]);
                             let turns = e_x[i] * e_x[m] * k_y + e_y[i] * e_y[m] * k_x;
-                            self.inverse[m][i] = slips[i] * (turns * level[m] + own);
+                            inverse[m][i] = slips[i] * (turns * level[m] + own);
                         }
                     }
-                    invert(&mut self.inverse, set, [first, last]);
+                    invert(&mut inverse, set, [first, last]);
                 }
                 if done {
+                    if derivatives {
+                        for k in 0..2 {
+                            let across = if k == 0 { e_y } else { e_x };
+                            for m in first..=last {
+                                let mut residual = [0.0; N];
+                                for i in 0..N {
+                                    residual[i] = (if k == 0 { -1.0 } else { 1.0 }) * across[i] * self.k[k][m][i];
+                                }
+                                self.turns[k][m] = times(&inverse, set, [first, last], &residual);
+                            }
+                        }
+                    }
                     return true;
                 }
-                let turns = times(&self.inverse, set, [first, last], &residual);
+                let turns = times(&inverse, set, [first, last], &residual);
                 let (before, mut largest) = (turn, 0.0);
                 for i in 0..N {
                     let size = slips[i] * turns[i].abs();

@@ -360,14 +360,8 @@ pub(super) fn advance_state(element: &Element, state: &mut [f64], to: [f64; 3], 
     }
     let motion = path.motion(&from, &contact, same);
     let trial = trial(memory.tables, &contact, &motion, memory.springs);
-    let mut found;
-    let slip = if trial.sticks {
-        &Slips::NONE
-    } else {
-        found = Slips::NONE;
-        found.find(memory.tables, &contact, memory.compliance, &motion, &trial, requested.tangent);
-        &found
-    };
+    let mut slip = Slips::NONE;
+    slip.find(memory.tables, &contact, memory.compliance, &motion, &trial, requested.tangent);
     if requested.tangent {
         let by = [0, 1].map(|k| {
             let mut by = Dual { slopes: [0.0; 4], value: motion.by[k] };
@@ -375,7 +369,7 @@ pub(super) fn advance_state(element: &Element, state: &mut [f64], to: [f64; 3], 
             by
         });
         let motion = Motion { before: motion.before.map(constant), by, constant_load: same };
-        let force = tangent(memory.tables, &contact, &slopes, &motion, slip, memory.springs);
+        let force = tangent(memory.tables, &contact, &slopes, &motion, &slip, memory.springs);
         for k in 0..2 {
             let [w, u, v, _] = force[k].slopes.map(|slope| force_unit * slope);
             (result.tangent[k], result.tangent[3 + k], result.tangent[6 + k]) = (u, v, w);
@@ -383,7 +377,7 @@ pub(super) fn advance_state(element: &Element, state: &mut [f64], to: [f64; 3], 
         result.tangent[8] = normal.load_slope;
     }
     let contacts = [&from, &contact];
-    let (force, energy) = advance(memory.tables, contacts, &motion, slip, requested.energy, memory.springs);
+    let (force, energy) = advance(memory.tables, contacts, &motion, &slip, requested.energy, memory.springs);
     result.force = [force_unit * force[0], force_unit * force[1], normal.load];
     result.dissipated = energy_unit * energy;
     let header = Header { displacement: to, normal_force: normal.load, force, ..header };

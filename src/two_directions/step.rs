@@ -13,7 +13,7 @@ use super::trial::{FINE_SPRING, Motion, Springs, Values, limits_before, moved, s
 use crate::shape::TINY;
 use crate::simd::dispatch;
 
-/// Advances the springs by a step whose slip is known; the force.
+/// A step whose slip is known, with derivatives: the force.
 #[inline(always)]
 pub(crate) fn step<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     t: &T,
@@ -24,16 +24,15 @@ pub(crate) fn step<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
 ) -> Both<X> {
     let (zero, start, last) = (X::constant(0.0), starts(c.under_flat), c.last.min(N - 1));
     let rise = both!(|k| c.now.shift[k] - motion.before[k]);
-    let mut force = [zero; 2];
     let mut v = [[zero; N]; 2];
     for k in 0..2 {
         for j in 0..=last {
             v[k][j] = s.get(k * N + j) + moved(c.limit(t, k, start[j]), rise[k], motion.by[k]);
         }
     }
-    let part = if slip.slides > 0.0 { slid(t, c, &v) } else { zero };
+    let slides = if slip.slides > 0.0 { slid(t, c, &v) } else { zero };
     if slip.middle.set != 0 {
-        let theta = (part + X::constant(1.0)).scale(0.5);
+        let theta = (slides + X::constant(1.0)).scale(0.5);
         let (before, first) = (limits_before(t, c, rise[0]), slip.middle.set.trailing_zeros() as usize);
         let mut level = [zero; N];
         for i in first..=last {
@@ -57,6 +56,23 @@ pub(crate) fn step<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     if slip.end.set != 0 {
         slide(t, c, &[X::constant(1.0); N], &mut v, &slip.end);
     }
+    finish(t, c, motion, slip, slides, v, s)
+}
+
+/// The end of a step, from its springs: those of a contact that slides far are blended, the fine springs advance; the force.
+#[inline(always)]
+fn finish<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
+    t: &T,
+    c: &Contact<A>,
+    motion: &Motion<A, X>,
+    slip: &Slips,
+    part: X,
+    mut v: Both<Row<X>>,
+    s: &mut S,
+) -> Both<X> {
+    let (zero, start, last) = (X::constant(0.0), starts(c.under_flat), c.last.min(N - 1));
+    let rise = both!(|k| c.now.shift[k] - motion.before[k]);
+    let mut force = [zero; 2];
     let far = if slip.slides > 0.0 { Some(Far::new(t, c, part, &v)) } else { None };
     for k in 0..2 {
         for j in 0..=last {
@@ -164,14 +180,14 @@ pub(crate) fn returned<A: Real, X: Over<A>>(v: Both<X>, limit: &Both<A>, far: Op
     v
 }
 
-/// The step of Newton's method: springs that slip to the limits of their points.
+/// Springs that slip to the limits of their points, with derivatives: by a step of Newton's method from the slip.
 #[inline(always)]
 fn slide<A: Real, X: Over<A>, T: Tables<A>>(t: &T, c: &Contact<A>, level: &Row<X>, v: &mut Both<Row<X>>, slip: &Slip) {
     let (zero, last) = (X::constant(0.0), c.last.min(N - 1));
     let first = (slip.set.trailing_zeros() as usize).min(last);
-    let mut sigma = [[zero; N]; 2];
+    let mut excess = [[zero; N]; 2];
     for k in 0..2 {
-        // Springs by which σ relaxes the contact, and the residual of r* - A σ = l e.
+        // Springs by which σ relaxes the contact, and the excess of r* - A σ over l e.
         let mut relaxed = [A::constant(0.0); N];
         let mut before = A::constant(0.0);
         for j in first..=last {
@@ -184,36 +200,26 @@ fn slide<A: Real, X: Over<A>, T: Tables<A>>(t: &T, c: &Contact<A>, level: &Row<X
             relaxed[j] = (sum - before) * c.flexibility(t, k, j);
             before = sum;
         }
-        let (mut d, mut less) = ([zero; N], [A::constant(0.0); N]);
-        for j in first..last {
-            d[j] = v[k][j] - v[k][(j + 1).min(N - 1)];
-            less[j] = relaxed[j] - relaxed[(j + 1).min(N - 1)];
+        let (mut d, mut above) = ([zero; N], zero);
+        for j in (first..=last).rev().map(|j| j.min(N - 1)) {
+            let at = v[k][j].minus(relaxed[j]);
+            d[j] = at - above;
+            above = at;
         }
-        (d[last], less[last]) = (v[k][last], relaxed[last]);
-        let mut residual = [zero; N];
         for i in first..=last {
             if slip.contains(i) {
-                let (mut sum, mut relief) = (zero, A::constant(0.0));
+                let mut sum = zero;
                 for j in i..=last {
                     sum.add_product(&d[j], c.map(t, k, j, i));
-                    relief = relief + less[j] * c.map(t, k, j, i);
                 }
-                residual[i] = sum.times(c.per_pressure[i]).minus(relief * c.per_pressure[i]);
-                residual[i].add_scaled(&level[i], -slip.e[k][i]);
-                sigma[k][i] = X::constant(slip.sigma[k][i]);
+                excess[k][i] = sum.times(c.per_pressure[i]);
+                excess[k][i].add_scaled(&level[i], -slip.e[k][i]);
             }
-        }
-        add_product(&slip.k[k], slip, [first, last], &residual, &mut sigma[k]);
-    }
-    // The angles.
-    let mut residual = [zero; N];
-    for i in first..=last {
-        if slip.contains(i) {
-            residual[i] = sigma[1][i].scale(slip.e[0][i]) - sigma[0][i].scale(slip.e[1][i]);
         }
     }
     let mut turn = [zero; N];
-    add_product(&slip.inverse, slip, [first, last], &residual, &mut turn);
+    add_product(&slip.turns[0], slip, [first, last], &excess[0], &mut turn);
+    add_product(&slip.turns[1], slip, [first, last], &excess[1], &mut turn);
     let every = slip.set.count_ones() as usize == last + 1 - first;
     for k in 0..2 {
         let (across, sign) = if k == 0 { (&slip.e[1], -1.0) } else { (&slip.e[0], 1.0) };
@@ -237,16 +243,21 @@ fn slide<A: Real, X: Over<A>, T: Tables<A>>(t: &T, c: &Contact<A>, level: &Row<X
                 v[k][j] = above;
             }
         } else {
-            add_product(&slip.k[k], slip, [first, last], &change, &mut sigma[k]);
+            let mut sigma = [zero; N];
             for i in first..=last {
-                sigma[k][i] = sigma[k][i].times(c.per_pressure[i]);
+                sigma[i] = X::constant(slip.sigma[k][i]);
+                change[i] = change[i] + excess[k][i];
+            }
+            add_product(&slip.k[k], slip, [first, last], &change, &mut sigma);
+            for i in first..=last {
+                sigma[i] = sigma[i].times(c.per_pressure[i]);
             }
             let mut before = zero;
             for j in first..=last {
                 let mut sum = zero;
                 for i in first..=j {
                     if slip.contains(i) {
-                        sum.add_product(&sigma[k][i], c.map(t, k, j, i));
+                        sum.add_product(&sigma[i], c.map(t, k, j, i));
                     }
                 }
                 v[k][j] = v[k][j] - (sum - before).times(c.flexibility(t, k, j));
@@ -294,7 +305,7 @@ fn kernel(
     springs: &mut Values,
 ) -> (Both<f64>, f64) {
     let old = *springs;
-    let force = step(&t, c, motion, slip, &mut &mut *springs);
+    let force = finish(&t, c, motion, slip, slip.slides, slip.v, &mut &mut *springs);
     let dissipated = if energy { dissipated(t, [from, c], motion, slip, [&old, springs]) } else { 0.0 };
     (force, dissipated)
 }
