@@ -138,8 +138,9 @@ fn press_kernel(rows: &Rows, now: &Pressed<f64>, under_flat: usize, compliance: 
                 column[i] = (g[i] - before[i]) * contact.per_pressure[i];
             }
             before = *g;
+            let flexibility = 1.0 / w;
             for m in 0..=j {
-                let scale = column[m] / w;
+                let scale = column[m] * flexibility;
                 for i in 0..N {
                     a[m][i] += scale * column[i];
                 }

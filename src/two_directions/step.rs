@@ -189,12 +189,15 @@ fn slide<A: Real, X: Over<A>, T: Tables<A>>(t: &T, c: &Contact<A>, level: &Row<X
     for k in 0..2 {
         // Springs by which σ relaxes the contact, and the excess of r* - A σ over l e.
         let mut relaxed = [A::constant(0.0); N];
-        let mut before = A::constant(0.0);
+        let (mut before, mut per_slip) = (A::constant(0.0), [A::constant(0.0); N]);
+        for i in first..=last {
+            per_slip[i] = c.per_pressure[i].scale(slip.sigma[k][i]);
+        }
         for j in first..=last {
             let mut sum = A::constant(0.0);
             for i in first..=j {
                 if slip.contains(i) {
-                    sum = sum + c.map(t, k, j, i) * c.per_pressure[i].scale(slip.sigma[k][i]);
+                    sum = sum + c.map(t, k, j, i) * per_slip[i];
                 }
             }
             relaxed[j] = (sum - before) * c.flexibility(t, k, j);

@@ -128,6 +128,13 @@ pub(crate) fn tractions(t: &Rows, c: &Contact<f64>, k: usize, v: &Row<f64>) -> R
 pub(crate) fn limits_before<A: Real>(t: &impl Tables<A>, c: &Contact<A>, rise: A) -> Row<A> {
     let (last, start) = (c.last.min(N - 1), starts(c.under_flat));
     let (zero, mut limits) = (A::constant(0.0), [A::constant(0.0); N]);
+    if (c.limit(t, 0, start[last]) - rise).value() > 0.0 {
+        // All springs were engaged: the limits of those within differ as they do at the end.
+        for i in 0..=last {
+            limits[i] = A::constant(1.0) - rise * c.edge[0][i] * c.per_pressure[i];
+        }
+        return limits;
+    }
     let mut above = zero;
     for j in (0..=last).rev().map(|j| j.min(N - 1)) {
         let limit = c.limit(t, 0, start[j]) - rise;
