@@ -44,14 +44,6 @@ pub(crate) trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Outp
         let root = self.value().sqrt();
         self.chain(root, 0.5 / root)
     }
-
-    /// 1 over the root of a number >= 1, 1 for smaller ones.
-    #[inline(always)]
-    fn shortening(self) -> Self {
-        let square = if self.value() > 1.0 { self.value() } else { 1.0 };
-        let value = 1.0 / square.sqrt();
-        self.chain(value, if self.value() > 1.0 { -0.5 * value * value * value } else { 0.0 })
-    }
 }
 
 /// Numbers that those of a contact scale: the latter have the first of their derivatives only.

@@ -119,8 +119,7 @@ fn finish<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     let bound = c.now.load;
     let square = force[0] * force[0] + force[1] * force[1];
     if square.value() > bound.value() * bound.value() {
-        let per_bound = bound.inverse();
-        let scale = square.times(per_bound * per_bound).shortening();
+        let scale = square.sqrt().inverse().times(bound);
         force = both!(|k| force[k] * scale);
     }
     force
