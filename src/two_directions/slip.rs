@@ -328,16 +328,7 @@ impl Slip {
                 }
                 if done {
                     if derivatives {
-                        for k in 0..2 {
-                            let across = if k == 0 { e_y } else { e_x };
-                            for m in first..=last {
-                                let mut residual = [0.0; N];
-                                for i in 0..N {
-                                    residual[i] = (if k == 0 { -1.0 } else { 1.0 }) * across[i] * self.k[k][m][i];
-                                }
-                                self.turns[k][m] = times(&inverse, set, [first, last], &residual);
-                            }
-                        }
+                        self.differentiate(&inverse, [first, last]);
                     }
                     return true;
                 }
@@ -373,6 +364,21 @@ impl Slip {
             }
         }
         false
+    }
+
+    /// The angles by which e turns, from the inverse of the derivative of the residual by the angles.
+    #[inline(always)]
+    fn differentiate(&mut self, inverse: &Matrix, range: [usize; 2]) {
+        for k in 0..2 {
+            let (across, sign) = if k == 0 { (&self.e[1], -1.0) } else { (&self.e[0], 1.0) };
+            for m in range[0]..=range[1] {
+                let mut residual = [0.0; N];
+                for i in 0..N {
+                    residual[i] = sign * across[i] * self.k[k][m][i];
+                }
+                self.turns[k][m] = times(inverse, self.set, range, &residual);
+            }
+        }
     }
 
     /// From sweeps of the points.
