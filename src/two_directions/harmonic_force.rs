@@ -313,13 +313,14 @@ const PADDED: usize = 4;
 /// Columns of the springs in the workspace, beside their values at the start of a step.
 struct Columns<'a, const L: usize> {
     values: &'a Values,
-    columns: &'a mut [[f64; L]; SPRINGS],
+    springs: &'a mut [[f64; L]; SPRINGS],
     /// Derivatives of the parameters of a contact by the coefficients.
     parameters: &'a [[f64; L]; PARAMETERS],
 }
 
 impl<const L: usize> Columns<'_, L> {
     /// Columns of a number: derivatives by the parameters are added.
+    #[expect(clippy::manual_memcpy, reason = "a copy of a slice may panic")]
     #[inline(always)]
     fn of<const M: usize>(&self, x: &Dual<M>) -> [f64; L] {
         let mut columns = [0.0; L];
@@ -341,10 +342,11 @@ impl<const L: usize> Columns<'_, L> {
 impl<const L: usize, const M: usize> Springs<Dual<M>> for Columns<'_, L> {
     const KEPT: bool = true;
 
+    #[expect(clippy::manual_memcpy, reason = "a copy of a slice may panic")]
     #[inline(always)]
     fn get(&self, place: usize) -> Dual<M> {
         let mut dual = Dual { slopes: [0.0; M], value: 0.0 };
-        if let (Some(value), Some(columns)) = (self.values.as_flattened().get(place), self.columns.get(place)) {
+        if let (Some(value), Some(columns)) = (self.values.as_flattened().get(place), self.springs.get(place)) {
             dual.value = *value;
             for c in 0..L {
                 dual.slopes[PADDED + c] = columns[c];
@@ -356,7 +358,7 @@ impl<const L: usize, const M: usize> Springs<Dual<M>> for Columns<'_, L> {
     #[inline(always)]
     fn put(&mut self, place: usize, x: Dual<M>) {
         let columns = self.of(&x);
-        if let Some(place) = self.columns.get_mut(place) {
+        if let Some(place) = self.springs.get_mut(place) {
             *place = columns;
         }
     }
@@ -599,7 +601,7 @@ fn differentiate<const L: usize, const M: usize>(
             (parameters[END][c], parameters[ALIGNMENT][c]) = (to, by_top * top);
         }
         let motion = Motion { before: shift, by, constant_load: motion.constant_load };
-        let mut springs = Columns { values: old, columns: memory, parameters: &parameters };
+        let mut springs = Columns { values: old, springs: memory, parameters: &parameters };
         [*x, *y] = columns(walk.tables, contact, &motion, &walk.slip, &mut springs);
     }
 }
