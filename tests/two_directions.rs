@@ -659,10 +659,9 @@ fn check_random_jacobians(motions: usize, seed: u64) {
     let mut elements = layered(Directions::Two, NormalInput::Force);
     elements.extend(by_approach_and_force());
     elements.extend(rough_flats(NormalInput::Approach, 0.3));
-    for (half_width, springs) in HALF_WIDTHS.into_iter().flat_map(|width| [8, 12, 16].map(|springs| (width, springs))) {
-        let parameters = Parameters { springs, ..parameters(half_width) };
-        let inputs = [NormalInput::Approach, NormalInput::Force];
-        elements.extend(inputs.map(|input| Element::rounded_flat(&parameters, Directions::Two, input).unwrap()));
+    for half_width in HALF_WIDTHS {
+        elements
+            .extend([NormalInput::Approach, NormalInput::Force].map(|input| flat(half_width, input, Directions::Two)));
     }
     let mut beyond = 0;
     for _ in 0..motions {
