@@ -152,7 +152,7 @@ stress:
 	@tools/dependencies.sh accuracy
 	$(CARGO) run --quiet --locked --package stress -- $(ARGUMENTS)
 
-## fuzz: fuzz the C interface with TIME= seconds for each of three targets, JOBS= processes at once
+## fuzz: fuzz the C interface with TIME= seconds for each of two targets, JOBS= processes at once
 fuzz:
 	@tools/dependencies.sh fuzz
 	tools/fuzz.sh

@@ -1,7 +1,7 @@
 /* main.c: run time against error of microslip and of what one would use instead.
  *
  *   bench [--quick] rows DIRECTORY    writes rows.csv, the input of the multi-precision reference
- *   bench [--quick] run DIRECTORY     reads its output truth.csv, measures, and writes bench.csv, tables.md and readme.md */
+ *   bench [--quick] run DIRECTORY     reads its output truth.csv, measures, and writes bench.csv, tables.md and details.md */
 #include "cases.h"
 #include "report.h"
 
@@ -97,14 +97,15 @@ int main(int argc, char **argv)
     check_errors();
 
     FILE *csv = open_file(directory, "bench.csv", "w"), *tables = open_file(directory, "tables.md", "w"),
-         *readme = open_file(directory, "readme.md", "w");
+         *details = open_file(directory, "details.md", "w");
     entries_write(csv);
     write_tables(tables, machine());
     write_tables(stdout, machine());
-    write_readme_table(readme);
+    write_details(details);
+    write_details(stdout);
     fclose(csv);
     fclose(tables);
-    fclose(readme);
+    fclose(details);
     free(entries);
     printf("\nerrors: %d passed, %d failed\n", checks_passed, checks_failed);
     return checks_failed > 0;

@@ -151,29 +151,6 @@ static double stiffness_range(const char *task, const char *method, double shape
     return s->n ? sum / (double)s->n : 0.0;
 }
 
-void write_readme_table(FILE *file)
-{
-    sample range = { .n = 0 };
-    stiffness_range("stiffness over amplitude", "microslip", -1.0, &range);
-    fputs("| task | microslip | instead |\n|---|---:|---|\n", file);
-    const summary *s = summary_of("microslip", "force", 0, 0, 0);
-    fprintf(file, "| force and stiffness at a displacement | %s | "
-                  "quadrature of Eq. 10, error 1e-8: %s; one spring-slider: %s |\n",
-            cell(&s->own), cell(&s->quadrature), cell(&s->one));
-    s = summary_of("microslip", "stiffness", 0, 0, 0);
-    fprintf(file, "| complex stiffness and derivatives | %s, at worst %s | "
-                  "quadrature, error 1e-8: %s; one spring-slider: %s |\n",
-            cell(&s->own), text_of(range.value[range.n - 1]), cell(&s->quadrature), cell(&s->one));
-    s = summary_of("microslip", "harmonic", 5, 128, 1);
-    fprintf(file, "| harmonic force and Jacobian, 5 harmonics, 128 samples | %s | "
-                  "parallel sliders, error 1e-4: %s; one spring-slider: %s |\n", cell(&s->own), cell(&s->coarse), cell(&s->one));
-    s = summary_of("microslip", "time step", 0, 0, 0);
-    fprintf(file, "| step of a time integration | %s | parallel sliders, error 1e-4: %s; one spring-slider: %s |\n",
-            cell(&s->own), cell(&s->coarse), cell(&s->one));
-    s = summary_of("microslip", "initialisation", 0, 0, 0);
-    fprintf(file, "| initialisation of a contact | %s | – |\n", cell(&s->own));
-}
-
 /* Median of the times of microslip over those of the fastest of some methods, and the largest; all that match a call. */
 static const char *ratios(const char *task, const char *const *methods, double parameter, int harmonics, int samples, int jacobian)
 {
@@ -408,7 +385,10 @@ void write_tables(FILE *file, const char *machine)
     }
     row(file, "step of a time integration", "microslip", "time step", 0, 0, 0);
     row(file, "initialisation of a contact", "microslip", "initialisation", 0, 0, 0);
+}
 
+void write_details(FILE *file)
+{
     write_stiffness_table(file);
     write_step_tables(file);
     write_element_table(file);

@@ -5,7 +5,7 @@
 #include <stdio.h>
 
 void check_errors(void);
-void write_readme_table(FILE *file);
 void write_tables(FILE *file, const char *machine);
+void write_details(FILE *file);
 
 #endif

@@ -136,12 +136,11 @@ static inline int raised(void)
     return flags;
 }
 
-/* A buffer that ends at a protected page, and a copy of it. The calls after a `set_up` use some of them. */
+/* A buffer that ends at a protected page. */
 enum { REGIONS = 14 };
 typedef struct {
-    unsigned char *start, *before;
+    unsigned char *start;
     size_t bytes;
-    int in_use;
 } region;
 static region regions[REGIONS];
 static int regions_made;
@@ -161,13 +160,11 @@ static inline region *make_region(size_t bytes)
     r->bytes = bytes;
     r->start = malloc(bytes);
 #endif
-    r->before = malloc(r->bytes);
-    if (regions_made > REGIONS || r->start == NULL || r->before == NULL) {
+    if (regions_made > REGIONS || r->start == NULL) {
         fputs("out of memory\n", stderr);
         exit(2);
     }
     memset(r->start, 0x5a, r->bytes);
-    r->in_use = 1;
     return r;
 }
 
@@ -175,59 +172,6 @@ static inline region *make_region(size_t bytes)
 static inline void *last(const region *r, size_t bytes)
 {
     return r->start + r->bytes - bytes;
-}
-
-static inline void save_regions(void)
-{
-    for (int i = 0; i < regions_made; ++i) {
-        memcpy(regions[i].before, regions[i].start, regions[i].in_use ? regions[i].bytes : 0);
-    }
-}
-
-static inline void restore_regions(void)
-{
-    for (int i = 0; i < regions_made; ++i) {
-        memcpy(regions[i].start, regions[i].before, regions[i].in_use ? regions[i].bytes : 0);
-    }
-}
-
-static inline int is_unchanged(const region *r)
-{
-    return !r->in_use || memcmp(r->start, r->before, r->bytes) == 0;
-}
-
-/* No bit changed; one region, or NULL, is exempt. */
-static inline int nothing_changed_but(const region *exempt)
-{
-    int unchanged = 1;
-    for (int i = 0; i < regions_made; ++i) {
-        unchanged &= &regions[i] == exempt || is_unchanged(&regions[i]);
-    }
-    return unchanged;
-}
-
-/* Status codes returned so far. */
-static unsigned char seen[128];
-
-/* The call was rejected with this status and modified nothing; one region, or NULL, is exempt. */
-static inline int check_rejected_but(const region *exempt, int32_t status, int32_t expected, const char *function, const char *what)
-{
-    const int flags = raised(), unmodified = nothing_changed_but(exempt);
-    const int holds = check_that(status == expected && flags == 0 && unmodified, __FILE__, __LINE__, "rejected, nothing modified");
-    if (!holds) {
-        printf("    %s, %s: status %d, not %d; flags %x; memory %smodified\n", function, what, (int)status, (int)expected, flags,
-               unmodified ? "un" : "");
-        restore_regions();
-    }
-    if (status >= 0 && status < (int32_t)sizeof seen) {
-        seen[status] = 1;
-    }
-    return holds;
-}
-
-static inline int check_rejected(int32_t status, int32_t expected, const char *function, const char *what)
-{
-    return check_rejected_but(NULL, status, expected, function, what);
 }
 
 enum { ITEMS = 5, HARMONICS = 2, SAMPLES = 16, PERIODS = 2 };
@@ -426,11 +370,6 @@ static inline size_t law_size(const function *f)
     return f->takes & IS_ELEMENT ? sizeof(mslip_element) : sizeof(mslip_contact);
 }
 
-static inline int32_t status_of_law(const function *f)
-{
-    return f->takes & IS_ELEMENT ? MSLIP_BAD_ELEMENT : MSLIP_BAD_CONTACT;
-}
-
 static inline void set_law(const function *f, size_t i, int kind)
 {
     if (f->takes & IS_ELEMENT) {
@@ -460,11 +399,6 @@ static inline int32_t status_of_input(const function *f, size_t i)
 static inline size_t least_state(const function *f)
 {
     return f->takes & IS_ELEMENT ? mslip_element_state_length(directions_for(f), 0) : mslip_state_length(0);
-}
-
-static inline size_t used_state(const function *f)
-{
-    return f->takes & IS_ELEMENT ? mslip_element_state_length(directions_for(f), USED_PIECES) : mslip_state_length(USED);
 }
 
 /* Doubles of a state that a step writes: all, for an element those in use, with one direction 8 and 4 for each knot, whose number
@@ -576,7 +510,6 @@ static int first_kind;
 /* Memory for an argument, just before a protected page. */
 static inline void set_pointer(const argument *a, region *r, size_t bytes)
 {
-    r->in_use = 1;
     void *const memory = last(r, bytes);
     memcpy((char *)&call + a->field, &memory, sizeof memory);
 }
@@ -664,80 +597,8 @@ static inline void set_up(const function *f)
     call.directions = is_element ? directions_for(f) : 0;
     call.normal_input = normal_input_of(f->rule);
     call.rule = is_element ? MSLIP_UNIFORM_SAMPLING : f->rule;
-    for (int i = 0; i < regions_made; ++i) {
-        regions[i].in_use = 0;
-    }
     for (const argument *a = f->argument; a->name != NULL; ++a) {
         set_up_argument(f, a);
-    }
-}
-
-static inline void rejected(const function *f, int32_t status, const char *what)
-{
-    /* Whether the normal motion of an element is allowed depends on samples in the workspace. */
-    const int is_of_motion = status == MSLIP_LENGTH_TOO_SHORT || status == MSLIP_BAD_NORMAL_FORCE;
-    const int uses_workspace = (f->takes & TAKES_WORKSPACE) && is_of_motion;
-    save_regions();
-    feclearexcept(FE_ALL_EXCEPT);
-    check_rejected_but(uses_workspace ? workspace_region : NULL, f->call(), status, f->name, what);
-}
-
-/* Output k is finite for all items but one, which is unchanged, and so is the memory before the output. */
-static inline int is_written(const function *f, int k, size_t skipped)
-{
-    const region *r = out_regions[k];
-    const size_t length = f->out[k], bytes = length * sizeof(double), share = length / items_of(f);
-    const double *values = last(r, bytes), *before = (const double *)(const void *)(r->before + r->bytes - bytes);
-    int holds = !r->in_use || memcmp(r->start, r->before, r->bytes - bytes) == 0;
-    for (size_t i = 0; i < length; ++i) {
-        const size_t item = i / share;
-        const int is_used = k > 0 || i % share < written_state(f, &values[item * share]);
-        holds &= item == skipped ? same_bits(&values[i], &before[i], 1) : !is_used || isfinite(values[i]);
-    }
-    return holds;
-}
-
-/* The call succeeds and writes its outputs only, for all items but the skipped one. */
-static inline void accepted_except(const function *f, size_t skipped, const char *what)
-{
-    const region *const outputs[] = { workspace_region, f->takes & 1 << ARG_NEW_CONTACT ? contact_region : workspace_region,
-                                      f->takes & 1 << ARG_NEW_ELEMENT ? element_region : workspace_region,
-                                      f->takes & 1 << ARG_BUFFER ? table_region : workspace_region };
-    int32_t status;
-    int flags, holds;
-    fill_outputs();
-    save_regions();
-    feclearexcept(FE_ALL_EXCEPT);
-    status = f->call();
-    flags = raised();
-    holds = status == MSLIP_OK && flags == 0;
-    for (int i = 0; i < regions_made - OUTPUTS; ++i) { /* the outputs were made last */
-        int is_output = 0;
-        for (size_t k = 0; k < LENGTH(outputs); ++k) {
-            is_output |= &regions[i] == outputs[k];
-        }
-        holds &= is_output || is_unchanged(&regions[i]);
-    }
-    for (int i = 0; i < OUTPUTS && !(f->takes & 1 << ARG_FOUND_SIZE); ++i) {
-        holds &= is_written(f, i, skipped);
-    }
-    if (!check_that(holds, __FILE__, __LINE__, "accepted, and finite")) {
-        printf("    %s, %s: status %d, flags %x\n", f->name, what, (int)status, flags);
-    }
-}
-
-static inline void accepted(const function *f, const char *what)
-{
-    accepted_except(f, ITEMS, what);
-}
-
-/* Rejected, or accepted without the item if it is not active. */
-static inline void rejected_unless_skipped(const function *f, int skipped, size_t item, int32_t status, const char *what)
-{
-    if (skipped) {
-        accepted_except(f, item, what);
-    } else {
-        rejected(f, status, what);
     }
 }
 

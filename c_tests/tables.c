@@ -461,7 +461,7 @@ static void check_harmonic_force(void)
         const size_t of_element = mslip_element_workspace_length(1, HARMONICS, samples, MSLIP_UNIFORM_SAMPLING);
         double *workspace = malloc(length * sizeof *workspace), *varying = malloc(of_element * sizeof *varying);
         double u[2 * N], v[4 * N] = { 0.0 }, want[N], force[N], sensitivity[N * MSLIP_PARAMETER_COUNT], energy[2], largest = 0.0;
-        double both[2 * N], jacobian[N * N], jacobians[2 * N * N], forces[4 * N], drift[4];
+        double both[2 * N], jacobian[N * N], jacobians[2 * N * N], forces[6 * N], drift[4];
         for (int i = 0; i < N; ++i) {
             char column[8];
             snprintf(column, sizeof column, "u%d", i);

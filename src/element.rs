@@ -7,7 +7,7 @@ use crate::error::Error;
 use crate::limits::{MAX_DISPLACEMENT, check_displacement, in_range};
 use crate::numerics::fp_class::{in_0_to, is_finite, le};
 use crate::numerics::quadrature::gauss_nodes;
-use crate::parameters::{EllipticParameters, Pair, Parameters, check_moduli};
+use crate::parameters::{Common, EllipticParameters, Parameters};
 use crate::shape::{HertzEllipse, Layer, Layered, Plane, Quantity, RoundedFlat, Shape, TINY};
 use crate::tag::LAYOUT;
 use core::array::from_fn;
@@ -73,6 +73,8 @@ pub struct Element {
     of_input: Table,
     /// S of the input.
     shift: Table,
+    /// S over U and over N, of which it is the sum with these factors; 0 with a layer, or if the input is the load.
+    shift_per: [f64; 2],
     /// N(S).
     load_of_shift: Table,
     /// M at the middle of each quarter of `load_of_shift`.
@@ -159,23 +161,13 @@ impl Element {
         input: NormalInput,
     ) -> Result<(), Error> {
         parameters.check()?;
-        let flat_half_width = parameters.flat_half_width.abs();
-        let parameters = &Parameters { flat_half_width, ..*parameters };
-        check_moduli(&parameters.material)?;
-        let Parameters { length, normal_force, friction_coefficient, .. } = *parameters;
-        if normal_force == 0.0 {
-            return Err(Error::BadNormalForce);
-        }
-        let flat = RoundedFlat::new(parameters)?;
-        let composite_modulus = Pair::new(&parameters.material).composite_modulus;
-        in_range(&[normal_force], &[length, flat.half_width()])?;
+        let (common, length) = (parameters.common(), parameters.length);
+        let composite_modulus = closed_modulus(&common)?;
+        let flat = Layered::new(RoundedFlat::new(parameters)?, &common)?;
         // The load at b = 2L.
         in_range(&[length, length, length, composite_modulus], &[parameters.edge_radius])?;
-        let layered = Layered { shape: flat, layer: Layer::new(&parameters.layer, normal_force)?.0 };
-        let plane = Plane { layer: &layered.layer, ..flat.plane() };
-        self.init(&plane, &layered, [normal_force, friction_coefficient], directions, input)?;
-        self.composite_modulus = composite_modulus;
-        (self.flat, self.ellipse) = (layered, EMPTY.ellipse);
+        self.init(&flat, &common, directions, input)?;
+        (self.composite_modulus, self.flat, self.ellipse) = (composite_modulus, flat, EMPTY.ellipse);
         Ok(())
     }
 
@@ -190,36 +182,29 @@ impl Element {
         input: NormalInput,
     ) -> Result<(), Error> {
         parameters.check()?;
-        check_moduli(&parameters.material)?;
-        let EllipticParameters { normal_force, friction_coefficient, .. } = *parameters;
-        if normal_force == 0.0 {
-            return Err(Error::BadNormalForce);
-        }
-        let ellipse = HertzEllipse::new(parameters)?;
-        let composite_modulus = Pair::new(&parameters.material).composite_modulus;
-        in_range(&[normal_force], &[])?;
+        let common = parameters.common();
+        let composite_modulus = closed_modulus(&common)?;
+        let ellipse = Layered::new(HertzEllipse::new(parameters)?, &common)?;
         // The approach, free of overflow.
         for axis in [parameters.semi_axis_x, parameters.semi_axis_y] {
-            in_range(&[normal_force], &[axis, composite_modulus])?;
+            in_range(&[common.normal_force], &[axis, composite_modulus])?;
         }
-        let layered = Layered { shape: ellipse, layer: Layer::new(&parameters.layer, normal_force)?.0 };
-        let plane = Plane { layer: &layered.layer, ..ellipse.plane() };
-        self.init(&plane, &layered, [normal_force, friction_coefficient], directions, input)?;
+        self.init(&ellipse, &common, directions, input)?;
         self.tag |= ELLIPTIC;
-        self.composite_modulus = composite_modulus;
-        (self.flat, self.ellipse) = (EMPTY.flat, layered);
+        (self.composite_modulus, self.flat, self.ellipse) = (composite_modulus, EMPTY.flat, ellipse);
         Ok(())
     }
 
     /// Checks all ranges, then writes what depends on the shape only through its trait.
     fn init(
         &mut self,
-        plane: &Plane,
         shape: &dyn Shape,
-        [normal_force, friction_coefficient]: [f64; 2],
+        parameters: &Common,
         directions: Directions,
         input: NormalInput,
     ) -> Result<(), Error> {
+        let Common { normal_force, friction_coefficient, .. } = *parameters;
+        let plane = shape.plane();
         let layer = plane.layer;
         let mut largest = shape.largest_size();
         if directions == Directions::Two {
@@ -297,6 +282,8 @@ impl Element {
             NormalInput::Approach => (Quantity::Approach, regular(approach, self.largest_approach)),
             NormalInput::Force => (Quantity::Load, normal_force),
         };
+        let is_sum = layer.is_none() && input == NormalInput::Approach;
+        self.shift_per = if is_sum { [plane.per_approach[0], plane.per_load[0]] } else { [0.0; 2] };
         Table::fill([&mut self.of_input, &mut self.shift], largest, &mut |x| {
             let [load, approach, shift] = shape.series(shape.size_at(argument, x), argument);
             [if input == NormalInput::Force { approach } else { load }, shift]
@@ -306,11 +293,7 @@ impl Element {
 
     /// The family of sizes in both directions.
     pub(crate) fn plane(&self) -> Plane<'_> {
-        if self.tag & ELLIPTIC == 0 {
-            Plane { layer: &self.flat.layer, ..self.flat.shape.plane() }
-        } else {
-            Plane { layer: &self.ellipse.layer, ..self.ellipse.shape.plane() }
-        }
+        self.shape().plane()
     }
 
     /// S along y, from a load and its shift along x.
@@ -630,6 +613,14 @@ impl Element {
 
     #[inline(always)]
     fn closed<const SLOPES: bool, const L: usize>(&self, input: &[f64; L]) -> [[f64; L]; 4] {
+        let [per_approach, per_load] = self.shift_per;
+        if per_approach > 0.0 {
+            // A sum is faster than a second table.
+            let [(load, slope)] =
+                self.functions::<SLOPES, 1, L>([&self.of_input], [Quantity::Load], Quantity::Approach, input);
+            let shift = from_fn(|k| per_approach * input[k] + per_load * load[k]);
+            return [load, shift, slope, slope.map(|slope| per_approach + per_load * slope)];
+        }
         if self.by_approach() {
             let (tables, quantities) = ([&self.of_input, &self.shift], [Quantity::Load, Quantity::Shift]);
             let [(load, load_slope), (shift, shift_slope)] =
@@ -727,11 +718,21 @@ const EMPTY: Element = Element {
     ellipse: Layered { shape: HertzEllipse::EMPTY, layer: Layer::NONE },
     of_input: Table::EMPTY,
     shift: Table::EMPTY,
+    shift_per: [0.0; 2],
     load_of_shift: Table::EMPTY,
     potential: [0.0; PIECES],
     lateral: [0.0; 2],
     key: 0.0,
 };
+
+/// E* of parameters that were checked.
+///
+/// # Errors
+/// `OutOfRange`, or `BadNormalForce` for an open contact.
+fn closed_modulus(parameters: &Common) -> Result<f64, Error> {
+    let modulus = parameters.composite_modulus()?;
+    if parameters.normal_force > 0.0 { Ok(modulus) } else { Err(Error::BadNormalForce) }
+}
 
 /// A number from 1 to 2 that depends on the bits of all values.
 fn key_of(values: &[f64]) -> f64 {

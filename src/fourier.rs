@@ -53,6 +53,13 @@ pub(crate) fn angle(order: usize, sample: usize, samples: usize) -> f64 {
     2.0 * PI * fraction
 }
 
+/// Completes Fourier sums over half a period by the other half, in which the function keeps (+1) or changes (-1) its sign.
+pub(crate) fn complete_half_wave(sums: &mut [f64], sign: f64) {
+    for (c, sum) in sums.iter_mut().enumerate() {
+        *sum *= if c.div_ceil(2).is_multiple_of(2) == (sign > 0.0) { 2.0 } else { 0.0 };
+    }
+}
+
 /// Scales Fourier sums to coefficients: the constant by `weight`, harmonics by twice that.
 #[inline(always)]
 pub(crate) fn normalise(sums: &mut [f64], weight: f64) {

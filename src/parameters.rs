@@ -166,14 +166,36 @@ fn positive(value: f64, error: Error) -> Result<(), Error> {
     if in_0_to(f64::MAX, value) && !abs_le(value, 0.0) { Ok(()) } else { Err(error) }
 }
 
-fn check_materials(material: &[Material; 2]) -> Result<(), Error> {
-    for body in material {
-        positive(body.young_modulus, Error::BadYoungModulus)?;
-        if !in_0_to(0.5, body.poisson_ratio) {
-            return Err(Error::BadPoissonRatio);
+/// The parameters that all shapes have.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Common {
+    pub normal_force: f64,
+    pub friction_coefficient: f64,
+    pub material: [Material; 2],
+    pub layer: Layer,
+}
+
+impl Common {
+    fn check(&self) -> Result<(), Error> {
+        not_negative(self.normal_force, Error::BadNormalForce)?;
+        not_negative(self.friction_coefficient, Error::BadFrictionCoefficient)?;
+        for body in &self.material {
+            positive(body.young_modulus, Error::BadYoungModulus)?;
+            if !in_0_to(0.5, body.poisson_ratio) {
+                return Err(Error::BadPoissonRatio);
+            }
         }
+        self.layer.check(self.normal_force)
     }
-    Ok(())
+
+    /// E* of parameters that were checked.
+    ///
+    /// # Errors
+    /// `OutOfRange` for a modulus of an unusable magnitude.
+    pub fn composite_modulus(&self) -> Result<f64, Error> {
+        self.material.iter().try_for_each(|body| in_range(&[body.young_modulus], &[]))?;
+        Ok(Pair::new(&self.material).composite_modulus)
+    }
 }
 
 impl Parameters {
@@ -185,14 +207,16 @@ impl Parameters {
         not_negative(self.flat_half_width, Error::BadFlatHalfWidth)?;
         positive(self.edge_radius, Error::BadEdgeRadius)?;
         positive(self.length, Error::BadLength)?;
-        not_negative(self.normal_force, Error::BadNormalForce)?;
-        not_negative(self.friction_coefficient, Error::BadFrictionCoefficient)?;
-        check_materials(&self.material)?;
-        self.layer.check(self.normal_force)?;
+        self.common().check()?;
         match self.displacement_reference {
             CENTRE_POINT | RIGID_STRIP => Ok(()),
             _ => Err(Error::BadDisplacementReference),
         }
+    }
+
+    pub(crate) fn common(&self) -> Common {
+        let Parameters { normal_force, friction_coefficient, material, layer, .. } = *self;
+        Common { normal_force, friction_coefficient, material, layer }
     }
 }
 
@@ -204,10 +228,12 @@ impl EllipticParameters {
     pub fn check(&self) -> Result<(), Error> {
         positive(self.semi_axis_x, Error::BadSemiAxisX)?;
         positive(self.semi_axis_y, Error::BadSemiAxisY)?;
-        not_negative(self.normal_force, Error::BadNormalForce)?;
-        not_negative(self.friction_coefficient, Error::BadFrictionCoefficient)?;
-        check_materials(&self.material)?;
-        self.layer.check(self.normal_force)
+        self.common().check()
+    }
+
+    pub(crate) fn common(&self) -> Common {
+        let EllipticParameters { normal_force, friction_coefficient, material, layer, .. } = *self;
+        Common { normal_force, friction_coefficient, material, layer }
     }
 }
 
@@ -239,12 +265,6 @@ impl Pair {
         let [first, second] = [function(self.poisson_ratio[0]), function(self.poisson_ratio[1])];
         first + self.fraction[1] * (second - first)
     }
-}
-
-/// # Errors
-/// `OutOfRange` for a modulus of an unusable magnitude.
-pub(crate) fn check_moduli(material: &[Material; 2]) -> Result<(), Error> {
-    material.iter().try_for_each(|body| in_range(&[body.young_modulus], &[]))
 }
 
 #[cfg(test)]

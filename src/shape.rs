@@ -27,7 +27,10 @@ pub(crate) use rounded_flat::size_under_load;
 pub(crate) use rounded_punch::{RoundedPunch, TINY};
 
 /// A nested family of contact sizes in absolute terms. A size is given by a parameter w \[m\] that is 0 for the smallest one.
-pub trait Shape {
+pub(crate) trait Shape {
+    /// The shape in both directions of the plane of contact.
+    fn plane(&self) -> Plane<'_>;
+
     /// Half-width s \[m\]; for an ellipse the semi-axis x.
     fn half_width(&self, w: f64) -> f64;
 
@@ -75,7 +78,7 @@ pub trait Shape {
 
 /// What grows with the size.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Quantity {
+pub(crate) enum Quantity {
     /// Normal force N.
     Load,
     /// Normal approach U.
@@ -123,7 +126,7 @@ impl Plane<'_> {
 pub(crate) const ORDER: usize = 16;
 
 /// Taylor coefficients.
-pub type Series = [f64; ORDER];
+pub(crate) type Series = [f64; ORDER];
 
 /// The series of an argument itself, `x (1 + ρ)`.
 pub(crate) fn identity(x: f64) -> Series {

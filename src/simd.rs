@@ -3,7 +3,7 @@
 //! A kernel is one loop, or a few, over arrays; the control flow around it is compiled once. Both variants perform the same
 //! operations in the same order, without fused multiply-add: the results are bit-identical.
 //!
-//! This is the only unsafe code outside `ffi`: a function compiled for AVX2 may be called if the processor has AVX2, and no other
+//! The call of a kernel is unsafe code: a function compiled for AVX2 may be called if the processor has AVX2, and no other
 //! module can check that next to the call. It reads and writes no memory of its own.
 
 /// Whether kernels run on AVX2.

@@ -4,7 +4,7 @@
 //! versions are detected by one comparison. It is a normal double, preserved by decimal output with 17 digits.
 
 /// Version of the layout of contacts, states, workspaces and tables.
-pub(crate) const LAYOUT: u64 = 4;
+pub(crate) const LAYOUT: u64 = 5;
 
 /// Kind of a buffer: the leading 16 bits of its tag, a double of about 1e64.
 #[derive(Debug, Clone, Copy, PartialEq)]

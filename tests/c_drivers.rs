@@ -117,11 +117,6 @@ fn c_and_cpp() {
 #[test]
 fn fortran() {
     let fortran = std::env::var("FC").unwrap_or("gfortran".to_string());
-    if run(Command::new(&fortran).arg("--version")).is_err() {
-        // `make test` has installed the compiler.
-        assert!(std::env::var_os("MICROSLIP_PREFIX").is_none(), "no {fortran}");
-        return;
-    }
     let options = ["", "-fdefault-real-8 -fdefault-integer-8", "-fno-automatic"];
     let jobs = options.iter().enumerate().flat_map(|(i, options)| {
         let fortran = &fortran;

@@ -77,7 +77,7 @@ fn ellipse_with(
     Element::elliptic(&parameters, directions, input).unwrap()
 }
 
-/// Cylinder, flats with a/b of 0.5 and 0.9, sphere, ellipse; then three of them with a layer.
+/// Cylinder, flats with a/b of 0.5 and 0.9, sphere, ellipse; then four of them with a layer.
 fn shapes(directions: Directions, input: NormalInput) -> Vec<Element> {
     without_layer(directions, input).into_iter().chain(layered(directions, input)).collect()
 }
@@ -88,14 +88,15 @@ fn without_layer(directions: Directions, input: NormalInput) -> Vec<Element> {
     flats.into_iter().chain(ellipses).collect()
 }
 
-/// A cylinder and an ellipse with a rough layer, a flat with a linear one.
+/// A cylinder, a flat and an ellipse with a rough layer, a flat with a linear one.
 fn layered(directions: Directions, input: NormalInput) -> Vec<Element> {
-    let flats = [(HALF_WIDTHS[0], (1.0, 0.03)), (HALF_WIDTHS[1], (3.0, 0.0))].map(|(half_width, share)| {
+    let shares = [(HALF_WIDTHS[0], (1.0, 0.03)), (HALF_WIDTHS[1], (3.0, 0.0)), (HALF_WIDTHS[2], (1.0, 0.03))];
+    let flats = shares.map(|(half_width, share)| {
         flat_with(half_width, layer_of(&flat(half_width, input, directions), share), input, directions)
     });
     let ellipse = ellipse_of(1e-3, 3e-3, directions, input);
-    let [cylinder, flat] = flats;
-    vec![cylinder, flat, ellipse_with([1e-3, 3e-3], layer_of(&ellipse, (1.0, 0.3)), directions, input)]
+    let ellipse = ellipse_with([1e-3, 3e-3], layer_of(&ellipse, (1.0, 0.3)), directions, input);
+    flats.into_iter().chain([ellipse]).collect()
 }
 
 const HALF_WIDTHS: [f64; 3] = [0.0, 1e-4, 3.7e-4];
@@ -651,17 +652,18 @@ fn jacobians_are_derivatives_after_any_number_of_periods() {
     }
 }
 
-/// Random motions, by both inputs, from sticking to gross slip, with and without separation: their Jacobians against differences. Where the
-/// differences on both sides of a motion differ, the Jacobian is one of them.
+/// Random motions, by both inputs, from sticking to gross slip, with and without separation, of all layers: their Jacobians against central
+/// differences, or at a corner against those of one side.
 fn check_random_jacobians(motions: usize, seed: u64) {
     let mut random = Random(seed);
     let mut elements = layered(Directions::Two, NormalInput::Force);
     elements.extend(by_approach_and_force());
+    elements.extend(rough_flats(NormalInput::Approach, 0.3));
     for half_width in HALF_WIDTHS {
         elements
             .extend([NormalInput::Approach, NormalInput::Force].map(|input| flat(half_width, input, Directions::Two)));
     }
-    let mut corners = 0;
+    let mut beyond = 0;
     for _ in 0..motions {
         let element = &elements[random.below(elements.len())];
         let (u, full) = (unit(element), normal_input(element, 1.0));
@@ -683,27 +685,33 @@ fn check_random_jacobians(motions: usize, seed: u64) {
                 motion[j] += h * scale;
                 harmonic(element, 1, &motion).force
             };
-            let error = |high: &[f64; COEFFICIENTS], low: &[f64; COEFFICIENTS], h: f64| {
-                let of = |i| (high[i] - low[i]) / h - jacobian[i + COEFFICIENTS * j] * scale;
-                (0..COEFFICIENTS).map(|i| of(i).abs()).fold(0.0, f64::max) / slip_force
+            let is_within = |bound: f64, high: &[f64; COEFFICIENTS], low: &[f64; COEFFICIENTS], h: f64| {
+                let error = |i| (high[i] - low[i]) / h - jacobian[i + COEFFICIENTS * j] * scale;
+                (0..COEFFICIENTS).all(|i: usize| error(i).abs() < bound * slip_force)
             };
-            // Corners beside the motion are avoided by smaller differences, whose rounding errors are 1e-12 over h.
-            let found = [1e-5, 1e-6, 1e-7, 1e-8].into_iter().any(|h| {
-                let (high, low) = (moved(h), moved(-h));
-                if error(&high, &low, 2.0 * h) < 1e-5_f64.max(1e-12 / h) {
-                    return true;
-                }
-                let sides = [error(&high, &force, h), error(&force, &low, h)];
-                let (one, other) = (sides[0].min(sides[1]), sides[0].max(sides[1]));
-                let corner = one < 1e-3 && other > 10.0 * one;
-                corners += usize::from(corner);
-                corner
-            });
-            assert!(found, "{motion:?}, half-width {}, column {j}", element.half_width);
+            // Corners beside the motion are avoided by smaller differences, whose rounding errors are 1e-15 over h; N_c far below N makes
+            // the force as curved as a corner.
+            let is_central = |bound: f64| {
+                [1e-5, 1e-4, 1e-6, 1e-7, 1e-8].into_iter().any(|h| is_within(bound, &moved(h), &moved(-h), 2.0 * h))
+            };
+            let is_exact = is_central(1e-8);
+            beyond += usize::from(!is_exact);
+            if !is_exact && !is_central(1e-5) {
+                // A jump by more than 1e-6 mu N is no corner.
+                let h = 1e-8;
+                let [high, low] = [h, -h].map(moved);
+                let is_one_sided = |bound| is_within(bound, &high, &force, h) || is_within(bound, &force, &low, h);
+                let is_continuous = is_within(100.0, &high, &force, h) && is_within(100.0, &force, &low, h);
+                assert!(
+                    is_one_sided(1e-3) && is_continuous,
+                    "{motion:?}, half-width {}, column {j}",
+                    element.half_width
+                );
+            }
         }
     }
     let columns = motions * COEFFICIENTS;
-    assert!(corners * 40 < columns, "{corners} corners in {columns} columns");
+    assert!(beyond * 200 < columns, "{beyond} of {columns} columns");
 }
 
 #[test]
@@ -712,7 +720,91 @@ fn jacobians_of_random_motions_are_derivatives() {
 }
 
 #[test]
-#[ignore = "takes half a minute: part of make check"]
+#[ignore = "takes two minutes: part of make check"]
 fn jacobians_of_many_random_motions_are_derivatives() {
-    check_random_jacobians(4000, 2);
+    check_random_jacobians(10_000, 2);
+}
+
+/// Flats of a/b from 0 to 0.999 with layers 0.01 to 100 times as compliant as the contact, and N_c from 1e-3 to 1e3 times the normal force.
+fn rough_flats(input: NormalInput, poisson_ratio: f64) -> Vec<Element> {
+    let of = |flat_half_width, layer| {
+        let material = [Material { poisson_ratio, ..STEEL }; 2];
+        let parameters = Parameters { layer, material, ..parameters(flat_half_width) };
+        Element::rounded_flat(&parameters, Directions::Two, input).unwrap()
+    };
+    let shares = [0.01, 1.0, 100.0].map(|share| [1e-3, 0.03, 1.0, 1e3].map(|ratio| (share, ratio)));
+    let bare = HALF_WIDTHS.into_iter().chain([4e-3]).map(|half_width| (half_width, of(half_width, Layer::none())));
+    let with =
+        |(half_width, bare)| shares.concat().into_iter().map(move |share| of(half_width, layer_of(&bare, share)));
+    bare.flat_map(with).collect()
+}
+
+/// Long slides of rough flats at angles with the x axis, in the step that closes the contact and in one in which its load rises tenfold: the
+/// contact before, its load, and the displacement at the end.
+fn for_long_slides(input: NormalInput, poisson_ratio: f64, mut visit: impl FnMut(Contact, f64, [f64; 3])) {
+    for element in rough_flats(input, poisson_ratio) {
+        let [unit, end] = [unit(&element), normal_input(&element, 0.7)];
+        for angle in [1e-9, 0.3, 0.8, FRAC_PI_2] {
+            for length in [3.0, 30.0, 1000.0].map(|length| length * unit) {
+                for share in [0.0, 0.07] {
+                    let mut contact = Contact::new(&element);
+                    contact.to([0.0, 0.0, normal_input(&element, share)]);
+                    visit(contact, share * element.normal_force, [length * angle.cos(), length * angle.sin(), end]);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_rough_flat_that_slides_far_carries_mu_n() {
+    // Exact if both directions are equally stiff. Otherwise the points, whose shares of the force differ between both directions, turn
+    // apart: the force is lower in the second order of the angles, up to 2.4e-4 in a step under a load that rises, 2e-5 after one more.
+    for (poisson_ratio, bounds) in [(0.0, [1e-12; 2]), (0.3, [4e-4, 2e-5])] {
+        for_long_slides(NormalInput::Approach, poisson_ratio, |mut contact, _, to| {
+            let ends = [to, [3.0 * to[0], 3.0 * to[1], to[2]]];
+            for (end, bound) in ends.into_iter().zip(bounds) {
+                let [x, y, load] = contact.to(end).force;
+                let missing = 1.0 - x.hypot(y) / (contact.element.friction_coefficient * load);
+                assert!(
+                    missing < bound,
+                    "{poisson_ratio}, {end:?}: {missing:e}, half-width {}",
+                    contact.element.half_width
+                );
+            }
+        });
+    }
+}
+
+/// The load rises as the shift does evenly: the path of a step.
+#[test]
+fn a_long_slide_of_a_rough_flat_dissipates_as_much_as_in_short_steps() {
+    const STEPS: usize = 64;
+    for_long_slides(NormalInput::Force, 0.3, |mut contact, load, to| {
+        let (element, energy) = (contact.element, contact.trial(to).dissipated);
+        let [from, end] = [load, to[2]].map(|load| element.shift_under(load));
+        let steps = (1..=STEPS).map(|k| k as f64 / STEPS as f64).map(|part| {
+            let shift = from + part * (end - from);
+            let bisect = |[low, high]: [f64; 2], _| {
+                let middle = 0.5 * (low + high);
+                if element.shift_under(middle) < shift { [middle, high] } else { [low, middle] }
+            };
+            let [_, load] = (0..60).fold([load, to[2]], bisect);
+            contact.to([part * to[0], part * to[1], load]).dissipated
+        });
+        let error = energy / steps.sum::<f64>() - 1.0;
+        assert!(error.abs() < 0.07, "{to:?}: {error:e}, half-width {}", element.half_width);
+    });
+}
+
+#[test]
+fn a_step_of_a_rough_flat_beside_the_x_axis_is_that_along_it() {
+    for element in rough_flats(NormalInput::Approach, 0.3) {
+        for length in [0.1, 0.3, 0.7, 1.5, 4.0, 30.0].map(|length| length * unit(&element)) {
+            let [along, beside] =
+                [0.0, 1e-9].map(|tilt| Contact::new(&element).to([length, tilt * length, normal_input(&element, 0.7)]));
+            let error = apart(&along, &beside) / slip_force(&element);
+            assert!(error < 1e-8, "{length}: {error:e}, half-width {}", element.half_width);
+        }
+    }
 }

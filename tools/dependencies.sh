@@ -28,6 +28,7 @@ meson           check                                                 : command 
 ninja-build     check                                                 : command ninja
 doxygen         check docs                                            : command doxygen
 libjs-bootstrap5 check docs                                           : file /usr/share/javascript/bootstrap5
+python3         bench figures host                                    : command python3
 python3-venv    test check docs python                                : command python3 -c "import ensurepip"
 octave          check octave                                          : command octave-cli
 octave-dev      check octave                                          : command mkoctfile

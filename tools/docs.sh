@@ -1,7 +1,7 @@
 #!/bin/sh
-# docs.sh: the references of the C interface, the Fortran module and the Rust functions, into target/docs, a site that opens from
-# its index.html without a network. What has no comment, and what is not understood, is an error. FORD comes from PyPI, into
-# target/tools.
+# docs.sh: the documents and the references of the C interface, the Fortran module and the Rust functions, into target/docs, a site
+# with a search that opens from its index.html without a network. What has no comment, and what is not understood, is an error. FORD
+# comes from PyPI, into target/tools.
 set -eu
 
 cd "$(dirname "$0")/.."
@@ -13,8 +13,8 @@ ford=target/tools/ford
 . tools/checks.sh
 
 fortran() {
-    $ford/bin/python -c 'import ford' 2> /dev/null ||
-        { python3 -m venv $ford && $ford/bin/pip install --quiet --disable-pip-version-check ford==7.0.13; } || return 1
+    $ford/bin/python -c 'import ford, latex2mathml' 2> /dev/null ||
+        { python3 -m venv $ford && $ford/bin/pip install --quiet --disable-pip-version-check ford==7.0.13 latex2mathml==3.78.1; } || return 1
     $ford/bin/python docs/reference/fortran.py docs/reference/ford.md > "$work/ford" 2>&1 || { cat "$work/ford"; return 1; }
     ! grep 'Warning' "$work/ford"
 }
@@ -33,20 +33,6 @@ rm -rf $out/rust-build
 cp docs/cluster.md $out # to which the C reference refers
 echo '<meta http-equiv="refresh" content="0; url=microslip/index.html">' > $out/rust/index.html # to which its pages refer
 
-cat > $out/index.html << END
-<!DOCTYPE html>
-<html lang="en">
-<head><meta charset="utf-8"><title>microslip $MSLIP_VERSION</title></head>
-<body>
-<h1>microslip $MSLIP_VERSION</h1>
-<ul>
-<li><a href="c/index.html">The C interface</a></li>
-<li><a href="fortran/index.html">The Fortran module</a></li>
-<li><a href="rust/microslip/index.html">The Rust functions</a></li>
-</ul>
-</body>
-</html>
-END
-
+check 'documents: pages with figures and a search' $ford/bin/python docs/reference/pages.py $out
 check 'all links lead to files, of the site or of others' python3 docs/reference/site.py $out
 counts

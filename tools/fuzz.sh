@@ -1,25 +1,24 @@
 #!/bin/sh
 # fuzz.sh [--check | --seeds] [TARGET...]: coverage-guided fuzzing of the library (libFuzzer, AddressSanitizer) on stable Rust.
 #
-#   calls     sequences of calls of the C interface, with invalid arguments and corrupted memory
-#   elements  the same for the element functions, and invariants of their results
+#   calls     calls of the C interface, with invalid arguments and corrupted memory
 #   physics   invariants of any contact and load history
 #
-# TIME seconds for each target (60), JOBS processes (1), MICROSLIP_SEED (new each time). New inputs are kept in verification/fuzz/corpus/,
-# failing ones in verification/fuzz/artifacts/.
+# TIME seconds for each target (60), JOBS processes (1), MICROSLIP_SEED (new each time). New inputs are kept in
+# verification/fuzz/corpus/, failing ones in verification/fuzz/artifacts/.
 #
-# --check runs the committed seeds and a bounded search from them, and keeps nothing; each target counts as a test.
+# --check runs the committed seeds and a search of RUNS inputs from them, and keeps nothing; each target counts as a test.
 # --seeds replaces the seeds by the smallest set of kept inputs with the same coverage.
 set -eu
 
 cd "$(dirname "$0")/.."
-: "${CARGO:=cargo}" "${TIME:=60}" "${JOBS:=1}" "${MICROSLIP_SEED:=$(date +%s)}"
+: "${CARGO:=cargo}" "${TIME:=60}" "${RUNS:=4000}" "${JOBS:=1}" "${MICROSLIP_SEED:=$(date +%s)}"
 mode=
 case ${1:-} in
-    --check) mode=check TIME=20 JOBS=1 && shift ;;
+    --check) mode=check TIME=600 JOBS=1 && shift ;;
     --seeds) mode=seeds && shift ;;
 esac
-[ $# -gt 0 ] || set -- calls elements physics
+[ $# -gt 0 ] || set -- calls physics
 
 # The instrumentation of cargo-fuzz, without that of comparisons. --target keeps the flags from build scripts.
 host=$(rustc -vV | sed -n 's/^host: //p')
@@ -48,11 +47,11 @@ for target; do
         continue
     fi
     tar --extract --gzip --file "$archive" --directory "$seeds"
-    [ "$mode" != check ] || corpus=$work/new
+    [ "$mode" = check ] && corpus=$work/new || RUNS=-1
     mkdir -p "$corpus"
-    echo "$target: $TIME s, seed $MICROSLIP_SEED"
-    set -- -seed="$MICROSLIP_SEED" -max_total_time="$TIME" -max_len=2048 -len_control=0 -timeout=60 -print_final_stats=1 \
-        -artifact_prefix="verification/fuzz/artifacts/$target/"
+    echo "$target: $RUNS inputs or $TIME s, seed $MICROSLIP_SEED"
+    set -- -seed="$MICROSLIP_SEED" -runs="$RUNS" -max_total_time="$TIME" -max_len=2048 -len_control=0 -timeout=60 \
+        -print_final_stats=1 -artifact_prefix="verification/fuzz/artifacts/$target/"
     [ "$JOBS" -eq 1 ] || set -- "$@" -fork="$JOBS"
     if "$program" "$@" "$corpus" "$seeds" > "$work/log" 2>&1; then
         passed=$((passed + 1))

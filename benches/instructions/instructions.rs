@@ -60,7 +60,7 @@ const RELATIONS: &[(&str, f64, &str, &str)] = &[
     ("stiffness_layer", 1.3, "stiffness", "a layer with N_c >= N/12 changes the polynomials only"),
     ("curve_rough_layer", 20.0, "curve_force", "the documented cost of a small N_c"),
     ("harmonics_rough_layer", 15.0, "harmonics", "the documented cost of a small N_c"),
-    ("stiffness_rough_layer", 50.0, "stiffness", "the documented cost of a small N_c"),
+    ("stiffness_rough_layer", 70.0, "stiffness", "the documented cost of a small N_c"),
 ];
 
 /// N_c over N of layers as compliant as the contact; without a layer.

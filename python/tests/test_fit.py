@@ -5,7 +5,7 @@ from __future__ import annotations
 import microslip
 import numpy as np
 import pytest
-from tables import FLAT, REPOSITORY
+from tables import REPOSITORY
 
 TRUTH = {
     "flat_half_width": 0.1e-3,
@@ -180,8 +180,9 @@ def test_three_measured_loops_to_a_forced_response(tmp_path):
 
 def test_parameter_files_of_the_command_line(tmp_path):
     file = REPOSITORY / "cli" / "example.toml"
-    steel = {"young_modulus": 2e11, "poisson_ratio": 0.3, "displacement_reference": "rigid_strip"}
-    assert microslip.Contact(**microslip.read_parameters(file)) == microslip.Contact(**FLAT | steel)
+    damper = {"flat_half_width": 0, "edge_radius": 10e-3, "length": 3e-3, "normal_force": 800, "friction_coefficient": 0.4}
+    titanium = {"young_modulus": 114e9, "poisson_ratio": 0.32, "displacement_reference": "rigid_strip"}
+    assert microslip.Contact(**microslip.read_parameters(file)) == microslip.Contact(**damper | titanium)
     text = (
         "units = 'mm'\nspring = 1\nsprings = 8\nedge_radius = 3\ntangential_compliance = 2e-6\n[[material]]\nyoung_modulus = 2e5\n"
     )

@@ -5,10 +5,8 @@ use crate::constant_load::interpolant::{ForceInterpolant, INNER_FRACTION, KNEE_F
 use crate::error::Error;
 use crate::limits::check_displacement;
 use crate::limits::{exponent_of, in_range};
-use crate::numerics::chebyshev::{Interpolant, Polynomial, TERMS};
-use crate::parameters::{self, EllipticParameters, PARAMETERS, Pair, Parameters, Sensitivity, check_moduli};
+use crate::parameters::{self, Common, EllipticParameters, PARAMETERS, Parameters, Sensitivity};
 use crate::shape::rounded_flat::reference_slope;
-use crate::shape::stick_zone::ellipse::EllipseZones;
 use crate::shape::stick_zone::rounded_flat::RoundedFlatZones;
 use crate::shape::stick_zone::{Complement, StickZones};
 use crate::shape::{HertzEllipse, Layer, LayeredZones, RoundedFlat};
@@ -51,7 +49,7 @@ pub struct Contact {
     /// The rounding error of `slip_force`: mu N less its rounded value.
     pub(crate) slip_force_rounding: f64,
     /// Argument of the first polynomial of the interpolant over the displacement, and of the others over the remaining displacement
-    /// before gross slip \[1/m\]; for an ellipse the inverse of `slip_displacement` in both.
+    /// before gross slip \[1/m\].
     pub(crate) inner_scale: f64,
     pub(crate) outer_scale: f64,
     /// The inverse of `slip_displacement`; 0 without friction.
@@ -68,10 +66,8 @@ pub struct Contact {
     pub(crate) checksum: u64,
 }
 
-/// Tag of an initialised contact: a magic number, the version of the layout, and whether the curve is elementary: that of an ellipse
-/// without a layer.
-const TAG_ROUNDED_FLAT: u64 = (0x6d73_6c69_7001 << 16) | (LAYOUT << 8);
-const TAG_ELLIPTIC: u64 = TAG_ROUNDED_FLAT | 1;
+/// Tag of an initialised contact: a magic number and the version of the layout.
+const TAG: u64 = (0x6d73_6c69_7001 << 16) | (LAYOUT << 8);
 
 const _: () = assert!(size_of::<Contact>() == 3032);
 
@@ -83,21 +79,14 @@ impl Contact {
     /// positive; `OutOfRange` if results are not representable.
     pub fn rounded_flat(parameters: &Parameters) -> Result<Contact, Error> {
         parameters.check()?;
-        // A zero without its sign, which would show in results.
-        let flat_half_width = parameters.flat_half_width.abs();
-        let parameters = &Parameters { flat_half_width, ..*parameters };
-        let Parameters { edge_radius, length, normal_force, friction_coefficient, .. } = *parameters;
-        check_moduli(&parameters.material)?;
-        let composite_modulus = Pair::new(&parameters.material).composite_modulus;
-        let mut contact = Contact { composite_modulus, tag: TAG_ROUNDED_FLAT, ..EMPTY };
-        contact.set_slip_forces(normal_force, friction_coefficient);
+        let Parameters { flat_half_width, edge_radius, length, normal_force, .. } = *parameters;
+        let mut contact = Contact::open(&parameters.common())?;
         if normal_force == 0.0 {
             return Ok(contact);
         }
         let shape = RoundedFlat::new(parameters)?;
-        let half_width = shape.half_width();
-        in_range(&[normal_force], &[length, half_width])?;
-        (contact.half_width, contact.flat_half_width) = (half_width, flat_half_width);
+        let (half_width, composite_modulus) = (shape.half_width(), contact.composite_modulus);
+        (contact.half_width, contact.flat_half_width) = (half_width, flat_half_width.abs());
         contact.pressure_scale = normal_force / length / half_width;
         contact.stiffness_scale = 0.5 * PI * composite_modulus * length;
         contact.zones = LayeredZones::of_flat(RoundedFlatZones::new(shape.punch(), shape.reference_compliance()));
@@ -113,16 +102,14 @@ impl Contact {
     /// The error of the first parameter that is not allowed; `OutOfRange` if results are not representable.
     pub fn elliptic(parameters: &EllipticParameters) -> Result<Contact, Error> {
         parameters.check()?;
-        let EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, ref material, .. } =
-            *parameters;
-        check_moduli(material)?;
-        let composite_modulus = Pair::new(material).composite_modulus;
-        let mut contact = Contact { composite_modulus, tag: TAG_ELLIPTIC, ..EMPTY };
-        contact.set_slip_forces(normal_force, friction_coefficient);
+        let EllipticParameters { semi_axis_x, semi_axis_y, normal_force, .. } = *parameters;
+        let mut contact = Contact::open(&parameters.common())?;
         if normal_force == 0.0 {
             return Ok(contact);
         }
+        let composite_modulus = contact.composite_modulus;
         contact.half_width = semi_axis_x;
+        contact.zones = LayeredZones::of_ellipse();
         contact.stiffness_scale = 1.0 / HertzEllipse::new(parameters)?.initial_compliance();
         contact.pressure_scale = normal_force / semi_axis_x / semi_axis_y;
         contact.set_layer(&parameters.layer, normal_force)?;
@@ -133,22 +120,22 @@ impl Contact {
         Ok(contact)
     }
 
-    /// The derivatives of mu N.
-    fn set_slip_forces(&mut self, normal_force: f64, friction_coefficient: f64) {
-        self.friction_coefficient = friction_coefficient;
-        self.sensitivity_scales = [friction_coefficient, normal_force, 0.0, 0.0, 0.0, 0.0, 0.0];
+    /// A contact without tangential forces, of parameters that were checked.
+    fn open(parameters: &Common) -> Result<Contact, Error> {
+        let Common { normal_force, friction_coefficient, .. } = *parameters;
+        let composite_modulus = parameters.composite_modulus()?;
+        // The derivatives of mu N.
+        let sensitivity_scales = [friction_coefficient, normal_force, 0.0, 0.0, 0.0, 0.0, 0.0];
+        Ok(Contact { composite_modulus, friction_coefficient, sensitivity_scales, tag: TAG, ..EMPTY })
     }
 
     /// The layer of parameters that were checked in series.
     fn set_layer(&mut self, layer: &parameters::Layer, normal_force: f64) -> Result<(), Error> {
         let (layer, under_load) = Layer::new(layer, normal_force)?;
         let of_contact = self.stick_zones().small_load().compliance;
-        self.zones.set_layer(&layer.relative(normal_force, self.stiffness_scale, of_contact)?, self.is_elementary());
+        self.zones.set_layer(&layer.relative(normal_force, self.stiffness_scale, of_contact)?);
         // For a friction force of 1, by the compliance under the reference load.
         self.sensitivity_scales[PARAMETERS - 1] = under_load * self.stiffness_scale;
-        if self.zones.has_layer() {
-            self.tag = TAG_ROUNDED_FLAT;
-        }
         Ok(())
     }
 
@@ -188,16 +175,14 @@ impl Contact {
             [self.friction_coefficient, normal_force, by_size, by_radius, by_length, by_modulus, by_compliance];
         let inner;
         (self.interpolant, inner) = self.interpolant_of_curve();
-        let (inner, outer) = if self.is_elementary() { (1.0, 1.0) } else { (inner, 1.0 - inner) };
         self.inner_scale = 1.0 / (inner * slip_displacement);
-        self.outer_scale = 1.0 / (outer * slip_displacement);
+        self.outer_scale = 1.0 / ((1.0 - inner) * slip_displacement);
         self.weights_in_slip = self.weights_of_curve();
         Ok(())
     }
 
     /// The interpolant and the fraction of its first polynomial.
     fn interpolant_of_curve(&self) -> (ForceInterpolant, f64) {
-        let flat = &self.zones.flat;
         let of = |zones: &dyn StickZones| (zones.slip_shift(), zones.small_load().compliance);
         if self.is_layered() {
             let (slip_shift, compliance) = of(&self.zones);
@@ -209,49 +194,19 @@ impl Contact {
                 }
             }
         }
-        if self.is_ellipse() {
-            return (ForceInterpolant::NONE, INNER_FRACTION);
-        }
-        let (slip_shift, compliance) = of(flat);
-        let alone = ForceInterpolant::of(slip_shift, compliance, flat.sequence());
+        let (slip_shift, compliance) = of(self.zones.contact());
+        let alone = ForceInterpolant::of(slip_shift, compliance, self.zones.sequence_of_contact());
         (if self.is_layered() { alone.without_layer() } else { alone }, INNER_FRACTION)
-    }
-
-    /// K' over the initial stiffness and its derivative with respect to y, in the range of the first polynomial.
-    #[inline(always)]
-    pub(crate) fn polynomial_cycle(&self, y: f64) -> Option<(f64, f64)> {
-        if self.is_elementary() { None } else { self.interpolant.cycle(y) }
-    }
-
-    /// The secant stiffness over the initial one as a polynomial in the displacement over 2/5 of that of gross slip.
-    pub(crate) fn secant_polynomial(&self) -> Polynomial {
-        if !self.is_elementary() {
-            return *self.interpolant.secant();
-        }
-        // One less the tangent stiffness sqrt(1-x).
-        let decrease = Interpolant::<TERMS>::through(|z| {
-            let x = 0.5 * INNER_FRACTION * (1.0 + z);
-            x / (1.0 + (1.0 - x).sqrt())
-        });
-        let mut secant = decrease.mean_from_end().map(|row| row.map(|power| -power));
-        secant[0][0] = 1.0;
-        secant
     }
 
     /// Whether this memory was initialised by a library of this version.
     #[inline(always)]
     pub(crate) fn is_initialised(&self) -> bool {
-        self.tag | 1 == TAG_ELLIPTIC
-    }
-
-    /// An elliptical contact without a layer: its curve is elementary.
-    #[inline(always)]
-    pub(crate) fn is_elementary(&self) -> bool {
-        self.tag == TAG_ELLIPTIC
+        self.tag == TAG
     }
 
     pub(crate) fn is_ellipse(&self) -> bool {
-        self.is_elementary() || self.zones.is_elliptic()
+        self.zones.is_elliptic()
     }
 
     /// Whether there is a layer that is compliant in the tangential direction.
@@ -277,13 +232,7 @@ impl Contact {
     }
 
     pub(crate) fn stick_zones(&self) -> &dyn StickZones {
-        if self.is_elementary() {
-            &EllipseZones
-        } else if self.is_layered() {
-            &self.zones
-        } else {
-            &self.zones.flat
-        }
+        self.zones.both()
     }
 
     /// No tangential force is possible: an open contact, or one without friction.
@@ -333,7 +282,7 @@ const EMPTY: Contact = Contact {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use crate::parameters::{CENTRE_POINT, Layer, Material, RIGID_STRIP};
+    use crate::parameters::{CENTRE_POINT, Layer, Material, Pair, RIGID_STRIP};
 
     pub(crate) const TITANIUM: Material = Material { young_modulus: 114e9, poisson_ratio: 0.32 };
 
@@ -508,7 +457,7 @@ pub(crate) mod tests {
     fn uninitialised_memory_is_recognised() {
         for contact in [contact(0.0), ellipse(1e-4, 2e-4)] {
             assert!(contact.is_initialised());
-            for bit in 1..64 {
+            for bit in 0..64 {
                 assert!(!Contact { tag: contact.tag ^ (1 << bit), ..contact }.is_initialised());
             }
         }

@@ -3,6 +3,7 @@
 use crate::constant_load::contact::Contact;
 use crate::error::Error;
 use crate::numerics::fp_class::in_0_to;
+use crate::shape::stick_zone::ellipse::EllipseZones;
 use crate::shape::stick_zone::{Complement, StickZone, StickZones};
 
 impl Contact {
@@ -32,6 +33,7 @@ impl Contact {
             return self.cycle_energy_with_layer(amplitude);
         }
         match self.evaluator().load_at(amplitude) {
+            Some(point) if self.is_ellipse() => self.cycle_energy_at(&EllipseZones, point),
             Some(point) => self.cycle_energy_at(&self.layered_zones().flat, point),
             None => self.cycle_energy_of_zone(amplitude),
         }
@@ -41,7 +43,7 @@ impl Contact {
     #[inline(always)]
     pub(crate) fn inner_cycle_energy(&self, amplitude: f64) -> Option<f64> {
         let y = amplitude * self.inner_scale;
-        if y > 1.0 || self.is_elementary() {
+        if y > 1.0 {
             return None;
         }
         Some(self.initial_stiffness * amplitude * amplitude * self.interpolant().cycle_energy(y)?)

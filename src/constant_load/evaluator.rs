@@ -1,12 +1,12 @@
 //! Evaluation of the monotonic curve at a displacement: force and tangent stiffness, from the interpolant if possible.
 //!
-//! For an ellipse without a layer the curve is elementary. If there is no interpolant, next to gross slip, for Λ near 0, or with a layer
+//! If there is no interpolant, next to gross slip, for Λ near 0, or with a layer
 //! that bends the curve strongly, the stick zone is found by iteration.
 
 use crate::constant_load::contact::Contact;
 use crate::constant_load::curve::sign_of;
 use crate::constant_load::interpolant::{END_OF_PIECES, ForceInterpolant, INNER_FRACTION, Interval, root_of};
-use crate::shape::stick_zone::ellipse::EllipseZones;
+use crate::shape::layer::inverse_of_sum;
 use crate::shape::stick_zone::{Complement, StickZones};
 use crate::simd::dispatch;
 
@@ -24,7 +24,6 @@ pub(crate) const BEYOND: usize = 6;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct CurveEvaluator<'a> {
     contact: &'a Contact,
-    elementary: bool,
     interpolant: &'a ForceInterpolant,
     slip_force: f64,
     pub slip_displacement: f64,
@@ -52,7 +51,6 @@ impl Contact {
     pub(crate) fn evaluator(&self) -> CurveEvaluator<'_> {
         CurveEvaluator {
             contact: self,
-            elementary: self.is_elementary(),
             interpolant: self.interpolant(),
             slip_force: self.slip_force,
             slip_displacement: self.slip_displacement,
@@ -113,7 +111,7 @@ impl Contact {
 
 impl Contact {
     pub(crate) fn has_no_interpolant(&self) -> bool {
-        !self.is_elementary() && !self.interpolant().is_converged()
+        !self.interpolant().is_converged()
     }
 
     /// Stiffnesses at displacements and remaining ones over that of gross slip, from the stick zones.
@@ -134,10 +132,7 @@ impl Contact {
     pub(crate) fn load_with_knee(&self, distance: f64) -> Option<(Complement, f64)> {
         let (zones, alone) = (self.layered_zones(), self.layered_zones().contact());
         let remaining = distance * self.per_displacement_scale;
-        let has_curve = self.is_ellipse() || self.interpolant().is_without_layer();
-        if !self.is_layered()
-            || self.interpolant().is_converged()
-            || !has_curve
+        if !self.interpolant().is_without_layer()
             || remaining <= 0.0
             || remaining > zones.slip_shift() - zones.small_load().half_shift
         {
@@ -146,31 +141,24 @@ impl Contact {
         let layer = zones.layer();
         // The layer alone would have more load at this displacement; a shift grows at most like the power 2/3 of the load.
         let of_layer = alone.slip_shift() * layer.load_remaining(remaining / layer.compliance()).cbrt().powi(2);
-        let mut own = remaining.min(of_layer).min(alone.slip_shift()).max(f64::MIN_POSITIVE);
-        let mut converged = false;
-        for _ in 0..30 {
+        let start = remaining.min(of_layer).max(f64::MIN_POSITIVE);
+        let at = |own: f64| {
             let [left, compliance] = self.without_layer(own);
             let load = Complement { consumed: 1.0 - left, remaining: left };
-            let (sum, both) = (own + layer.shift_remaining(left), compliance + layer.compliance_at(load));
-            if converged {
-                return Some((load, self.stiffness_scale / both));
-            }
-            let step = (remaining / sum).ln() * (sum / own * (compliance / both));
-            own = (own * step.exp()).min(alone.slip_shift());
-            // Quadratic convergence: the next point is exact.
-            converged = step.abs() < 1e-9;
-        }
-        None
+            (load, compliance, layer.compliance_at(load))
+        };
+        let (load, of_contact, of_layer) = at(inverse_of_sum(remaining, start, alone.slip_shift(), |own| {
+            let (load, of_contact, of_layer) = at(own);
+            let sum = own + layer.shift_remaining(load.remaining);
+            [sum, own / sum * (1.0 + of_layer / of_contact)]
+        }));
+        Some((load, self.stiffness_scale / (of_contact + of_layer)))
     }
 
     /// 1 - τ and Λ + λ of the contact without its layer at a remaining shift.
     fn without_layer(&self, remaining: f64) -> [f64; 2] {
         let alone = self.layered_zones().contact();
         let (slip_shift, full_stick) = (alone.slip_shift(), alone.small_load().compliance);
-        if self.is_ellipse() {
-            let point = EllipseZones::at(remaining);
-            return [point.remaining, full_stick + point.compliance_increase];
-        }
         let y = (slip_shift - remaining) / (INNER_FRACTION * slip_shift);
         if y <= 1.0 {
             let (secant, tangent) = self.interpolant().inner_secant_and_tangent(y);
@@ -234,9 +222,6 @@ impl CurveEvaluator<'_> {
         if remaining < 0.0 {
             return Some(Response { force: self.slip_force, stiffness: 0.0 });
         }
-        if self.elementary {
-            return Some(self.elliptic_at(displacement, remaining));
-        }
         let y = displacement * self.inner_scale;
         if y <= 1.0 {
             let (secant, tangent) = self.interpolant.secant_and_tangent(y)?;
@@ -262,13 +247,6 @@ impl CurveEvaluator<'_> {
         stiffnesses: &mut [f64],
     ) {
         let mut next = 0;
-        if self.elementary {
-            let values = forces.iter_mut().zip(stiffnesses).zip(displacement).take(count);
-            for ((force, stiffness), &x) in values {
-                Response { force: *force, stiffness: *stiffness } = self.elliptic_at(x, self.slip_displacement - x);
-            }
-            return;
-        }
         if self.interpolant.is_converged() {
             while next < count
                 && let Some(x) = block(displacement, next)
@@ -316,7 +294,7 @@ impl CurveEvaluator<'_> {
         } else {
             let to_outer = self.slip_displacement * self.outer_scale;
             let ends = |rho: &f64| rho * to_outer < END_OF_PIECES;
-            let count = if self.elementary { N } else { rho.iter().position(ends).unwrap_or(N) };
+            let count = rho.iter().position(ends).unwrap_or(N);
             let displacement = x.map(|x| x * self.slip_displacement);
             self.along::<true>(count, &displacement, &mut roots, &mut forces, &mut stiffnesses);
             for (stiffness, rho) in stiffnesses.iter_mut().zip(rho).skip(count) {
@@ -365,13 +343,10 @@ impl CurveEvaluator<'_> {
         }
     }
 
-    /// The load at a displacement up to that of gross slip, with an accurate complement, and the stiffness; `None` for an ellipse, and
-    /// if there is no interpolant at this displacement.
+    /// The load at a displacement up to that of gross slip, with an accurate complement, and the stiffness; `None` if there is no
+    /// interpolant at this displacement.
     #[inline(always)]
     pub fn load_at(&self, displacement: Complement) -> Option<(Complement, f64)> {
-        if self.elementary {
-            return None;
-        }
         let y = displacement.consumed * self.inner_scale;
         if y <= 1.0 {
             let (secant, tangent) = self.interpolant.secant_and_tangent(y)?;
@@ -383,17 +358,6 @@ impl CurveEvaluator<'_> {
                 self.interpolant.complement_and_slope(displacement.remaining * self.outer_scale)?;
             Some((Complement { consumed: 1.0 - remaining, remaining }, self.outer_stiffness * slope))
         }
-    }
-
-    /// `x/x_s = 1 - σ²` and `τ = 1 - σ³`: τ from x and the root σ, free of cancellation.
-    #[inline(always)]
-    fn elliptic_at(&self, displacement: f64, remaining: f64) -> Response {
-        let size = (remaining * self.outer_scale).max(0.0).sqrt();
-        let consumed = displacement * self.outer_scale / (1.0 + size);
-        // Next to gross slip rounding must not give more than mu N.
-        let load = consumed * (1.0 + size * (1.0 + size));
-        let force = self.slip_force * if load > 1.0 { 1.0 } else { load };
-        Response { force, stiffness: self.initial_stiffness * size }
     }
 }
 

@@ -15,9 +15,7 @@
 //!
 //! by the coefficients of the displacement, with k the tangent stiffness; `dT_r` is stored when the reversal is passed.
 
-mod columns;
 mod event_driven;
-mod jacobian;
 mod motion;
 mod reversal_terms;
 mod segments;
@@ -102,7 +100,6 @@ pub fn workspace_size(header: &[f64; TAGS]) -> Result<(usize, usize, Rule), Erro
 pub struct Workspace<'a>(ByRule<'a>);
 
 #[derive(Debug)]
-#[expect(clippy::large_enum_variant, reason = "it lives on the stack during a call; there is no heap")]
 enum ByRule<'a> {
     UniformSampling(uniform_sampling::Workspace<'a>),
     EventDriven(event_driven::Workspace<'a>),
@@ -285,43 +282,6 @@ pub(crate) mod tests {
         let [mut one, mut two] = RULES.map(|rule| workspace(rule, 3, 16));
         assert!(matches!(event_driven::Workspace::new(&mut one), Err(Error::BadWorkspace)));
         assert!(matches!(uniform_sampling::Workspace::new(&mut two), Err(Error::BadWorkspace)));
-    }
-
-    #[test]
-    fn invalid_harmonics_samples_and_lengths_have_their_own_errors() {
-        for rule in RULES {
-            let mut memory = [0.0; 8];
-            for (harmonics, samples, error) in [
-                (0, 16, Error::BadHarmonics),
-                (1 << 25, 1 << 26, Error::BadHarmonics),
-                (3, 6, Error::BadSamples),
-                (3, 1 << 25, Error::BadSamples),
-                (usize::MAX, usize::MAX, Error::BadHarmonics),
-            ] {
-                assert_eq!(rule.workspace_length(harmonics, samples), 0);
-                assert_eq!(rule.workspace_init(harmonics, samples, &mut memory), Err(error));
-            }
-            assert_eq!(rule.workspace_init(3, 7, &mut memory), Err(Error::WorkspaceTooShort));
-            assert_eq!(memory, [0.0; 8]);
-
-            let (contact, mut good) = (contact(50e-6), workspace(rule, 1, 8));
-            let mut rejects = |displacement: &[f64], length: usize, squared: usize, error: Error| {
-                let (mut force, mut jacobian, mut energy) = (vec![7.0; length], vec![7.0; squared], 7.0);
-                let output = HarmonicOutput {
-                    force: Some(&mut force),
-                    jacobian: Some(&mut jacobian),
-                    dissipated: Some(&mut energy),
-                    drift: None,
-                };
-                assert_eq!(evaluate(&contact, &mut good, displacement, output), Err(error));
-                assert!(energy == 7.0 && force.iter().chain(&jacobian).all(|value| *value == 7.0));
-            };
-            rejects(&[0.0; 2], 3, 9, Error::BadArraySize);
-            rejects(&[0.0; 3], 2, 9, Error::BadArraySize);
-            rejects(&[0.0; 3], 3, 8, Error::BadArraySize);
-            rejects(&[0.0, f64::NAN, 0.0], 3, 9, Error::BadDisplacement);
-            rejects(&[0.0, 0.0, 1.1e150], 3, 9, Error::BadDisplacement);
-        }
     }
 
     #[test]

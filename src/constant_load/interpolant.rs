@@ -389,9 +389,8 @@ mod tests {
                 shares.flat_map(|share| layered(share, ratio).into_iter().map(move |contact| (share, contact)));
             for (share, contact) in contacts {
                 let may_not = ratio < if share < 1.0 { 0.15 } else { 0.08 };
-                let otherwise = if contact.is_ellipse() { 0 } else { super::WITHOUT_LAYER };
                 let converged = contact.interpolant().converged;
-                assert!(converged == 1 || (may_not && converged == otherwise), "{ratio} {share}");
+                assert!(converged == 1 || (may_not && converged == super::WITHOUT_LAYER), "{ratio} {share}");
                 let fractions = (1..200).map(|k| f64::from(k) / 200.0).chain([1e-12, 1e-3, 0.9999]).chain(boundaries());
                 for fraction in fractions.filter(|fraction| *fraction < 1.0) {
                     let displacement = fraction * contact.slip_displacement;

@@ -348,7 +348,7 @@ pub fn shear_tractions(contact: &Contact, state: &[f64], x: &[f64], shear: &mut 
 mod tests {
     use super::*;
     use crate::constant_load::contact::tests::{FLATS, contact, ellipse};
-    use crate::constant_load::state::{self, state_error, state_init, state_length};
+    use crate::constant_load::state::{self, state_init, state_length};
     use std::vec;
     use std::vec::Vec;
 
@@ -358,26 +358,10 @@ mod tests {
         super::step(contact, state, displacement)
     }
 
-    #[inline(never)]
-    fn step_with_energy(contact: &Contact, state: &[f64], displacement: f64) -> (Step, f64) {
-        super::step_with_energy(contact, state, displacement)
-    }
-
     fn unloaded(reversals: usize) -> Vec<f64> {
         let mut state = vec![0.0; state_length(reversals)];
         state_init(&mut state).unwrap();
         state
-    }
-
-    /// Advances a state along displacements in units of that of gross slip, and returns the last force.
-    fn apply(contact: &Contact, state: &mut [f64], path: &[f64]) -> f64 {
-        let mut force = f64::NAN;
-        for displacement in path {
-            let step = step(contact, state, displacement * contact.slip_displacement);
-            step.write(state);
-            force = step.force();
-        }
-        force
     }
 
     /// Pseudo-random values from -1 to 1.
@@ -414,48 +398,6 @@ mod tests {
                 assert_eq!(advanced, state, "{size} {displacement}");
             }
             assert!(continued_steps > 1000, "{size} {continued_steps}");
-        }
-    }
-
-    #[test]
-    fn memory_without_a_tag_is_rejected() {
-        let contact = contact(50e-6);
-        let mut valid = unloaded(3);
-        apply(&contact, &mut valid, &[0.5, -0.2, 0.1]);
-        let rejects = |state: &[f64], error: Error| {
-            assert_eq!(check_step(state, 0.0), Err(error));
-            assert_eq!(check_path(state, &[0.0]), Err(error));
-            assert_eq!(shear_tractions(&contact, state, &[0.0], &mut [0.0]), Err(error));
-            assert_eq!(state_error(state), Err(error));
-        };
-        for tag in [0.0, f64::NAN, 1.5, -valid[0], f64::from_bits(valid[0].to_bits() + 2)] {
-            let mut invalid = valid.clone();
-            invalid[0] = tag;
-            rejects(&invalid, Error::BadState);
-        }
-        rejects(valid.get(..state_length(2) - 1).unwrap(), Error::StateTooShort);
-        // Shorter than its number of reversals requires.
-        apply(&contact, &mut valid, &[0.05]);
-        rejects(valid.get(..state_length(2)).unwrap(), Error::BadState);
-        assert_eq!(state_init(&mut [0.0; state_length(0) - 1]), Err(Error::StateTooShort));
-        assert_eq!(check_step(&valid, f64::NAN), Err(Error::BadDisplacement));
-    }
-
-    #[test]
-    fn zero_step_changes_nothing() {
-        let contact = contact(1e-6);
-        let mut state = unloaded(64);
-        for (number, displacement) in pseudo_random(200, 3).enumerate() {
-            // Up to gross slip and beyond, from the initial state.
-            let target = if number == 0 { 0.0 } else { 1.6 * displacement * contact.slip_displacement };
-            let first = step(&contact, &state, target);
-            first.write(&mut state);
-            let (again, energy) = step_with_energy(&contact, &state, target);
-            assert_eq!(energy, 0.0);
-            assert_eq!((again.force(), again.stiffness()), (first.force(), first.stiffness()), "{number}");
-            let before = state.clone();
-            again.write(&mut state);
-            assert_eq!(state, before);
         }
     }
 

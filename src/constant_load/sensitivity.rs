@@ -72,13 +72,6 @@ impl Contact {
 
     /// The load at a displacement, and the derivatives over the scales and the compliance Λ + λ of the contact alone under this load.
     fn shares_of_contact(&self, displacement: f64) -> (Complement, Sensitivity, f64) {
-        if self.is_elementary() {
-            let per_slip = self.per_slip_displacement;
-            let size = ((self.slip_displacement - displacement) * per_slip).max(0.0).sqrt();
-            let consumed = displacement * per_slip / (1.0 + size);
-            let load = Complement { consumed: consumed * (1.0 + size * (1.0 + size)), remaining: size * size * size };
-            return (load, elliptic_shares(size, consumed), 1.0 / size.max(f64::MIN_POSITIVE));
-        }
         let (load, increase) = self.load_and_increase(displacement);
         if self.is_ellipse() {
             let size = load.remaining.cbrt();

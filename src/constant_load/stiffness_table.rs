@@ -17,6 +17,7 @@
 //!
 //! dF/dξ and dE/dξ, those of a single call, are interpolated first.
 
+use crate::constant_load::complex_stiffness::{StiffnessOutputs, ValueAndSlope, write_values};
 use crate::constant_load::contact::Contact;
 use crate::constant_load::interpolant::{CYCLE_WEIGHTS, INNER_FRACTION};
 use crate::constant_load::interpolant::{ENERGY_WEIGHTS, Place, eighth_root, weighted};
@@ -133,23 +134,6 @@ impl<const R: usize> Pieces<R> {
     }
 }
 
-/// K', K'' and their derivatives, each if it is requested.
-pub(crate) type StiffnessOutputs<'a> = [Option<&'a mut [f64]>; 4];
-
-#[inline(always)]
-fn write_values<const N: usize>(values: [[ValueAndSlope; 2]; N], first: usize, outputs: &mut StiffnessOutputs) {
-    for (i, [(real, d_real), (imaginary, d_imaginary)]) in values.into_iter().enumerate() {
-        for (output, value) in outputs.iter_mut().zip([real, imaginary, d_real, d_imaginary]) {
-            if let Some(place) = output.as_deref_mut().and_then(|values| values.get_mut(first + i)) {
-                *place = value;
-            }
-        }
-    }
-}
-
-/// K' or K'' and its derivative with respect to the amplitude.
-type ValueAndSlope = (f64, f64);
-
 impl StiffnessTable {
     pub const EMPTY: StiffnessTable = StiffnessTable {
         tag: Kind::StiffnessTable.tag(0),
@@ -182,7 +166,7 @@ impl StiffnessTable {
         let integrals = |e: f64| contact.cycle_integrals(1.0 - e, e).map(|integral| 8.0 / PI * integral);
         let amplitude = |e: f64| Complement { consumed: slip * (1.0 - e), remaining: slip * e };
         let energy_rate = |e: f64| contact.cycle_energy(amplitude(e)).1 / (PI * initial * slip);
-        let secant = contact.secant_polynomial();
+        let secant = *contact.interpolant().secant();
         self.inner = [weighted(&secant, &CYCLE_WEIGHTS), weighted(&secant, &ENERGY_WEIGHTS)];
         self.inner[1].as_flattened_mut().iter_mut().for_each(|power| *power /= PI);
         [self.moment, self.slope_at_slip] = integrals(0.0);
@@ -233,10 +217,14 @@ impl StiffnessTable {
         })
     }
 
-    /// Writes what is requested of K', K'' and their derivatives at amplitudes \[m\] of a contact with friction of this shape.
+    /// Writes what is requested of K', K'' and their derivatives at checked amplitudes \[m\] of a contact of this shape.
     #[inline(always)]
-    pub fn write(&self, contact: &Contact, amplitude: &[f64], outputs: StiffnessOutputs) {
-        dispatch!(self.write_kernel(contact, amplitude, outputs));
+    pub fn write(&self, contact: &Contact, amplitude: &[f64], mut outputs: StiffnessOutputs) {
+        if self.has_polynomials() && !contact.is_frictionless() {
+            dispatch!(self.write_kernel(contact, amplitude, outputs));
+        } else {
+            (0..).zip(amplitude).for_each(|(i, &one)| contact.write_complex_stiffness(one, i, &mut outputs));
+        }
     }
 
     #[inline(always)]

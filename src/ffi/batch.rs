@@ -1,6 +1,5 @@
 //! Batches of contacts and of elements: all items are checked before the first output is written.
 
-use super::constant_load::cycle::write_complex_stiffness;
 use super::constant_load::history;
 use super::pointers::{self, call, check_alignment, check_length, input, optional_input, output, outputs, with_law};
 use super::{element, mslip_contact, mslip_element};
@@ -331,9 +330,9 @@ pub unsafe extern "C" fn mslip_batch_complex_stiffness(
             outputs([k_real, k_imag, dk_real, dk_imag], n)?,
         );
         items.check::<Contact>(|i, _| amplitude.get(i).map_or(Ok(()), |amplitude| check_amplitude(*amplitude)))?;
-        items
-            .with(|i| amplitude.get(i))
-            .try_for_each(|(i, contact, amplitude)| write_complex_stiffness(contact, *amplitude, i, &mut outputs))
+        let active = items.with(|i| amplitude.get(i));
+        active.for_each(|(i, contact, amplitude)| contact.write_complex_stiffness(*amplitude, i, &mut outputs));
+        Ok(())
     })
 }
 

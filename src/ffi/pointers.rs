@@ -312,30 +312,3 @@ macro_rules! with_law {
 }
 
 pub(super) use with_law;
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::constant_load::contact::tests::{FLATS, contact as flat, ellipse};
-
-    #[test]
-    fn a_check_rejects_a_contact_with_any_changed_bit() {
-        for initialised in FLATS.map(flat).into_iter().chain([ellipse(1e-4, 2e-4)]) {
-            let good = mslip_contact::from(initialised);
-            let check = |contact: *const mslip_contact| {
-                // SAFETY: `contact` is valid for a contact.
-                unsafe { self::contact(contact) }.and_then(check_contact)
-            };
-            assert_eq!(check(&raw const good), Ok(()));
-            // SAFETY: a contact consists of 64-bit words and doubles.
-            let mut words: [u64; size_of::<Contact>() / 8] = unsafe { mem::transmute(good) };
-            for index in 0..words.len() {
-                for bit in 0..64 {
-                    words[index] ^= 1 << bit;
-                    assert_eq!(check(words.as_ptr().cast()), Err(Error::BadContact), "{index} {bit}");
-                    words[index] ^= 1 << bit;
-                }
-            }
-        }
-    }
-}

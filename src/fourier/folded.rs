@@ -22,32 +22,8 @@ fn position_blocks(samples: usize) -> usize {
     positions.div_ceil(4)
 }
 
-/// Number of doubles in the table for orders up to `orders`, an even number.
-pub(crate) fn table_length(samples: usize, orders: usize) -> usize {
-    4 * position_blocks(samples) * (1 + 2 * orders)
-}
-
-/// Number of doubles of scratch memory: folded sums, and four partial sums of each function.
-pub(crate) fn scratch_length(samples: usize, orders: usize) -> usize {
-    4 * (SYMMETRIES * position_blocks(samples) + 1 + 2 * orders)
-}
-
 /// Cosines of odd orders, sines of odd orders, cosines of even orders, sines of even orders.
 const SYMMETRIES: usize = 4;
-
-/// Fills the table: the weights of the positions, then for each block of positions cos and sin of the orders 1, 2, ...
-pub(crate) fn fill_table(table: &mut [f64], samples: usize, orders: usize) {
-    let blocks = table.as_chunks_mut::<4>().0.split_at_mut_checked(position_blocks(samples));
-    let Some((weights, rows)) = blocks else { return };
-    for ((first, weights), rows) in (0..).step_by(4).zip(weights).zip(rows.chunks_exact_mut((2 * orders).max(1))) {
-        let positions = [first, first + 1, first + 2, first + 3];
-        *weights = positions.map(|n| weight(n, samples));
-        for (order, [cosines, sines]) in (1..).zip(rows.as_chunks_mut::<2>().0) {
-            *cosines = positions.map(|n| angle(order, n, samples).cos());
-            *sines = positions.map(|n| angle(order, n, samples).sin());
-        }
-    }
-}
 
 /// Weight of a position in the folded sums: 1/2 if a fold maps its samples onto themselves, 0 beyond the last position.
 fn weight(n: usize, samples: usize) -> f64 {
@@ -65,30 +41,42 @@ fn weight(n: usize, samples: usize) -> f64 {
 #[derive(Debug)]
 pub(crate) struct FoldedFourier<'a> {
     samples: usize,
+    /// Orders in the table, an even number.
     orders: usize,
-    weights: &'a Blocks,
+    /// Weights of the positions.
+    weights: &'a mut Blocks,
     /// Cosines and sines of two orders each; for each block of positions those of all orders.
-    quads: &'a [[[f64; 4]; SYMMETRIES]],
-    /// Blocks of folded sums.
-    folded: usize,
-    scratch: &'a mut Blocks,
+    quads: &'a mut [[[f64; 4]; SYMMETRIES]],
+    /// Scratch memory: the folded sums at each block of positions, and four partial sums of each function.
+    folded: &'a mut [[[f64; 4]; SYMMETRIES]],
+    totals: &'a mut Blocks,
 }
 
 impl<'a> FoldedFourier<'a> {
+    /// For all orders up to an even number.
+    ///
     /// # Errors
     /// `BadWorkspace` if fewer doubles remain.
     pub fn take(parts: &mut Parts<'a>, samples: usize, orders: usize) -> Result<FoldedFourier<'a>, Error> {
-        let table: &'a Blocks = parts.take(table_length(samples, orders))?.as_chunks().0;
-        let (weights, rows) = table.split_at_checked(position_blocks(samples)).unwrap_or((&[], &[]));
-        let folded = SYMMETRIES * position_blocks(samples);
-        Ok(FoldedFourier { samples, orders, weights, quads: rows.as_chunks().0, folded, scratch: &mut [] })
+        let blocks = position_blocks(samples);
+        let weights = parts.take_blocks(blocks)?;
+        let quads = parts.take_blocks(2 * orders * blocks)?.as_chunks_mut().0;
+        let folded = parts.take_blocks(SYMMETRIES * blocks)?.as_chunks_mut().0;
+        Ok(FoldedFourier { samples, orders, weights, quads, folded, totals: parts.take_blocks(1 + 2 * orders)? })
     }
 
-    /// # Errors
-    /// `BadWorkspace` if fewer doubles remain.
-    pub fn take_scratch(&mut self, parts: &mut Parts<'a>) -> Result<(), Error> {
-        self.scratch = parts.take(scratch_length(self.samples, self.orders))?.as_chunks_mut().0;
-        Ok(())
+    /// Fills the tables.
+    pub fn fill(&mut self) {
+        let samples = self.samples;
+        let rows = self.quads.as_flattened_mut().chunks_exact_mut((2 * self.orders).max(1));
+        for ((first, weights), rows) in (0..).step_by(4).zip(self.weights.iter_mut()).zip(rows) {
+            let positions = [first, first + 1, first + 2, first + 3];
+            *weights = positions.map(|n| weight(n, samples));
+            for (order, [cosines, sines]) in (1..).zip(rows.as_chunks_mut::<2>().0) {
+                *cosines = positions.map(|n| angle(order, n, samples).cos());
+                *sines = positions.map(|n| angle(order, n, samples).sin());
+            }
+        }
     }
 
     /// Evaluates the series with coefficients c0, a1, b1, a2, b2, ... at all samples.
@@ -136,6 +124,28 @@ impl<'a> FoldedFourier<'a> {
         continue_periodically(values, samples);
     }
 
+    /// Sums of a function whose samples from `first` on are evaluated, in an array of two periods. Under half-wave symmetry these are
+    /// half a period of samples, after which the function keeps (+1) or changes (-1) its sign.
+    #[inline(always)]
+    pub fn sum_from(&mut self, first: usize, half_wave: Option<f64>, values: &mut [f64], sums: &mut [f64]) {
+        dispatch!(self.sum_from_kernel(first, half_wave, values, sums));
+    }
+
+    #[inline(always)]
+    fn sum_from_kernel(&mut self, first: usize, half_wave: Option<f64>, values: &mut [f64], sums: &mut [f64]) {
+        let samples = self.samples;
+        if let Some(sign) = half_wave
+            && let Some(period) = values.get_mut(first..first + samples)
+            && let Some((half, other)) = period.split_at_mut_checked(samples / 2)
+        {
+            other.iter_mut().zip(half).for_each(|(other, value)| *other = sign * *value);
+        }
+        if let Some((period, next)) = values.split_at_mut_checked(samples) {
+            period.iter_mut().zip(next).take(first).for_each(|(value, next)| *value = *next);
+        }
+        self.sum_kernel(values.get_mut(..sample_length(samples)).unwrap_or(&mut []), sums);
+    }
+
     /// Sums of the samples times 1, cos t, sin t, cos 2t, ..., one for each of `sums`. Continues the values periodically.
     #[inline(always)]
     pub fn sum(&mut self, values: &mut [f64], sums: &mut [f64]) {
@@ -146,12 +156,11 @@ impl<'a> FoldedFourier<'a> {
     pub fn sum_kernel(&mut self, values: &mut [f64], sums: &mut [f64]) {
         continue_periodically(values, self.samples);
         self.fold(values);
-        let (folded, totals) = self.scratch.split_at_mut_checked(self.folded).unwrap_or((&mut [], &mut []));
-        let folded = folded.as_chunks::<SYMMETRIES>().0;
+        let FoldedFourier { quads, folded, totals, .. } = self;
         let stride = (self.orders / 2).max(1);
         // The constant, then blocks of four sums for each pair of orders.
         let mut total = [0.0; 4];
-        for [_, _, even_cosines, _] in folded {
+        for [_, _, even_cosines, _] in folded.iter() {
             for k in 0..4 {
                 total[k] += even_cosines[k];
             }
@@ -162,7 +171,7 @@ impl<'a> FoldedFourier<'a> {
         for (quad, totals) in totals.as_chunks_mut::<SYMMETRIES>().0.iter_mut().take(count).enumerate() {
             let [mut a, mut b, mut c, mut d] = [[0.0; 4]; 4];
             for (block, folded) in folded.iter().enumerate() {
-                let Some(rows) = self.quads.get(quad + block * stride) else { break };
+                let Some(rows) = quads.get(quad + block * stride) else { break };
                 for k in 0..4 {
                     a[k] += folded[0][k] * rows[0][k];
                     b[k] += folded[1][k] * rows[1][k];
@@ -180,15 +189,14 @@ impl<'a> FoldedFourier<'a> {
         }
     }
 
-    /// The folded sums of the samples at each position, at the front of the scratch memory.
+    /// The folded sums of the samples at each position.
     #[inline(always)]
     fn fold(&mut self, values: &[f64]) {
         let (samples, half) = (self.samples, self.samples / 2);
-        let folded = self.scratch.get_mut(..self.folded).unwrap_or(&mut []).as_chunks_mut::<SYMMETRIES>().0;
         let upwards = |first: usize| values.get(first..).unwrap_or(&[]).as_chunks::<4>().0.iter();
         let downwards = |first: usize| values.get(..=first).unwrap_or(&[]).as_rchunks::<4>().1.iter().rev();
         let mut blocks = upwards(0).zip(downwards(samples)).zip(upwards(half)).zip(downwards(half));
-        for ((first, weights), folded) in (0..).step_by(4).zip(self.weights).zip(folded) {
+        for ((first, weights), folded) in (0..).step_by(4).zip(self.weights.iter()).zip(self.folded.iter_mut()) {
             if samples.is_multiple_of(2) {
                 // Checked one by one only if there are few samples.
                 let [here, mirrored, opposite, mirrored_opposite] = match blocks.next() {
@@ -221,8 +229,9 @@ impl<'a> FoldedFourier<'a> {
 /// Fills the values beyond the period.
 #[inline(always)]
 pub(crate) fn continue_periodically(values: &mut [f64], samples: usize) {
-    if let Some((period, beyond)) = values.split_at_mut_checked(samples) {
-        beyond.iter_mut().zip(period.iter().cycle()).for_each(|(value, continued)| *value = *continued);
+    let (period, beyond) = values.split_at_mut_checked(samples).unwrap_or((&mut [], &mut []));
+    for beyond in beyond.chunks_mut(samples.max(1)) {
+        beyond.iter_mut().zip(period.iter()).for_each(|(value, continued)| *value = *continued);
     }
 }
 
@@ -322,11 +331,10 @@ mod tests {
         for samples in (3..40).chain([63, 64, 66, 100]) {
             for harmonics in [1, 2, 3, 5, 9].into_iter().filter(|h| 2 * h < samples) {
                 let orders = 2 * harmonics;
-                let mut memory = vec![f64::NAN; table_length(samples, orders) + scratch_length(samples, orders)];
-                fill_table(&mut memory[..table_length(samples, orders)], samples, orders);
-                let mut parts = Parts::of(&mut memory);
-                let mut fourier = FoldedFourier::take(&mut parts, samples, orders).unwrap();
-                fourier.take_scratch(&mut parts).unwrap();
+                let length = Parts::count(|parts| FoldedFourier::take(parts, samples, orders));
+                let mut memory = vec![f64::NAN; length];
+                let mut fourier = FoldedFourier::take(&mut Parts::of(&mut memory), samples, orders).unwrap();
+                fourier.fill();
                 let function = |c: usize, n: usize| {
                     let angle = angle(c.div_ceil(2), n, samples);
                     if c > 0 && c.is_multiple_of(2) { angle.sin() } else { angle.cos() }
@@ -352,11 +360,10 @@ mod tests {
 
     #[test]
     fn samples_of_odd_orders_are_exactly_half_wave_symmetric() {
-        let (samples, orders) = (22, 6);
-        let mut memory = vec![0.0; table_length(samples, orders) + scratch_length(samples, orders)];
-        fill_table(&mut memory[..table_length(samples, orders)], samples, orders);
-        let fourier = FoldedFourier::take(&mut Parts::of(&mut memory), samples, orders).unwrap();
-        let mut values = vec![0.0; sample_length(samples)];
+        let mut memory = vec![0.0; Parts::count(|parts| FoldedFourier::take(parts, 22, 6))];
+        let mut fourier = FoldedFourier::take(&mut Parts::of(&mut memory), 22, 6).unwrap();
+        fourier.fill();
+        let mut values = vec![0.0; sample_length(22)];
         fourier.synthesise(&[0.0, 0.3, 0.7, 0.0, 0.0, -0.2, 0.1, 0.0, 0.0, 0.35, -0.23], &mut values);
         assert!((0..11).all(|n| values[n] == -values[n + 11]));
     }

@@ -22,36 +22,6 @@ fn strip_blocks(row_blocks: usize) -> usize {
 /// A strip of a row.
 pub(crate) type Strip<const N: usize> = [[f64; 4]; N];
 
-/// Fills the rows φ of all samples, and of their antiderivatives A, which are 0 for the constant and otherwise
-/// `A(n) - A(m) = φ(m) + ... + φ(n-1)`. The first strips of all samples come first.
-pub(crate) fn fill_rows(table: &mut [f64], harmonics: usize, samples: usize) {
-    let (rows, antiderivatives) = table.split_at_mut_checked(table.len() / 2).unwrap_or((&mut [], &mut []));
-    let width = (4 * strip_blocks(row_blocks(harmonics))).max(4);
-    let fill = |values: &mut [f64], function: &dyn Fn(usize, usize) -> f64| {
-        for (index, strip) in values.chunks_exact_mut(width).enumerate() {
-            let (first, n) = (index / samples.max(1) * width, index % samples.max(1));
-            for (c, value) in (first..).zip(strip) {
-                *value = if c <= 2 * harmonics { function(c, n) } else { 0.0 };
-            }
-        }
-    };
-    let is_sine = |c: usize| c > 0 && c.is_multiple_of(2);
-    fill(rows, &|c, n| {
-        let angle = angle(c.div_ceil(2), n, samples);
-        if is_sine(c) { angle.sin() } else { angle.cos() }
-    });
-    fill(antiderivatives, &|c, n| {
-        let order = c.div_ceil(2);
-        if order == 0 {
-            return 0.0;
-        }
-        // Sums of a geometric series: the angle half a step before the sample.
-        let angle = angle(order, 2 * n + 2 * samples - 1, 2 * samples);
-        let scale = 0.5 / (PI * order as f64 / samples as f64).sin();
-        scale * if is_sine(c) { -angle.cos() } else { angle.sin() }
-    });
-}
-
 #[inline(always)]
 pub(crate) fn add_scaled<const N: usize>(target: &mut Strip<N>, scale: f64, row: &Strip<N>) {
     for block in 0..N {
@@ -68,18 +38,14 @@ pub(crate) fn scaled<const N: usize>(scale: f64, row: &Strip<N>) -> Strip<N> {
     scaled
 }
 
-/// Tables of φ and of its antiderivatives A.
-#[derive(Debug, Clone, Copy)]
+/// Tables of φ at all samples, and of the antiderivatives A, which are 0 for the constant and otherwise
+/// `A(n) - A(m) = φ(m) + ... + φ(n-1)`. The first strips of all samples come first.
+#[derive(Debug)]
 pub(crate) struct Rows<'a> {
     harmonics: usize,
     samples: usize,
-    phi: &'a Blocks,
-    antiderivatives: &'a Blocks,
-}
-
-/// Number of doubles of [`Rows`].
-pub(crate) fn rows_length(harmonics: usize, samples: usize) -> usize {
-    8 * row_blocks(harmonics) * samples
+    phi: &'a mut Blocks,
+    antiderivatives: &'a mut Blocks,
 }
 
 /// One strip of all rows.
@@ -100,6 +66,35 @@ impl<'a> Rows<'a> {
         Ok(Rows { harmonics, samples, phi, antiderivatives })
     }
 
+    /// Fills the tables.
+    pub fn fill(&mut self) {
+        let Rows { harmonics, samples, .. } = *self;
+        let width = 4 * strip_blocks(row_blocks(harmonics));
+        let fill = |values: &mut Blocks, function: &dyn Fn(usize, usize) -> f64| {
+            for (index, strip) in values.as_flattened_mut().chunks_exact_mut(width.max(4)).enumerate() {
+                let (first, n) = (index / samples.max(1) * width, index % samples.max(1));
+                for (c, value) in (first..=2 * harmonics).zip(strip) {
+                    *value = function(c, n);
+                }
+            }
+        };
+        let is_sine = |c: usize| c > 0 && c.is_multiple_of(2);
+        fill(self.phi, &|c, n| {
+            let angle = angle(c.div_ceil(2), n, samples);
+            if is_sine(c) { angle.sin() } else { angle.cos() }
+        });
+        fill(self.antiderivatives, &|c, n| {
+            let order = c.div_ceil(2);
+            if order == 0 {
+                return 0.0;
+            }
+            // Sums of a geometric series: the angle half a step before the sample.
+            let angle = angle(order, 2 * n + 2 * samples - 1, 2 * samples);
+            let scale = 0.5 / (PI * order as f64 / samples as f64).sin();
+            scale * if is_sine(c) { -angle.cos() } else { angle.sin() }
+        });
+    }
+
     /// Blocks of a row.
     #[inline(always)]
     pub fn blocks(&self) -> usize {
@@ -108,7 +103,7 @@ impl<'a> Rows<'a> {
 
     /// The strips of all samples; N is that of [`with_strips`].
     #[inline(always)]
-    pub fn strips<const N: usize>(&self, strip: usize) -> RowStrips<'a, N> {
+    pub fn strips<const N: usize>(&self, strip: usize) -> RowStrips<'_, N> {
         let range = strip * self.samples..(strip + 1) * self.samples;
         RowStrips {
             is_first: strip == 0,
@@ -157,11 +152,6 @@ pub(crate) struct OuterProducts<'a, const D: usize> {
     phi: &'a mut Blocks,
 }
 
-/// Number of doubles of [`OuterProducts`] for the given number of samples.
-pub(crate) fn outer_products_length<const D: usize>(harmonics: usize, capacity: usize) -> usize {
-    4 * (D + 1) * row_blocks(harmonics) * capacity
-}
-
 /// One strip of the rows of [`OuterProducts`].
 #[derive(Debug)]
 pub(crate) struct Terms<'a, const N: usize, const D: usize> {
@@ -199,12 +189,6 @@ impl<'a, const D: usize> OuterProducts<'a, D> {
         let blocks = row_blocks(harmonics) * capacity;
         let (y, phi) = (parts.take_blocks(D * blocks)?, parts.take_blocks(blocks)?);
         Ok(OuterProducts { row_blocks: row_blocks(harmonics), capacity, count: 0, y, phi })
-    }
-
-    /// Whether there are no terms.
-    #[inline(always)]
-    pub fn is_empty(&self) -> bool {
-        self.count == 0
     }
 
     /// Number of strips of N blocks.

@@ -8,26 +8,18 @@
 //! ```
 
 use super::rows::{OuterProducts, row_blocks};
-use super::workspace::{Blocks, Parts, Size, padded};
+use super::workspace::{Blocks, Parts};
 use crate::error::Error;
 use crate::simd::{dispatch, plus};
 
-/// Doubles for the pairs of the orders from -H to 2H.
-fn pairs_length(harmonics: usize) -> usize {
-    2 * (3 * harmonics + 2)
-}
-
-/// Doubles of an [`Assembly`].
-pub(crate) fn memory_length(harmonics: usize) -> usize {
-    padded(4 * harmonics + 1) + 2 * padded(pairs_length(harmonics)) + 4 * row_blocks(harmonics) * (2 * harmonics + 2)
-}
-
 #[derive(Debug)]
 pub(crate) struct Assembly<'a> {
-    size: Size,
+    harmonics: usize,
+    /// Weight of the sums: 1 over the number of samples.
+    weight: f64,
     /// Fourier sums of the weights up to the order 2H.
     pub sums: &'a mut [f64],
-    /// Z and W over the number of samples.
+    /// Z and W of the orders from -H to 2H, times the weight.
     pairs: [&'a mut [f64]; 2],
     /// Columns of the outer products.
     products: &'a mut Blocks,
@@ -36,19 +28,24 @@ pub(crate) struct Assembly<'a> {
 impl<'a> Assembly<'a> {
     /// # Errors
     /// `BadWorkspace` if fewer doubles remain.
-    pub fn take(parts: &mut Parts<'a>, size: Size) -> Result<Assembly<'a>, Error> {
-        let sums = parts.take(4 * size.harmonics + 1)?;
-        let mut pairs = || parts.take(pairs_length(size.harmonics));
+    pub fn take(parts: &mut Parts<'a>, harmonics: usize, weight: f64) -> Result<Assembly<'a>, Error> {
+        let sums = parts.take(4 * harmonics + 1)?;
+        let mut pairs = || parts.take(2 * (3 * harmonics + 2));
         let pairs = [pairs()?, pairs()?];
-        let products = parts.take_blocks(row_blocks(size.harmonics) * (2 * size.harmonics + 2))?;
-        Ok(Assembly { size, sums, pairs, products })
+        let products = parts.take_blocks(row_blocks(harmonics) * (2 * harmonics + 2))?;
+        Ok(Assembly { harmonics, weight, sums, pairs, products })
+    }
+
+    /// Sets sums and outer products to 0.
+    pub fn clear(&mut self) {
+        self.sums.fill(0.0);
+        self.products.fill([0.0; 4]);
     }
 
     /// Extends the sums to the pairs of all orders.
     #[inline(always)]
     fn extend(&mut self) {
-        let Size { harmonics, samples, .. } = self.size;
-        let weight = 1.0 / samples as f64;
+        let Assembly { harmonics, weight, .. } = *self;
         let Some((constant, sums)) = self.sums.split_first() else { return };
         let [z, w] = &mut self.pairs;
         let (z, w) = (z.as_chunks_mut::<2>().0, w.as_chunks_mut::<2>().0);
@@ -71,44 +68,39 @@ impl<'a> Assembly<'a> {
         dispatch!(self.sums_kernel(columns, stride, offset));
     }
 
-    /// Writes `Σ w φ ⊗ φ` and the outer products with the rows Y of an index to the first rows of the columns. Under half-wave symmetry
-    /// the products are those of half a period, and only rows and columns of equal (+1) or opposite (-1) parity remain.
+    /// Writes `Σ w φ ⊗ φ` and the outer products to the first rows of the columns. Under half-wave symmetry the products are those of
+    /// half a period, and only rows and columns of equal (+1) or opposite (-1) parity remain.
     #[inline(always)]
-    pub fn write<const D: usize>(
-        &mut self,
-        outer: &OuterProducts<D>,
-        index: usize,
-        symmetry: Option<f64>,
-        columns: &mut [f64],
-        stride: usize,
-    ) {
-        dispatch!(self.kernel::<D>(outer, index, symmetry, columns, stride));
+    pub fn write(&mut self, symmetry: Option<f64>, columns: &mut [f64], stride: usize) {
+        dispatch!(self.kernel(symmetry, columns, stride));
     }
 
     #[inline(always)]
-    fn kernel<const D: usize>(
-        &mut self,
-        outer: &OuterProducts<D>,
-        index: usize,
-        symmetry: Option<f64>,
-        columns: &mut [f64],
-        stride: usize,
-    ) {
+    fn kernel(&mut self, symmetry: Option<f64>, columns: &mut [f64], stride: usize) {
         self.sums_kernel(columns, stride, 0);
-        if !outer.is_empty() {
-            outer.products(index, self.products);
-            self.products_kernel(symmetry, columns, stride);
-        }
+        self.products_kernel(symmetry, columns, stride);
+    }
+
+    /// Sets the outer products to those of the rows Y of an index.
+    #[inline(always)]
+    pub fn set_products<const D: usize>(&mut self, outer: &OuterProducts<D>, index: usize) {
+        dispatch!(outer.products(index, self.products));
+    }
+
+    /// Adds `a ⊗ x - b ⊗ y` to the outer products: rows x and y, columns a and b.
+    #[inline(always)]
+    pub fn add_products(&mut self, [a, b]: [&[f64]; 2], [x, y]: [&Blocks; 2]) {
+        dispatch!(add_products(self.products, a, b, x, y));
     }
 
     #[inline(always)]
     fn sums_kernel(&mut self, columns: &mut [f64], stride: usize, offset: usize) {
-        let length = self.size.coefficients();
+        let length = 2 * self.harmonics + 1;
         let columns = columns
             .chunks_exact_mut(stride.max(1))
             .map(|column| column.get_mut(offset..offset + length).unwrap_or(&mut []));
         self.extend();
-        let harmonics = self.size.harmonics;
+        let harmonics = self.harmonics;
         for (index, column) in columns.enumerate() {
             let (order, is_sine) = (index.div_ceil(2), index % 2 == 0 && index > 0);
             let [z, w] = &self.pairs;
@@ -133,10 +125,10 @@ impl<'a> Assembly<'a> {
 
     #[inline(always)]
     fn products_kernel(&mut self, symmetry: Option<f64>, columns: &mut [f64], stride: usize) {
-        let rows = self.size.coefficients();
+        let rows = 2 * self.harmonics + 1;
         let columns = columns.chunks_exact_mut(stride.max(1)).map(|column| column.get_mut(..rows).unwrap_or(&mut []));
-        let weight = 1.0 / self.size.samples as f64;
-        let length = row_blocks(self.size.harmonics).max(1);
+        let weight = self.weight;
+        let length = row_blocks(self.harmonics).max(1);
         for (c, column) in columns.enumerate() {
             let Some(product) = self.products.get(c * length..(c + 1) * length) else { return };
             // Rows 0, then pairs of equal order: even, odd, odd, even, and so on.
@@ -162,6 +154,15 @@ impl<'a> Assembly<'a> {
             if let (Some(first), Some([product, ..])) = (column.first_mut(), product.first()) {
                 *first = constant + 0.5 * factors[0] * product;
             }
+        }
+    }
+}
+
+#[inline(always)]
+fn add_products(products: &mut Blocks, a: &[f64], b: &[f64], x: &Blocks, y: &Blocks) {
+    for ((column, &a), &b) in products.chunks_exact_mut(x.len().max(1)).zip(a).zip(b) {
+        for ((block, x), y) in column.iter_mut().zip(x).zip(y) {
+            *block = plus(plus(*block, a, *x), -b, *y);
         }
     }
 }

@@ -57,17 +57,19 @@ pub(crate) trait WorkspaceLayout: Sized {
     /// Upper bound on the number of rows over all orders up to 2H.
     fn max_rows(&self) -> usize;
 
-    /// Number of doubles in the tables.
-    fn tables_length(&self) -> usize;
+    /// Number of doubles in tables that are filled before the other parts are taken.
+    fn tables_length(&self) -> usize {
+        0
+    }
 
     /// Number of doubles in the workspace, including the header.
     fn length(&self) -> usize;
 
-    /// Fills the tables.
+    /// Fills the tables of a workspace whose memory behind the header is all zeros.
     ///
     /// # Errors
     /// Those of [`Parts::take`].
-    fn fill_tables(&self, tables: &mut Parts) -> Result<(), Error>;
+    fn fill_tables(&self, parts: &mut Parts) -> Result<(), Error>;
 
     /// # Errors
     /// `BadHarmonics` unless 1 <= H <= 2^24, `BadSamples` unless 2H < samples <= 2^24, `BadPeriods` for more than 65536 periods.
@@ -103,8 +105,7 @@ pub(crate) trait WorkspaceLayout: Sized {
         let memory = workspace.get_mut(..layout.length()).ok_or(Error::WorkspaceTooShort)?;
         memory.fill(0.0);
         let (header, buffers) = memory.split_first_chunk_mut::<HEADER>().ok_or(Error::WorkspaceTooShort)?;
-        let tables = buffers.get_mut(..layout.tables_length()).ok_or(Error::WorkspaceTooShort)?;
-        layout.fill_tables(&mut Parts(tables))?;
+        layout.fill_tables(&mut Parts::of(buffers))?;
         let Size { harmonics, samples, periods } = layout.size();
         *header = [Self::KIND.tag(harmonics), Kind::Samples.tag(samples), Kind::Periods.tag(periods), 0.0];
         Ok(())
@@ -124,13 +125,12 @@ pub(crate) trait WorkspaceLayout: Sized {
     /// Layout of an initialised workspace, and the memory behind its header.
     ///
     /// # Errors
-    /// `BadWorkspace` if uninitialised or too short.
+    /// `BadWorkspace` if uninitialised.
     #[inline(always)]
     fn open(workspace: &mut [f64]) -> Result<(Self, Parts<'_>), Error> {
         let (header, buffers) = workspace.split_first_chunk_mut::<HEADER>().ok_or(Error::BadWorkspace)?;
         let layout = Self::read(header.first_chunk().ok_or(Error::BadWorkspace)?)?;
-        let used = layout.length().saturating_sub(HEADER);
-        Ok((layout, Parts(buffers.get_mut(..used).ok_or(Error::BadWorkspace)?)))
+        Ok((layout, Parts::of(buffers)))
     }
 }
 
@@ -139,27 +139,99 @@ pub(crate) fn padded(length: usize) -> usize {
     (length + 3) & !3
 }
 
-/// Splits [`padded`] parts off the front of a slice.
-pub(crate) struct Parts<'a>(&'a mut [f64]);
+/// Divides the memory of a workspace into [`padded`] parts, or counts their doubles: both follow from the same calls of `take`.
+pub(crate) enum Parts<'a> {
+    /// Memory that remains.
+    Taking(&'a mut [f64]),
+    /// Doubles so far; all parts are empty.
+    Counting(usize),
+}
 
 impl<'a> Parts<'a> {
-    #[cfg(test)]
     pub fn of(memory: &'a mut [f64]) -> Parts<'a> {
-        Parts(memory)
+        Parts::Taking(memory)
+    }
+
+    /// Number of doubles in the parts that a function takes.
+    pub fn count<T>(take: impl FnOnce(&mut Parts<'a>) -> Result<T, Error>) -> usize {
+        let mut parts = Parts::Counting(0);
+        let taken = take(&mut parts);
+        if let (Parts::Counting(doubles), Ok(_)) = (parts, taken) { doubles } else { 0 }
     }
 
     /// # Errors
     /// `BadWorkspace` if fewer doubles remain.
+    #[inline(always)]
     pub fn take(&mut self, length: usize) -> Result<&'a mut [f64], Error> {
-        let parts = core::mem::take(&mut self.0).split_at_mut_checked(padded(length));
-        let (front, back) = parts.ok_or(Error::BadWorkspace)?;
-        self.0 = back;
-        front.get_mut(..length).ok_or(Error::BadWorkspace)
+        match self {
+            Parts::Taking(memory) => {
+                let parts = core::mem::take(memory).split_at_mut_checked(padded(length));
+                let (front, back) = parts.ok_or(Error::BadWorkspace)?;
+                *memory = back;
+                front.get_mut(..length).ok_or(Error::BadWorkspace)
+            }
+            Parts::Counting(doubles) => {
+                *doubles += padded(length);
+                Ok(&mut [])
+            }
+        }
     }
 
     /// # Errors
     /// Those of [`Parts::take`].
+    #[inline(always)]
     pub fn take_blocks(&mut self, blocks: usize) -> Result<&'a mut Blocks, Error> {
         Ok(self.take(4 * blocks)?.as_chunks_mut().0)
     }
+
+    /// # Errors
+    /// Those of [`Parts::take`].
+    #[inline(always)]
+    pub fn take_records<T: Record>(&mut self, count: usize) -> Result<&'a mut [T], Error> {
+        const { assert!(align_of::<T>() <= align_of::<f64>() && size_of::<T>().is_multiple_of(size_of::<f64>())) };
+        let doubles = self.take(count * (size_of::<T>() / size_of::<f64>()))?;
+        let records = size_of_val(doubles) / size_of::<T>();
+        // SAFETY: a record accepts all bits of these doubles, which no other reference reaches, and leaves none uninitialised.
+        #[allow(unsafe_code)]
+        Ok(unsafe { core::slice::from_raw_parts_mut(doubles.as_mut_ptr().cast(), records) })
+    }
 }
+
+/// Structs that may occupy the doubles of a workspace: [`record`] defines them.
+///
+/// # Safety
+/// All bits are valid and there is no padding.
+#[allow(unsafe_code)]
+pub(crate) unsafe trait Record: Copy {}
+
+// SAFETY: all bits are numbers.
+#[allow(unsafe_code)]
+unsafe impl Record for f64 {}
+
+// SAFETY: all bits are numbers.
+#[allow(unsafe_code)]
+unsafe impl Record for u64 {}
+
+// SAFETY: arrays have no padding.
+#[allow(unsafe_code)]
+unsafe impl<T: Record, const N: usize> Record for [T; N] {}
+
+/// Defines a struct whose fields are records, and which is one therefore.
+macro_rules! record {
+    ($(#[$attribute:meta])* $visibility:vis struct $name:ident {
+        $($(#[$field_attribute:meta])* $field_visibility:vis $field:ident: $type:ty),+ $(,)?
+    }) => {
+        $(#[$attribute])*
+        #[derive(Debug, Clone, Copy)]
+        #[repr(C)]
+        $visibility struct $name {
+            $($(#[$field_attribute])* $field_visibility $field: $type),+
+        }
+
+        // SAFETY: the fields are records whose size is a multiple of their alignment, that of doubles.
+        #[allow(unsafe_code)]
+        unsafe impl $crate::fourier::workspace::Record for $name where $($type: $crate::fourier::workspace::Record),+ {}
+    };
+}
+
+pub(crate) use record;

@@ -238,46 +238,8 @@ mod tests {
     use super::*;
     use crate::numerics::polynomial::{sum, value_and_slope};
 
-    fn check_values<const N: usize>() {
-        for (j, row) in Interpolant::<N>::AT_POINTS.iter().enumerate() {
-            for (n, value) in row.iter().enumerate() {
-                let exact = (core::f64::consts::PI * (n * (2 * j + 1)) as f64 / (2 * N) as f64).cos();
-                // The argument of `exact` is rounded by up to 60 units of rounding.
-                assert!((value - exact).abs() < 2e-14);
-            }
-            let theta = core::f64::consts::PI * (2 * j + 1) as f64 / (2 * N) as f64;
-            for (m, value) in Interpolant::<N>::SINES[j].iter().enumerate() {
-                assert!((value - theta.sin() * ((N - m) as f64 * theta).sin()).abs() < 2e-14);
-            }
-            // T_2 = 2 T_1² - 1, up to the rounding of both sides.
-            assert!((row[2] - (2.0 * row[1] * row[1] - 1.0)).abs() < 4e-16);
-        }
-    }
-
-    #[test]
-    fn values_at_the_points_are_cosines() {
-        check_values::<8>();
-        check_values::<10>();
-        check_values::<16>();
-        check_values::<20>();
-    }
-
     fn osculating<const N: usize, const M: usize>(tangent: impl FnMut(f64) -> (f64, f64)) -> Interpolant<N> {
         Interpolant::osculating(&Interpolant::<M>::POINTS.map(tangent).map(|(value, slope)| Tangent { value, slope }))
-    }
-
-    #[test]
-    fn chebyshev_polynomials_are_reproduced() {
-        for n in 0..20 {
-            // T_n and its derivative at cos θ; the arguments are rounded, multiplied by up to n².
-            let found = osculating::<20, 10>(|z| {
-                let (theta, n) = (z.acos(), f64::from(n));
-                ((n * theta).cos(), n * (n * theta).sin() / theta.sin())
-            });
-            for (k, coefficient) in found.0.iter().enumerate() {
-                assert!((coefficient - if k == n as usize { 1.0 } else { 0.0 }).abs() < 1e-14, "{n} {k} {coefficient}");
-            }
-        }
     }
 
     #[test]

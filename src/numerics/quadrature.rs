@@ -70,9 +70,6 @@ pub(crate) fn gauss_nodes(blocks: usize) -> impl Iterator<Item = (&'static f64, 
     gauss_rule(blocks).iter().flat_map(|[nodes, weights]| nodes.iter().zip(weights))
 }
 
-#[cfg(test)]
-pub(crate) use tests::TANH_SINH;
-
 /// `∫ f` over (0, length) by 16-point Gauss-Legendre.
 pub(crate) fn gauss(length: f64, mut f: impl FnMut(f64) -> f64) -> f64 {
     length * gauss_nodes(4).map(|(node, weight)| weight * f(length * node)).sum::<f64>()
@@ -81,26 +78,6 @@ pub(crate) fn gauss(length: f64, mut f: impl FnMut(f64) -> f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use core::f64::consts::PI;
-    use std::sync::LazyLock;
-    use std::vec::Vec;
-
-    /// A node of the tanh-sinh rule: its distance from 0, with small relative error also near 0, and its weight.
-    pub(crate) struct Node {
-        pub from_0: f64,
-        pub weight: f64,
-    }
-
-    /// Tanh-sinh rule on (0, 1), for endpoint singularities: nodes `1/(1 + exp(-π sinh t))`, t in steps of 1/20 up to a distance of
-    /// `exp(-π sinh 3.2)` = 2e-17 from the ends. A logarithm or a root at an end has a negligible error of `exp(-π²/h)`.
-    pub(crate) static TANH_SINH: LazyLock<Vec<Node>> = LazyLock::new(|| {
-        let node = |k: i32| {
-            let t = 0.05 * f64::from(k);
-            let [far, near] = [-t, t].map(|t| 1.0 / (1.0 + (PI * t.sinh()).exp()));
-            Node { from_0: far, weight: 0.05 * PI * t.cosh() * far * near }
-        };
-        (-64..=64).map(node).collect()
-    });
 
     #[test]
     fn gauss_rules_are_exact_for_polynomials() {
@@ -116,13 +93,5 @@ mod tests {
             gauss_nodes(MAX_GAUSS_BLOCKS).map(|(node, weight)| (*node, *weight)).eq(nodes.into_iter().zip(weights))
         );
         assert!((gauss(2.0, |x| x.powi(31)) / (2f64.powi(32) / 32.0) - 1.0).abs() < 4e-15);
-    }
-
-    #[test]
-    fn tanh_sinh_integrates_endpoint_singularities() {
-        let root: f64 = TANH_SINH.iter().map(|n| n.weight * (n.from_0 * (1.0 - n.from_0)).sqrt()).sum();
-        assert!((root * 8.0 / PI - 1.0).abs() < 2e-15, "{root}");
-        let log: f64 = TANH_SINH.iter().map(|n| n.weight * n.from_0 * n.from_0.ln()).sum();
-        assert!((log * -4.0 - 1.0).abs() < 2e-15, "{log}");
     }
 }

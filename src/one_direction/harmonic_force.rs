@@ -7,12 +7,10 @@
 //! in closed form at one sample, so one period is evaluated, and half of one if it is half-wave symmetric.
 //!
 //! - `samples`: normal states, characteristic coordinates, entry into the steady state;
-//! - `runs`: the memory diagram along the period, without evaluating any force;
+//! - `runs`: the memory diagram along the period, without evaluating any force, and the energy dissipated;
 //! - `forces`: the tangential forces;
-//! - `jacobian`: their exact derivatives;
-//! - `energy`: dissipation.
+//! - `jacobian`: their exact derivatives.
 
-mod energy;
 mod forces;
 mod jacobian;
 mod runs;
@@ -22,16 +20,16 @@ pub use crate::fourier::HarmonicOutput;
 
 use crate::element::Element;
 use crate::error::Error;
-use crate::fourier::folded::{self, FoldedFourier, continue_half_wave, sample_length};
+use crate::fourier::folded::{FoldedFourier, continue_half_wave, sample_length};
 use crate::fourier::normalise;
-use crate::fourier::rows::{OuterProducts, Rows, fill_rows, outer_products_length, row_blocks, rows_length};
-use crate::fourier::sampled_jacobian::{self, Assembly};
-use crate::fourier::workspace::{HEADER, Parts, Size, WorkspaceLayout, padded};
+use crate::fourier::rows::{OuterProducts, Rows, row_blocks};
+use crate::fourier::sampled_jacobian::Assembly;
+use crate::fourier::workspace::{HEADER, Parts, Size, WorkspaceLayout};
 use crate::limits::check_coefficients;
 use crate::tag::Kind;
 use forces::Forces;
-use jacobian::{Context, Cuts, PIECE, Sensitivity};
-use runs::{KNOT, PeriodicPath, RUN};
+use jacobian::{Context, Cuts, Sensitivity};
+use runs::PeriodicPath;
 use samples::{Part, Samples};
 
 /// Number of doubles in a workspace for the given number of harmonics and of samples per period; 0 if these are not allowed.
@@ -48,22 +46,8 @@ pub fn workspace_init(harmonics: usize, samples: usize, workspace: &mut [f64]) -
     Layout::init(Size::new(harmonics, samples), workspace)
 }
 
-/// Lengths of the parts of a workspace.
+/// Size of a workspace.
 pub(crate) struct Layout(Size);
-
-/// Arrays over the samples.
-const SAMPLE_ARRAYS: usize = 19;
-
-impl Layout {
-    /// Capacity for knots, pieces and runs: at most one each per sample, and a few more.
-    fn capacity(&self) -> usize {
-        self.0.samples + 4
-    }
-
-    fn pieces_length(&self) -> usize {
-        4 * row_blocks(self.0.harmonics) * self.capacity()
-    }
-}
 
 impl WorkspaceLayout for Layout {
     const KIND: Kind = Kind::ElementSampling;
@@ -80,28 +64,14 @@ impl WorkspaceLayout for Layout {
         2 * self.0.samples + 16
     }
 
-    fn tables_length(&self) -> usize {
-        folded::table_length(self.0.samples, 2 * self.0.harmonics) + rows_length(self.0.harmonics, self.0.samples)
-    }
-
     fn length(&self) -> usize {
-        let Size { harmonics, samples, .. } = self.0;
-        let path = padded(KNOT * self.capacity()) + padded(RUN * self.capacity()) + padded(PIECE * self.capacity());
-        HEADER
-            + self.tables_length()
-            + folded::scratch_length(samples, 2 * harmonics)
-            + SAMPLE_ARRAYS * sample_length(samples)
-            + path
-            + 2 * self.pieces_length()
-            + outer_products_length::<2>(harmonics, samples)
-            + sampled_jacobian::memory_length(harmonics)
+        HEADER + Parts::count(|parts| Workspace::take(self.0, parts))
     }
 
-    fn fill_tables(&self, tables: &mut Parts) -> Result<(), Error> {
-        let Size { harmonics, samples, .. } = self.0;
-        let table = tables.take(folded::table_length(samples, 2 * harmonics))?;
-        folded::fill_table(table, samples, 2 * harmonics);
-        fill_rows(tables.take(rows_length(harmonics, samples))?, harmonics, samples);
+    fn fill_tables(&self, parts: &mut Parts) -> Result<(), Error> {
+        let mut workspace = Workspace::take(self.0, parts)?;
+        workspace.fourier.fill();
+        workspace.sensitivity.rows.fill();
         Ok(())
     }
 }
@@ -125,11 +95,16 @@ impl<'a> Workspace<'a> {
     /// `BadWorkspace` if uninitialised or too short.
     pub fn new(memory: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
         let (layout, mut parts) = Layout::open(memory)?;
-        let size = layout.0;
+        Workspace::take(layout.0, &mut parts)
+    }
+
+    #[inline(always)]
+    fn take(size: Size, parts: &mut Parts<'a>) -> Result<Workspace<'a>, Error> {
         let Size { harmonics, samples: count, .. } = size;
-        let mut fourier = FoldedFourier::take(&mut parts, count, 2 * harmonics)?;
-        let rows = Rows::take(&mut parts, harmonics, count)?;
-        fourier.take_scratch(&mut parts)?;
+        // At most one knot, piece and run per sample, and a few more.
+        let capacity = count + 4;
+        let fourier = FoldedFourier::take(parts, count, 2 * harmonics)?;
+        let rows = Rows::take(parts, harmonics, count)?;
         let mut array = || parts.take(sample_length(count));
         let samples = Samples {
             count,
@@ -153,15 +128,11 @@ impl<'a> Workspace<'a> {
             last_cut_load: array()?,
         };
         let (own, places) = ([array()?, array()?], array()?);
-        let path = PeriodicPath {
-            knots: parts.take(KNOT * layout.capacity())?.as_chunks_mut().0,
-            runs: parts.take(RUN * layout.capacity())?.as_chunks_mut().0,
-            cut_shift,
-        };
-        let pieces = parts.take(PIECE * layout.capacity())?.as_chunks_mut().0;
-        let stored = parts.take(2 * layout.pieces_length())?.as_chunks_mut().0;
-        let outer = OuterProducts::take(&mut parts, harmonics, count)?;
-        let assembly = Assembly::take(&mut parts, size)?;
+        let path = PeriodicPath { knots: parts.take_blocks(capacity)?, runs: parts.take_records(capacity)?, cut_shift };
+        let pieces = parts.take_records(capacity)?;
+        let stored = parts.take_blocks(2 * row_blocks(harmonics) * capacity)?;
+        let outer = OuterProducts::take(parts, harmonics, count)?;
+        let assembly = Assembly::take(parts, harmonics, 1.0 / count as f64)?;
         let sensitivity = Sensitivity { rows, pieces, stored, places, outer, own };
         Ok(Workspace { size, fourier, samples, path, forces, sensitivity, assembly })
     }
@@ -218,12 +189,12 @@ pub fn harmonic_force(
         let part = part.insert(samples.enter_steady_state(element, motion.half_wave));
         if needs_forces {
             let extent = path.evaluate(element, samples, part);
-            let runs = path.runs(extent, part, samples.count);
+            let runs = path.runs.get(..extent.runs).unwrap_or(&[]);
             let cut_shift = path.cuts(extent);
             if jacobian.is_none() {
                 forces.evaluate::<false>(element, samples, cut_shift, runs);
             } else {
-                forces.evaluate::<true>(element, samples, cut_shift, runs.clone());
+                forces.evaluate::<true>(element, samples, cut_shift, runs);
                 let context = Context { element, samples, part };
                 let cuts = Cuts {
                     shifts: path.cut_shift,
@@ -231,13 +202,13 @@ pub fn harmonic_force(
                     stiffnesses: forces.cut_stiffness,
                     slopes: forces.slope,
                 };
-                sensitivity.gather(&context, &cuts, &runs);
+                sensitivity.gather(&context, &cuts, runs);
             }
         }
     }
     if let Some(dissipated) = dissipated {
         let Workspace { samples, path, .. } = workspace;
-        let energy = part.map_or(0.0, |part| energy::dissipated_in(element, samples, &part, path.diagram()));
+        let energy = part.map_or(0.0, |part| path.dissipated(element, samples, &part));
         *dissipated = if motion.half_wave { 2.0 * energy } else { energy };
     }
     if let Some(drift) = drift {
@@ -380,7 +351,8 @@ impl Workspace<'_> {
                 }
                 fourier.sum(own, assembly.sums);
                 let symmetry = if motion.half_wave { Some(sign) } else { None };
-                assembly.write(&sensitivity.outer, index, symmetry, columns, 2 * coefficients);
+                assembly.set_products(&sensitivity.outer, index);
+                assembly.write(symmetry, columns, 2 * coefficients);
             } else {
                 columns.fill(0.0);
             }

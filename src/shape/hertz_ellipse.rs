@@ -54,13 +54,6 @@ impl HertzEllipse {
         self.tangential / self.normal
     }
 
-    /// Both directions in the plane of contact.
-    pub(crate) fn plane(&self) -> Plane<'_> {
-        let per_approach = [self.tangential_ratio(), self.lateral / self.normal];
-        let largest = self.largest_size();
-        Plane { shape: self, layer: &Layer::NONE, per_approach, per_load: [0.0; 2], flat: 0.0, largest }
-    }
-
     /// The shape of parameters that were checked, N > 0.
     ///
     /// # Errors
@@ -103,6 +96,13 @@ impl HertzEllipse {
 }
 
 impl Shape for HertzEllipse {
+    /// Both directions in the plane of contact.
+    fn plane(&self) -> Plane<'_> {
+        let per_approach = [self.tangential_ratio(), self.lateral / self.normal];
+        let largest = self.largest_size();
+        Plane { shape: self, layer: &Layer::NONE, per_approach, per_load: [0.0; 2], flat: 0.0, largest }
+    }
+
     fn half_width(&self, w: f64) -> f64 {
         w
     }

@@ -60,32 +60,15 @@ impl RoundedFlat {
         self.compliance_scale * (self.tangential_constant - self.normal_constant)
     }
 
-    /// Both directions in the plane of contact, x across the line. Along it, the kernel of Cerruti `(1-ν)/r + ν y²/r³` is `1/r - ν x²/r³`:
-    /// with the mean of 1/r over a line of length L, that of Boussinesq, and that of x²/r³, which is 1,
-    /// `K_y = (1+κ) K_n - κ` in units of `2/(πE*L)`. `MSLIP_RIGID_STRIP` lowers the second mean by the end correction.
-    pub(crate) fn plane(&self) -> Plane<'_> {
-        let [per_approach, per_load] = self.lateral;
-        // K_y = 1/16 or more, as for the other two.
-        let bound = (SMALLEST_COMPLIANCE - per_load) / per_approach - self.normal_constant;
-        let (half_width, flat) = (2.0 * self.length * (-bound).exp(), self.flat);
-        let (less, more) = (half_width - flat, half_width + flat);
-        Plane {
-            shape: self,
-            layer: &Layer::NONE,
-            per_approach: [1.0, per_approach],
-            per_load: [self.shift_less_approach(), per_load * self.compliance_scale],
-            flat,
-            largest: self.largest_size().min(less.signum() * (less.abs() * more).sqrt()),
-        }
-    }
-
     /// The shape of parameters that were checked, N > 0.
     ///
     /// # Errors
     /// `OutOfRange` if derived quantities are not representable; `LengthTooShort` if 2L <= b or if the tangential stiffness at b
     /// would not be positive.
     pub fn new(parameters: &Parameters) -> Result<RoundedFlat, Error> {
-        let Parameters { flat_half_width: flat, edge_radius, length, .. } = *parameters;
+        // A zero without its sign, which would show in results.
+        let flat = parameters.flat_half_width.abs();
+        let Parameters { edge_radius, length, normal_force, .. } = *parameters;
         let pair = Pair::new(&parameters.material);
         let modulus = pair.composite_modulus;
         let reference = size_under_load(parameters, modulus)?;
@@ -107,7 +90,11 @@ impl RoundedFlat {
             lateral: [1.0 + kappa, -kappa * (1.0 - end_correction)],
             reference,
         };
-        if slenderness > 0.5 && shape.reference_compliance() > 0.0 { Ok(shape) } else { Err(Error::LengthTooShort) }
+        if slenderness <= 0.5 || shape.reference_compliance() <= 0.0 {
+            return Err(Error::LengthTooShort);
+        }
+        in_range(&[normal_force], &[length, reference.0])?;
+        Ok(shape)
     }
 
     /// Half-width b under the normal force of the parameters \[m\].
@@ -174,6 +161,25 @@ impl RoundedFlat {
 }
 
 impl Shape for RoundedFlat {
+    /// Both directions in the plane of contact, x across the line. Along it, the kernel of Cerruti `(1-ν)/r + ν y²/r³` is `1/r - ν x²/r³`:
+    /// with the mean of 1/r over a line of length L, that of Boussinesq, and that of x²/r³, which is 1,
+    /// `K_y = (1+κ) K_n - κ` in units of `2/(πE*L)`. `MSLIP_RIGID_STRIP` lowers the second mean by the end correction.
+    fn plane(&self) -> Plane<'_> {
+        let [per_approach, per_load] = self.lateral;
+        // K_y = 1/16 or more, as for the other two.
+        let bound = (SMALLEST_COMPLIANCE - per_load) / per_approach - self.normal_constant;
+        let (half_width, flat) = (2.0 * self.length * (-bound).exp(), self.flat);
+        let (less, more) = (half_width - flat, half_width + flat);
+        Plane {
+            shape: self,
+            layer: &Layer::NONE,
+            per_approach: [1.0, per_approach],
+            per_load: [self.shift_less_approach(), per_load * self.compliance_scale],
+            flat,
+            largest: self.largest_size().min(less.signum() * (less.abs() * more).sqrt()),
+        }
+    }
+
     fn half_width(&self, w: f64) -> f64 {
         self.punch_at(w).half_width
     }
@@ -314,7 +320,8 @@ fn set(series: &mut Series, k: usize, value: f64) {
 
 /// Half-width b, and the punch in units of it: Eq. 1 in units that keep both the flat and the load at most 1.
 pub(crate) fn size_under_load(parameters: &Parameters, modulus: f64) -> Result<(f64, RoundedPunch), Error> {
-    let Parameters { flat_half_width: flat, edge_radius, length, normal_force, .. } = *parameters;
+    let Parameters { edge_radius, length, normal_force, .. } = *parameters;
+    let flat = parameters.flat_half_width.abs();
     in_range(&[length], &[])?;
     in_range(&[length, modulus], &[])?;
     in_range(&[edge_radius], &[length])?;

@@ -68,6 +68,13 @@ pub(crate) struct CurvePoint {
     pub curvature: f64,
 }
 
+impl CurvePoint {
+    /// τ and 1 - τ.
+    pub fn load(&self) -> Complement {
+        Complement { consumed: 1.0 - self.remaining, remaining: self.remaining }
+    }
+}
+
 /// The stick zones of a contact under its load.
 pub(crate) trait StickZones {
     /// The expansion for τ <= 1/2.

@@ -27,8 +27,10 @@ impl Pressed<f64> {
     /// The state of a contact that is closed, and its derivatives by the normal component.
     pub fn new(element: &Element, units: &Units, input: f64, normal: &Normal) -> [Pressed<f64>; 2] {
         let Normal { load, shift, load_slope, shift_slope } = *normal;
-        let (w, per_shift) = (element.size_under(load), 1.0 / units.shift);
-        let (size, slope) = (w / units.size, element.shape().size_slope(w) * load_slope / units.size / units.size);
+        // Products only: the compiler may divide by what is beside a number in its vector register.
+        let [per_load, per_shift, per_size] = [units.load, units.shift, units.size].map(f64::recip);
+        let w = element.size_under(load);
+        let (size, slope) = (w * per_size, element.shape().size_slope(w) * load_slope * per_size * per_size);
         let lateral = [element.lateral_shift(load, shift), element.lateral_slope(normal)];
         let inner = element.normal(INSIDE_EDGE * input);
         let inside = [
@@ -36,10 +38,10 @@ impl Pressed<f64> {
             [inner.load_slope, inner.shift_slope, element.lateral_slope(&inner)].map(|slope| INSIDE_EDGE * slope),
         ];
         let of = |load: f64, [x, y]: [f64; 2], size: f64, [inner_load, inner_x, inner_y]: [f64; 3]| Pressed {
-            load: load / units.load,
+            load: load * per_load,
             shift: [x * per_shift, y * per_shift],
             size,
-            inside: [inner_load / units.load, inner_x * per_shift, inner_y * per_shift],
+            inside: [inner_load * per_load, inner_x * per_shift, inner_y * per_shift],
         };
         [
             of(load, [shift, lateral[0]], size * size, inside[0]),

@@ -31,6 +31,12 @@ pub(crate) trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Outp
     /// `self += x factor`
     fn add_scaled(&mut self, x: &Self, factor: f64);
 
+    /// The number, or another one that is larger: guards divisors, as the compiler may divide before it compares.
+    #[inline(always)]
+    fn at_least(self, least: f64) -> Self {
+        if self.value() > least { self } else { Self::constant(least) }
+    }
+
     /// 1/x of a number that is not 0.
     #[inline(always)]
     fn inverse(self) -> Self {

@@ -130,7 +130,7 @@ impl Slips {
             let (cos, sin) = if turns { (1.0 + cos, sin) } else { (1.0, 0.0) };
             let (on_x, on_y) = (cos * r_x - sin * r_y, cos * r_y + sin * r_x);
             let square = on_x * on_x + on_y * on_y;
-            let length = (if near { square } else { 1.0 }).sqrt();
+            let length = (if square > TINY { square } else { TINY }).sqrt();
             (e[0][i], e[1][i]) = (if near { on_x / length } else { x }, if near { on_y / length } else { y });
             continues[i] = if slipped && r_x * by[0] + r_y * by[1] >= backwards { 1.0 } else { 0.0 };
         }

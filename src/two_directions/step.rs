@@ -9,7 +9,7 @@ use super::contact::{Contact, Pressed};
 use super::scalar::{Over, Real, both};
 use super::slip::{SLIPPED, Slip, Slips};
 use super::tables::{Both, FINE, INSIDE, Matrix, N, Row, Rows, SHIFT, Tables, starts};
-use super::trial::{FINE_SPRING, Motion, Springs, Values, limits_before, moved, slid};
+use super::trial::{FINE_SPRING, LEAST, Motion, Springs, Values, limits_before, moved, slid};
 use crate::shape::TINY;
 use crate::simd::dispatch;
 
@@ -115,11 +115,11 @@ fn finish<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
             }
         }
     }
-    // Coulomb's bound.
+    // Coulomb's bound, which a contact that slides far reaches.
     let bound = c.now.load;
     let square = force[0] * force[0] + force[1] * force[1];
-    if square.value() > bound.value() * bound.value() {
-        let scale = square.sqrt().inverse().times(bound);
+    if slip.slides >= 1.0 || square.value() > bound.value() * bound.value() {
+        let scale = square.at_least(TINY).sqrt().inverse().times(bound);
         force = both!(|k| force[k] * scale);
     }
     force
@@ -143,7 +143,8 @@ impl<X: Real> Far<X> {
                 force[k].add_product(&v[k][j], c.stiffness(t, k, j));
             }
         }
-        let per = part * (force[0] * force[0] + force[1] * force[1]).sqrt().inverse();
+        let square = force[0] * force[0] + force[1] * force[1];
+        let per = part * square.at_least(TINY).sqrt().inverse();
         Far { rest: X::constant(1.0) - part, slides: both!(|k| force[k] * per) }
     }
 
@@ -164,7 +165,7 @@ pub(crate) fn returned<A: Real, X: Over<A>>(v: Both<X>, limit: &Both<A>, far: Op
     let square = across * across + along * along;
     let mut v = v;
     if square > bound * bound {
-        let per_length = 1.0 / square.sqrt();
+        let per_length = 1.0 / square.at_least(TINY).sqrt();
         let (e_x, e_y) = (across * per_length, along * per_length);
         let per = bound * per_length;
         let turn = v[1].times(limit[1].inverse().scale(e_x * per)) - v[0].times(limit[0].inverse().scale(e_y * per));
@@ -336,9 +337,6 @@ fn dissipated(
     if energy > 0.0 { energy } else { 0.0 }
 }
 
-/// Limits below this, in the unit of the springs, are rounding; fourth powers of a motion over it stay finite.
-const LEAST_LIMIT: f64 = 1e-40;
-
 /// Energy of a spring of stiffness w: it follows its trial path until it is as far from 0, over its limit, as at its end, and slips from there:
 /// neighbours that turn keep it within its limit, which changes evenly on the way. A spring that slides far does so in its last direction.
 #[inline(always)]
@@ -352,7 +350,7 @@ fn slipped(
     slides: f64,
 ) -> f64 {
     let limit = both!(|k| c.limit(&t, k, f));
-    let per_limit = both!(|k| 1.0 / if limit[k] > LEAST_LIMIT { limit[k] } else { LEAST_LIMIT });
+    let per_limit = both!(|k| 1.0 / if limit[k] > LEAST { limit[k] } else { LEAST });
     let trial = both!(|k| old[k] + moved(limit[k], c.now.shift[k] - motion.before[k], motion.by[k]));
     let before = motion.before[0] - Tables::<f64>::at(&t, SHIFT, f);
     let ratio: f64 = if before > 0.0 { before * per_limit[0] } else { 0.0 };
@@ -380,7 +378,7 @@ pub(crate) fn separated(t: &Rows, from: &Contact<f64>, now: &Pressed<f64>, by: B
         if now.load > 0.0 && Tables::<f64>::at(&t, SHIFT, f) < now.shift[0] {
             return;
         }
-        let limit = both!(|k| from.limit(&t, k, f).max(LEAST_LIMIT));
+        let limit = both!(|k| from.limit(&t, k, f).max(LEAST));
         let rate = both!(|k| limit[k] / fall[k].max(limit[k]) * by[k]);
         let (x, y, dx, dy) = (old[0] / limit[0], old[1] / limit[1], rate[0] / limit[0], rate[1] / limit[1]);
         let part = exit(dx * dx + dy * dy - 1.0, x * dx + y * dy + 1.0, x * x + y * y - 1.0);

@@ -313,12 +313,6 @@ pub(crate) fn fill(rows: &mut Rows, element: &Element, units: &Units, reference:
 #[inline(always)]
 pub(crate) fn root_difference<A: Real>(upper: A, lower: A, point: A) -> A {
     let (high, low) = (upper - point, lower - point);
-    let root = root_of(high);
-    if low.value() > 0.0 { (upper - lower) * (root + root_of(low)).inverse() } else { root }
-}
-
-/// The root of a number that is at least tiny.
-#[inline(always)]
-fn root_of<A: Real>(x: A) -> A {
-    if x.value() > TINY { x } else { A::constant(TINY) }.sqrt()
+    let root = high.at_least(TINY).sqrt();
+    if low.value() > 0.0 { (upper - lower) * (root + low.at_least(TINY).sqrt()).inverse() } else { root }
 }

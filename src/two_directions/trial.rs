@@ -57,10 +57,13 @@ pub(crate) struct Motion<A, X> {
     pub constant_load: bool,
 }
 
+/// Limits and rises below this, in the unit of the springs, are rounding; fourth powers of a motion over it stay finite.
+pub(crate) const LEAST: f64 = 1e-40;
+
 /// The part of the motion that a spring follows: from where the load reaches its size on.
 #[inline(always)]
 pub(crate) fn moved<A: Real, X: Over<A>>(limit: A, rise: A, by: X) -> X {
-    if limit.value() < rise.value() { by.times(limit * rise.inverse()) } else { by }
+    if limit.value() < rise.value() { by.times(limit * rise.at_least(LEAST).inverse()) } else { by }
 }
 
 /// The largest |r|² of a trial state that sticks: a state that has slipped may round.

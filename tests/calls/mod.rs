@@ -6,6 +6,8 @@ use std::alloc::{Layout, alloc, dealloc};
 use std::ptr::{self, null_mut};
 use std::sync::OnceLock;
 
+#[cfg(not(miri))]
+pub mod mutation;
 #[rustfmt::skip]
 mod table;
 pub use table::CALLS;
@@ -94,7 +96,60 @@ impl Call {
     pub fn items(&self) -> usize {
         if self.has(Index) { N } else { 1 }
     }
+
+    /// The status. A floating-point exception that an application may trap is a failure.
+    pub fn make(&self, slots: &[Slot]) -> i32 {
+        self.make_rounding(0, slots)
+    }
+
+    /// The status in one of the rounding modes; 0 is to nearest.
+    pub fn make_rounding(&self, mode: usize, slots: &[Slot]) -> i32 {
+        environment::enter(mode);
+        let status = (self.function)(slots);
+        let raised = environment::leave();
+        assert!(!raised, "{}: a floating-point exception in rounding mode {mode}: {slots:?}", self.name);
+        status
+    }
 }
+
+#[cfg(all(unix, not(miri), any(target_arch = "x86_64", target_arch = "aarch64")))]
+mod environment {
+    unsafe extern "C" {
+        fn fesetround(mode: i32) -> i32;
+        fn feclearexcept(flags: i32) -> i32;
+        fn fetestexcept(flags: i32) -> i32;
+    }
+
+    /// To nearest, upward, downward, toward zero; invalid operation, division by zero and overflow; all flags.
+    #[cfg(target_arch = "x86_64")]
+    const CODES: ([i32; 4], i32, i32) = ([0, 0x800, 0x400, 0xc00], 0x0d, 0x3d);
+    #[cfg(target_arch = "aarch64")]
+    const CODES: ([i32; 4], i32, i32) = ([0, 0x40_0000, 0x80_0000, 0xc0_0000], 0x07, 0x1f);
+    pub const MODES: usize = 4;
+
+    pub fn enter(mode: usize) {
+        // SAFETY: the environment is the default one again when other code runs.
+        assert_eq!(unsafe { feclearexcept(CODES.2) | fesetround(CODES.0[mode]) }, 0);
+    }
+
+    /// Whether an exception was raised.
+    pub fn leave() -> bool {
+        // SAFETY: as above.
+        unsafe { fetestexcept(CODES.1) | fesetround(CODES.0[0]) != 0 }
+    }
+}
+
+#[cfg(not(all(unix, not(miri), any(target_arch = "x86_64", target_arch = "aarch64"))))]
+mod environment {
+    pub const MODES: usize = 1;
+    pub fn enter(_: usize) {}
+    pub fn leave() -> bool {
+        false
+    }
+}
+
+#[allow(unused_imports, reason = "not for the fuzzer")]
+pub use environment::MODES;
 
 /// An argument as it is passed.
 #[derive(Clone, Copy, Debug)]
@@ -246,6 +301,8 @@ pub struct Law {
     pub directions: i32,
     pub normal_input: i32,
     pub rule: i32,
+    pub harmonics: usize,
+    pub samples: usize,
     pub half_width: f64,
     pub force: f64,
     /// A displacement near gross slip.
@@ -266,52 +323,58 @@ fn initialised<T>(init: impl Fn(*mut T) -> i32) -> (Memory, Vec<u8>) {
 pub fn contacts() -> &'static [Law; 3] {
     static CONTACTS: OnceLock<[Law; 3]> = OnceLock::new();
     CONTACTS.get_or_init(|| {
-        let rounded = Parameters { flat_half_width: 1e-6, ..FLAT };
-        let frictionless = Parameters { friction_coefficient: 0.0, ..FLAT };
         let ellipse = EllipticParameters { semi_axis_y: 3e-4, ..SPHERE };
-        let law = |is_elliptic, (memory, bytes): (Memory, Vec<u8>)| {
-            let c: &mslip_contact = &memory.values()[0];
-            let (half_width, force, displacement) = (c.half_width, c.slip_force, c.slip_displacement);
-            let (rule, directions, normal_input) = (MSLIP_UNIFORM_SAMPLING, 1, MSLIP_INPUT_APPROACH);
-            let [normal, approach, normal_force] = [0.0; 3];
-            Law {
-                bytes,
-                is_elliptic,
-                directions,
-                normal_input,
-                rule,
-                half_width,
-                force,
-                displacement,
-                normal,
-                approach,
-                normal_force,
-            }
-        };
         [
-            law(false, initialised(|contact| unsafe { mslip_contact_init(&raw const rounded, contact) })),
-            law(true, initialised(|contact| unsafe { mslip_contact_init_elliptic(&raw const ellipse, contact) })),
-            law(false, initialised(|contact| unsafe { mslip_contact_init(&raw const frictionless, contact) })),
+            contact(&Parameters { flat_half_width: 1e-6, ..FLAT }),
+            law_of_contact(true, |contact| unsafe { mslip_contact_init_elliptic(&raw const ellipse, contact) }),
+            contact(&Parameters { friction_coefficient: 0.0, ..FLAT }),
         ]
     })
 }
 
-/// A slightly flattened element by approach, and a sphere by normal force, both with one direction; a sphere by approach with two.
-/// Initialised once, which takes minutes under Miri.
-pub fn elements() -> &'static [Law; 3] {
-    static ELEMENTS: OnceLock<[Law; 3]> = OnceLock::new();
+pub fn contact(p: &Parameters) -> Law {
+    law_of_contact(false, |contact| unsafe { mslip_contact_init(p, contact) })
+}
+
+fn law_of_contact(is_elliptic: bool, init: impl Fn(*mut mslip_contact) -> i32) -> Law {
+    let (memory, bytes) = initialised(init);
+    let c: &mslip_contact = &memory.values()[0];
+    Law {
+        bytes,
+        is_elliptic,
+        directions: 1,
+        normal_input: MSLIP_INPUT_APPROACH,
+        rule: MSLIP_UNIFORM_SAMPLING,
+        harmonics: HARMONICS,
+        samples: SAMPLES,
+        half_width: c.half_width,
+        force: c.slip_force,
+        displacement: c.slip_displacement,
+        normal: 0.0,
+        approach: 0.0,
+        normal_force: 0.0,
+    }
+}
+
+/// A rounded flat by approach, and a sphere by normal force, both with one direction; a sphere by approach and, but under Miri, a
+/// rigid strip by normal force with two. Initialised once, which takes minutes under Miri.
+pub fn elements() -> &'static [Law] {
+    static ELEMENTS: OnceLock<Vec<Law>> = OnceLock::new();
     ELEMENTS.get_or_init(|| {
         // Harmonic forces with the springs of both directions take too long under Miri: without friction there are none.
         let sphere = EllipticParameters { friction_coefficient: if cfg!(miri) { 0.0 } else { 0.3 }, ..SPHERE };
-        [
-            element(false, |element| unsafe { mslip_element_init(&raw const FLAT, 1, MSLIP_INPUT_APPROACH, element) }),
-            element(true, |element| unsafe {
-                mslip_element_init_elliptic(&raw const SPHERE, 1, MSLIP_INPUT_NORMAL_FORCE, element)
-            }),
-            element(true, |element| unsafe {
-                mslip_element_init_elliptic(&raw const sphere, 2, MSLIP_INPUT_APPROACH, element)
-            }),
-        ]
+        let strip = Parameters { displacement_reference: MSLIP_RIGID_STRIP, ..FLAT };
+        let (by_approach, by_force) = (MSLIP_INPUT_APPROACH, MSLIP_INPUT_NORMAL_FORCE);
+        let mut elements = vec![
+            element(false, |element| unsafe { mslip_element_init(&raw const FLAT, 1, by_approach, element) }),
+            element(true, |element| unsafe { mslip_element_init_elliptic(&raw const SPHERE, 1, by_force, element) }),
+            element(true, |element| unsafe { mslip_element_init_elliptic(&raw const sphere, 2, by_approach, element) }),
+        ];
+        if !cfg!(miri) {
+            elements
+                .push(element(false, |element| unsafe { mslip_element_init(&raw const strip, 2, by_force, element) }));
+        }
+        elements
     })
 }
 
@@ -325,6 +388,8 @@ pub fn element(is_elliptic: bool, init: impl Fn(*mut mslip_element) -> i32) -> L
         directions: e.directions,
         normal_input: e.normal_input,
         rule: MSLIP_UNIFORM_SAMPLING,
+        harmonics: HARMONICS,
+        samples: SAMPLES,
         half_width: e.half_width,
         force: e.friction_coefficient * e.normal_force,
         displacement: e.friction_coefficient * e.approach,
@@ -354,7 +419,7 @@ impl Law {
         let factor = |letter| match letter {
             'n' => N,
             'm' => m,
-            'k' => m * (2 * HARMONICS + 1),
+            'k' => m * (2 * self.harmonics + 1),
             _ => MSLIP_PARAMETER_COUNT as usize,
         };
         extents.chars().map(factor).product()
@@ -366,8 +431,8 @@ impl Law {
         match (&name[..5], of_element) {
             ("state", false) => mslip_state_length(0),
             ("state", true) => mslip_element_state_length(self.directions, 0),
-            ("works", false) => mslip_harmonic_workspace_length(HARMONICS, SAMPLES, self.rule),
-            ("works", true) => mslip_element_workspace_length(self.directions, HARMONICS, SAMPLES, self.rule),
+            ("works", false) => mslip_harmonic_workspace_length(self.harmonics, self.samples, self.rule),
+            ("works", true) => mslip_element_workspace_length(self.directions, self.harmonics, self.samples, self.rule),
             _ => mslip_stiffness_table_length(),
         }
     }
@@ -392,7 +457,7 @@ impl Law {
     /// Whether value i of an input is the normal component of a displacement, or one of its coefficients.
     pub fn is_normal(&self, call: &Call, argument: &Argument, i: usize) -> bool {
         let of_steps = argument.extents.contains('m');
-        let share = if of_steps { 1 } else { 2 * HARMONICS + 1 };
+        let share = if of_steps { 1 } else { 2 * self.harmonics + 1 };
         let is_vector = of_steps || argument.extents.contains('k');
         call.has(Element) && is_vector && i / share % self.components() == self.components() - 1
     }
@@ -412,7 +477,11 @@ impl Law {
     }
 
     pub fn state(&self, call: &Call) -> Memory {
-        let state = Memory::new::<f64>(self.memory_length(call, "state"));
+        self.long_state(call, self.memory_length(call, "state"))
+    }
+
+    pub fn long_state(&self, call: &Call, length: usize) -> Memory {
+        let state = Memory::of(&vec![f64::NAN; length]);
         let (n, start) = (state.bytes / 8, state.start.cast());
         let status = if call.is_of_element() {
             unsafe { mslip_element_state_init(self.directions, n, start) }
@@ -425,26 +494,45 @@ impl Law {
 
     pub fn workspace(&self, call: &Call) -> Memory {
         let memory = Memory::new::<f64>(self.memory_length(call, "workspace"));
+        self.init_workspace(call, &memory);
+        memory
+    }
+
+    pub fn init_workspace(&self, call: &Call, memory: &Memory) {
         let (n, start) = (memory.bytes / 8, memory.start.cast());
         let status = if call.is_of_element() {
-            unsafe { mslip_element_workspace_init(self.directions, HARMONICS, SAMPLES, self.rule, PERIODS, n, start) }
+            unsafe {
+                mslip_element_workspace_init(
+                    self.directions,
+                    self.harmonics,
+                    self.samples,
+                    self.rule,
+                    PERIODS,
+                    n,
+                    start,
+                )
+            }
         } else {
-            unsafe { mslip_harmonic_workspace_init(HARMONICS, SAMPLES, self.rule, n, start) }
+            unsafe { mslip_harmonic_workspace_init(self.harmonics, self.samples, self.rule, n, start) }
         };
         assert_eq!(status, MSLIP_OK);
-        memory
     }
 
     fn table(&self) -> Memory {
         static TABLES: [OnceLock<Vec<f64>>; 3] = [const { OnceLock::new() }; 3];
         let own = contacts().iter().position(|law| law.bytes == self.bytes).expect("a contact of the list");
-        Memory::of(TABLES[own].get_or_init(|| {
-            let (contact, table) = (Memory::of_law(self, 1), Memory::new::<f64>(mslip_stiffness_table_length()));
-            let status =
-                unsafe { mslip_stiffness_table_init(contact.start.cast(), table.bytes / 8, table.start.cast()) };
-            assert_eq!(status, MSLIP_OK);
-            table.values().to_vec()
-        }))
+        Memory::of(TABLES[own].get_or_init(|| self.new_table().values().to_vec()))
+    }
+
+    pub fn new_table(&self) -> Memory {
+        let (mut contact, table) = (Memory::of_law(self, 1), Memory::new::<f64>(mslip_stiffness_table_length()));
+        if cfg!(miri) {
+            // Its polynomials take longer than all other tests: without friction there are none.
+            contact.values_mut::<mslip_contact>()[0].slip_force = 0.0;
+        }
+        let (n, start) = (table.bytes / 8, table.start.cast());
+        assert_eq!(unsafe { mslip_stiffness_table_init(contact.start.cast(), n, start) }, MSLIP_OK);
+        table
     }
 }
 
@@ -487,9 +575,9 @@ impl Arguments {
                 Laws => Ok(Slot::Size(items)),
                 Length => Ok(Slot::Size(memory_length(argument.name))),
                 Size => Ok(Slot::Size(match argument.name {
-                    "harmonics" => HARMONICS,
+                    "harmonics" => law.harmonics,
                     "periods" => PERIODS,
-                    _ => SAMPLES,
+                    _ => law.samples,
                 })),
                 Choice => Ok(Slot::Choice(match argument.name {
                     "directions" => law.directions,
@@ -535,6 +623,16 @@ impl Arguments {
     pub fn set(&mut self, place: usize, memory: Memory) {
         self.slots[place] = Slot::Pointer(memory.start);
         self.memory[place] = Some(memory);
+    }
+
+    /// Another value i of an argument; returns the one before.
+    #[cfg(not(miri))]
+    pub fn exchange(&mut self, place: usize, i: usize, value: f64) -> f64 {
+        if let Slot::Value(before) = self.slots[place] {
+            self.slots[place] = Slot::Value(value);
+            return before;
+        }
+        std::mem::replace(&mut self.memory_mut(place).values_mut()[i], value)
     }
 
     pub fn omit(&mut self, place: usize) {

@@ -3,14 +3,13 @@ module checks
   use microslip, only: mslip_int, mslip_real, mslip_status_text
   implicit none
   private
-  public :: wp, untouched, check, check_status, check_close, check_same, was_returned, report
+  public :: wp, untouched, check, check_status, check_close, check_same, report
 
   integer, parameter :: wp = mslip_real
   ! The value of outputs before a call, to check that a rejected call does not modify them.
   real(wp), parameter :: untouched = -777.0_wp
 
   integer :: passed = 0, failed = 0
-  logical :: returned(0:127) = .false.
 
 contains
 
@@ -31,18 +30,11 @@ contains
     integer(mslip_int), intent(in) :: status, expected
 
     call check(name, status == expected)
-    if (status >= 0 .and. status <= ubound(returned, 1)) returned(status) = .true.
     if (status /= expected) then
       print '(2x,a,i0,2a)', 'status   ', status, ': ', mslip_status_text(status)
       print '(2x,a,i0,2a)', 'expected ', expected, ': ', mslip_status_text(expected)
     end if
   end subroutine check_status
-
-  logical function was_returned(status)
-    integer(mslip_int), intent(in) :: status
-
-    was_returned = returned(status)
-  end function was_returned
 
   subroutine check_close(name, value, expected, tolerance)
     ! The difference relative to the expected value, or absolute if 0 is expected.

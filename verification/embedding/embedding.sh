@@ -149,12 +149,19 @@ links() {
 
 # --- sanitizers, valgrind, threads ---
 
-# instrument SANITIZER: builds the archive for a sanitizer, as $instrumented. The option is not yet stable, and the compiled
-# parts of Rust's library are not instrumented.
+# sanitized SANITIZER COMMAND...: a command of cargo with a sanitizer. The option is not yet stable, and the compiled parts of Rust's
+# library are not instrumented.
+sanitized() {
+    sanitizer=$1
+    shift
+    RUSTC_BOOTSTRAP=1 RUSTFLAGS="-Zsanitizer=$sanitizer -Cunsafe-allow-abi-mismatch=sanitizer" \
+        $CARGO "$@" --quiet --locked --package microslip --target "$triple" --target-dir "target/$sanitizer"
+}
+
+# instrument SANITIZER: builds the archive for a sanitizer, as $instrumented.
 instrument() {
     instrumented=target/$1/$triple/release/libmicroslip.a
-    RUSTC_BOOTSTRAP=1 RUSTFLAGS="-Zsanitizer=$1 -Cunsafe-allow-abi-mismatch=sanitizer" \
-        $CARGO build --quiet --release --locked --package microslip --target "$triple" --target-dir "target/$1"
+    sanitized "$1" build --release
 }
 
 # detects NAME PATTERN COMMAND...: the tool reports the error of that name inside the library.
@@ -179,6 +186,7 @@ sanitizers() {
     # The mathematical functions of Rust's archives differ in the last digits.
     check "the application with cargo's archive" first_application $cargo_archive $system
     check 'AddressSanitizer: all calls' same_application clang $flags $application $instrumented $system
+    check 'AddressSanitizer: every argument of every call' sanitized address test --test ffi
     for driver in c_tests/*.c; do
         # The same calls in other rounding modes, in half a minute.
         case $driver in c_tests/environment.c | c_tests/extremes.c) continue ;; esac

@@ -15,22 +15,25 @@
 //! would in addition contain the derivative of the quadrature error times that of the events, `dt_e = -φ'/ü`, which is unbounded
 //! as two reversals merge. The two differ by the error of the rule.
 
-use super::columns::{clear_opposite_parity, fill_columns};
 use super::motion::{Grid, Instant, Motion, fill_integrals, fill_phi};
-use super::segments::{Integrals, PANEL, Segment};
-use super::sensitivity::{self, ReversalSensitivities};
-use super::{HarmonicOutput, Requested, jacobian};
+use super::segments::{NodalFourier, Nodes, PANEL, Segment};
+use super::sensitivity::ReversalSensitivities;
+use super::{HarmonicOutput, Requested};
 use crate::constant_load::contact::Contact;
 use crate::constant_load::evaluator::Response;
 use crate::constant_load::memory::{Point, Reversal};
 use crate::constant_load::steady_state::SteadyState;
 use crate::error::Error;
-use crate::fourier::normalise;
-use crate::fourier::workspace::{HEADER, Parts, Size, WorkspaceLayout, padded};
+use crate::fourier::folded::{FoldedFourier, sample_length};
+use crate::fourier::rows::row_blocks;
+use crate::fourier::sampled_jacobian::Assembly;
+use crate::fourier::workspace::{Blocks, HEADER, Parts, Size, WorkspaceLayout};
+use crate::fourier::{complete_half_wave, normalise};
+use crate::parameters::PARAMETERS;
 use crate::tag::Kind;
 use core::f64::consts::PI;
 
-/// Lengths of the parts of a workspace.
+/// Size of a workspace.
 pub(super) struct Layout(Size);
 
 impl Layout {
@@ -62,19 +65,12 @@ impl WorkspaceLayout for Layout {
         self.grid() + self.reversals() + PANEL
     }
 
-    fn tables_length(&self) -> usize {
-        padded(self.grid() / 2 * self.0.coefficients())
-    }
-
     fn length(&self) -> usize {
-        let (n, grid, reversals) = (self.0.coefficients(), self.grid(), self.reversals());
-        let stack = padded(3 * reversals) + padded(2 * n * reversals);
-        let sums = 3 * padded(n) + 2 * padded(2 * n - 1);
-        HEADER + self.tables_length() + padded(grid) + padded(2 * grid) + stack + 4 * self.0.harmonics * PANEL + sums
+        HEADER + Parts::count(|parts| Workspace::take(self, parts))
     }
 
-    fn fill_tables(&self, tables: &mut Parts) -> Result<(), Error> {
-        fill_columns(tables.take(self.grid() / 2 * self.0.coefficients())?, self.grid(), self.grid() / 2);
+    fn fill_tables(&self, parts: &mut Parts) -> Result<(), Error> {
+        Workspace::take(self, parts)?.buffers.grid.fourier.fill();
         Ok(())
     }
 }
@@ -90,18 +86,20 @@ pub(super) struct Workspace<'a> {
 /// Tables, events and integrals.
 #[derive(Debug)]
 struct Buffers<'a> {
-    /// Columns 1, cos t, sin t, cos 2t, ... over the first half of the grid.
-    columns: &'a [f64],
-    /// The rate of the displacement on the grid.
-    rate: &'a mut [f64],
+    harmonics: usize,
+    grid: Grid<'a>,
     /// Instant and displacement of each reversal of the motion.
     instants: &'a mut [[f64; 2]],
+    nodes: NodalFourier<'a>,
     /// φ_r and dT_r of each reversal on the stack, rows over the coefficients.
-    gradients: &'a mut [f64],
-    integrals: Integrals<'a>,
-    /// Rows over the coefficients: ∫ φ over a segment, and the coefficients of the rate.
-    phi_integrals: &'a mut [f64],
-    row: &'a mut [f64],
+    gradients: &'a mut Blocks,
+    /// ∫ φ and ∫ k φ over a segment, rows over the coefficients and up to the order 2H.
+    phi_integrals: &'a mut Blocks,
+    segment_stiffness: &'a mut Blocks,
+    /// Integrals of the force.
+    force: &'a mut [f64],
+    /// Those of the stiffness, and the terms of the reversals.
+    assembly: Assembly<'a>,
 }
 
 impl<'a> Workspace<'a> {
@@ -112,22 +110,27 @@ impl<'a> Workspace<'a> {
     #[inline(always)]
     pub fn new(workspace: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
         let (layout, mut parts) = Layout::open(workspace)?;
-        let (grid, n) = (layout.grid(), layout.0.coefficients());
+        Workspace::take(&layout, &mut parts)
+    }
+
+    #[inline(always)]
+    fn take(layout: &Layout, parts: &mut Parts<'a>) -> Result<Workspace<'a>, Error> {
+        let (points, size, row) = (layout.grid(), layout.0, row_blocks(layout.0.harmonics));
         let buffers = Buffers {
-            columns: parts.take(grid / 2 * n)?,
-            rate: parts.take(grid)?,
-            instants: parts.take(2 * grid)?.as_chunks_mut().0,
-            gradients: parts.take(2 * n * layout.reversals())?,
-            integrals: Integrals {
-                harmonics: layout.0.harmonics,
-                nodes_per_period: layout.0.samples,
-                basis: parts.take(4 * layout.0.harmonics * PANEL)?,
-                force: parts.take(n)?,
-                segment_stiffness: parts.take(2 * n - 1)?,
-                stiffness: parts.take(2 * n - 1)?,
+            harmonics: size.harmonics,
+            grid: Grid {
+                points,
+                fourier: FoldedFourier::take(parts, points, size.harmonics.next_multiple_of(2))?,
+                coefficients: parts.take(size.coefficients())?,
+                rate: parts.take(sample_length(points))?,
             },
-            phi_integrals: parts.take(n)?,
-            row: parts.take(n)?,
+            instants: parts.take(2 * points)?.as_chunks_mut().0,
+            nodes: NodalFourier::take(parts, size)?,
+            gradients: parts.take_blocks(2 * row * layout.reversals())?,
+            phi_integrals: parts.take_blocks(row)?,
+            segment_stiffness: parts.take_blocks(2 * row)?,
+            force: parts.take(size.coefficients())?,
+            assembly: Assembly::take(parts, size.harmonics, 0.5 / PI)?,
         };
         Ok(Workspace { reversals: parts.take(3 * layout.reversals())?.as_chunks_mut().0, buffers })
     }
@@ -146,29 +149,27 @@ pub(super) fn harmonic_force(
     output: HarmonicOutput,
 ) {
     let Workspace { reversals, buffers } = workspace;
-    let HarmonicOutput { force, mut jacobian, dissipated, .. } = output;
+    let HarmonicOutput { force, jacobian, dissipated, .. } = output;
     let mut period = Period {
         law: SteadyState::new(contact, reversals, dissipated.is_some()),
         requested: Requested { force: force.is_some(), stiffness: jacobian.is_some() },
         motion: Motion::new(displacement),
         now: Response { force: 0.0, stiffness: 0.0 },
-        jacobian: jacobian.as_deref_mut(),
         sensitivity: None,
     };
-    let (span, half_wave_symmetric) = period.integrate(buffers);
+    let half_wave_symmetric = period.integrate(buffers);
     if let (Some(dissipated), Some(energy)) = (dissipated, period.law.dissipated()) {
         *dissipated = if half_wave_symmetric { 2.0 * energy } else { energy };
     }
     if let Some(force) = force {
-        force.iter_mut().zip(buffers.integrals.force.iter()).for_each(|(force, sum)| *force = *sum);
-        normalise(force, 1.0 / span);
-        if half_wave_symmetric {
-            clear_opposite_parity(1, force);
-        }
+        force.iter_mut().zip(buffers.force.iter()).for_each(|(force, sum)| *force = *sum);
+        complete(force, half_wave_symmetric);
     }
     if let Some(jacobian) = jacobian {
-        let Integrals { harmonics, stiffness, .. } = &buffers.integrals;
-        jacobian::complete(jacobian, *harmonics, stiffness, 1.0 / span, half_wave_symmetric);
+        if half_wave_symmetric {
+            complete_half_wave(buffers.assembly.sums, 1.0);
+        }
+        buffers.assembly.write(half_wave_symmetric.then_some(1.0), jacobian, buffers.coefficients());
     }
 }
 
@@ -186,17 +187,36 @@ pub(super) fn harmonic_sensitivity(
         requested: Requested { force: false, stiffness: false },
         motion: Motion::new(displacement),
         now: Response { force: 0.0, stiffness: 0.0 },
-        jacobian: None,
         sensitivity: Some(&mut *sensitivity),
     };
-    let (span, half_wave_symmetric) = period.integrate(buffers);
-    sensitivity::complete(sensitivity, 1.0 / span, half_wave_symmetric);
+    let half_wave_symmetric = period.integrate(buffers);
+    for column in sensitivity.chunks_exact_mut(buffers.coefficients()) {
+        complete(column, half_wave_symmetric);
+    }
+}
+
+/// Scales integrals of a force, those over half a period if `half_wave_symmetric`, to coefficients.
+fn complete(integrals: &mut [f64], half_wave_symmetric: bool) {
+    if half_wave_symmetric {
+        complete_half_wave(integrals, -1.0);
+    }
+    normalise(integrals, 0.5 / PI);
+}
+
+/// Adds a row times a factor.
+fn add_scaled(sums: &mut [f64], factor: f64, row: &Blocks) {
+    sums.iter_mut().zip(row.as_flattened()).for_each(|(sum, value)| *sum += factor * value);
 }
 
 impl Buffers<'_> {
     /// 2H + 1.
     fn coefficients(&self) -> usize {
-        2 * self.integrals.harmonics + 1
+        2 * self.harmonics + 1
+    }
+
+    /// Blocks of a row over the coefficients.
+    fn row(&self) -> usize {
+        self.phi_integrals.len().max(1)
     }
 
     #[inline(always)]
@@ -205,6 +225,12 @@ impl Buffers<'_> {
             Some(&[t, displacement]) => Instant { t, displacement },
             None => Instant { t: 0.0, displacement: 0.0 },
         }
+    }
+
+    /// Evaluates ∫ φ between two instants.
+    fn integrate_phi(&mut self, from: f64, to: f64) {
+        let coefficients = self.coefficients();
+        fill_integrals(self.phi_integrals.as_flattened_mut().get_mut(..coefficients).unwrap_or(&mut []), from, to);
     }
 }
 
@@ -215,35 +241,21 @@ struct Period<'m, 'c, 's> {
     motion: Motion<'m>,
     /// Response at the present instant.
     now: Response,
-    /// Terms of the reversals, and integrals of the derivatives with respect to the parameters, if requested.
-    jacobian: Option<&'m mut [f64]>,
+    /// Integrals of the derivatives with respect to the parameters, if requested.
     sensitivity: Option<&'m mut [f64]>,
 }
 
 impl Period<'_, '_, '_> {
-    /// Integrates a constant displacement.
-    fn integrate_constant(&mut self, buffers: &mut Buffers, span: f64) {
-        self.now = self.law.begin(self.motion.mean);
-        let Integrals { force, stiffness, .. } = &mut buffers.integrals;
-        if let (Some(force), Some(stiffness)) = (force.first_mut(), stiffness.first_mut()) {
-            (*force, *stiffness) = (span * self.now.force, span * self.now.stiffness);
-        }
-        if let Some(sums) = &mut self.sensitivity {
-            fill_integrals(buffers.row, 0.0, span);
-            sensitivity::add(sums, 1.0, buffers.row, self.law.sensitivity(self.motion.mean));
-        }
-    }
-
-    /// Integrates a period, or half of it if it is half-wave symmetric, from the farthest reversal. Returns its length, and which it is.
+    /// Integrates a period, or half of it if it is half-wave symmetric, from the farthest reversal. Returns which it is.
     #[inline(always)]
-    fn integrate(&mut self, buffers: &mut Buffers) -> (f64, bool) {
-        let grid = Grid { columns: buffers.columns, rate: buffers.rate, coefficients: buffers.row };
-        let (count, half_wave_symmetric) = self.motion.find_reversals(grid, buffers.instants);
+    fn integrate(&mut self, buffers: &mut Buffers) -> bool {
+        let (count, half_wave_symmetric) = self.motion.find_reversals(&mut buffers.grid, buffers.instants);
         let span = if half_wave_symmetric { PI } else { 2.0 * PI };
-        buffers.integrals.clear();
+        buffers.force.fill(0.0);
+        buffers.assembly.clear();
         if count == 0 {
             self.integrate_constant(buffers, span);
-            return (span, half_wave_symmetric);
+            return half_wave_symmetric;
         }
         let (mut first, mut farthest) = (0, -1.0);
         for index in 0..count {
@@ -264,7 +276,21 @@ impl Period<'_, '_, '_> {
             self.integrate_half_cycle(buffers, from, to);
             from = to;
         }
-        (span, half_wave_symmetric)
+        half_wave_symmetric
+    }
+
+    /// Integrates a constant displacement.
+    fn integrate_constant(&mut self, buffers: &mut Buffers, span: f64) {
+        self.now = self.law.begin(self.motion.mean);
+        if let (Some(force), Some(stiffness)) = (buffers.force.first_mut(), buffers.assembly.sums.first_mut()) {
+            (*force, *stiffness) = (span * self.now.force, span * self.now.stiffness);
+        }
+        if let Some(sums) = &mut self.sensitivity {
+            let derivatives = self.law.sensitivity(self.motion.mean);
+            for (column, derivative) in sums.chunks_exact_mut(buffers.coefficients()).zip(derivatives) {
+                column.iter_mut().take(1).for_each(|mean| *mean = span * derivative);
+            }
+        }
     }
 
     /// Integrates from one reversal of the motion to the next, along one branch and its continuations.
@@ -297,87 +323,105 @@ impl Period<'_, '_, '_> {
         self.now = self.law.response(to.displacement);
     }
 
-    /// Makes an instant the newest reversal on the stack and stores its gradient.
+    /// Makes an instant the newest reversal on the stack and stores its derivatives.
     fn reverse(&mut self, buffers: &mut Buffers, at: Instant, direction: f64) {
         let left = self.law.branch().depth;
-        if self.sensitivity.is_some() {
-            let mut stack = ReversalSensitivities::new(buffers.gradients);
-            let sensitivity = stack.at(&self.law, at.displacement);
-            if self.law.reverse(Point { displacement: at.displacement, force: 0.0 }, direction) {
-                stack.store(&self.law, sensitivity);
-            }
-            return;
-        }
+        let mut stack = ReversalSensitivities::new(buffers.gradients.as_flattened_mut());
+        let sensitivity = self.sensitivity.is_some().then(|| stack.at(&self.law, at.displacement));
         if !self.law.reverse(Point { displacement: at.displacement, force: self.now.force }, direction) {
             return;
         }
-        let (n, depth) = (buffers.coefficients(), self.law.branch().depth);
+        if let Some(sensitivity) = sensitivity {
+            return stack.store(&self.law, sensitivity);
+        }
+        let (row, depth) = (buffers.row(), self.law.branch().depth);
         if self.requested.stiffness
-            && let Some((older, newer)) = buffers.gradients.split_at_mut_checked(2 * n * (depth - 1))
-            && let Some((phi, gradient)) = newer.get_mut(..2 * n).and_then(|row| row.split_at_mut_checked(n))
+            && let Some((older, newer)) = buffers.gradients.split_at_mut_checked(2 * row * (depth - 1))
+            && let Some((phi, gradient)) = newer.get_mut(..2 * row).and_then(|rows| rows.split_at_mut_checked(row))
         {
             let k = self.now.stiffness;
-            fill_phi(phi, at.t);
+            let (phi, gradient) = (phi.as_flattened_mut(), gradient.as_flattened_mut());
+            fill_phi(phi.get_mut(..2 * buffers.harmonics + 1).unwrap_or(&mut []), at.t);
             gradient.iter_mut().zip(phi.iter()).for_each(|(gradient, phi)| *gradient = k * phi);
             if left > 0
-                && let Some((phi, before)) = older.chunks_exact((2 * n).max(1)).last().map(|row| row.split_at(n))
+                && let Some((phi, before)) =
+                    older.chunks_exact((2 * row).max(1)).last().and_then(|rows| rows.split_at_checked(row))
             {
-                for ((gradient, phi), before) in gradient.iter_mut().zip(phi).zip(before) {
-                    *gradient += before - k * phi;
-                }
+                add_scaled(gradient, 1.0, before);
+                add_scaled(gradient, -k, phi);
             }
         }
     }
 
-    /// Adds a segment of the present branch to the integrals, the Jacobian and the energy. `to_slip`: gross slip starts at its end.
+    /// Adds a segment of the present branch to the integrals and the energy. `to_slip`: gross slip starts at its end.
     fn integrate_segment(&mut self, buffers: &mut Buffers, from: Instant, to: Instant, to_slip: bool) {
         self.law.account_for(from.displacement, to.displacement);
-        if self.sensitivity.is_some() {
-            return self.integrate_sensitivity(buffers, Segment { from: from.t, to: to.t, to_slip });
-        }
         let Requested { force, stiffness } = self.requested;
-        if to.t <= from.t || !(force || stiffness) {
+        if to.t <= from.t || !(force || stiffness || self.sensitivity.is_some()) {
             return;
         }
         let branch = self.law.branch();
+        let coefficients = buffers.coefficients();
         if branch.gross_slip {
+            buffers.integrate_phi(from.t, to.t);
             if force {
-                fill_integrals(buffers.phi_integrals, from.t, to.t);
-                let limit = self.law.response(to.displacement).force;
-                let sums = buffers.integrals.force.iter_mut();
-                sums.zip(buffers.phi_integrals.iter()).for_each(|(sum, integral)| *sum += limit * integral);
+                add_scaled(buffers.force, self.law.response(to.displacement).force, buffers.phi_integrals);
+            }
+            if let Some(sums) = &mut self.sensitivity {
+                let stack = ReversalSensitivities::new(buffers.gradients.as_flattened_mut());
+                let columns = sums.chunks_exact_mut(coefficients).zip(stack.at(&self.law, 0.0));
+                columns.for_each(|(column, derivative)| add_scaled(column, derivative, buffers.phi_integrals));
             }
             return;
         }
         let segment = Segment { from: from.t, to: to.t, to_slip };
-        buffers.integrals.add(&self.law.evaluator(), &self.motion, segment, self.requested);
-        let Some(jacobian) = &mut self.jacobian else { return };
-        let Integrals { stiffness, segment_stiffness, .. } = &mut buffers.integrals;
-        stiffness.iter_mut().zip(segment_stiffness.iter()).for_each(|(sum, segment)| *sum += segment);
-        let n = buffers.coefficients();
-        let row = buffers.gradients.chunks_exact((2 * n).max(1)).nth(branch.depth.wrapping_sub(1));
-        if let Some((phi, gradient)) = row.and_then(|row| row.split_at_checked(n)) {
-            fill_integrals(buffers.phi_integrals, from.t, to.t);
-            let up_to_h = buffers.integrals.segment_stiffness.get(..n).unwrap_or(&[]);
-            jacobian::add_reversal_term(jacobian, phi, gradient, buffers.phi_integrals, up_to_h);
-        }
-    }
-
-    /// Adds a segment of the present branch to the integrals of the derivatives with respect to the parameters.
-    #[inline(never)]
-    fn integrate_sensitivity(&mut self, buffers: &mut Buffers, segment: Segment) {
-        let Some(sums) = &mut self.sensitivity else { return };
-        let stack = ReversalSensitivities::new(buffers.gradients);
-        if segment.to <= segment.from {
-        } else if self.law.branch().gross_slip {
-            fill_integrals(buffers.row, segment.from, segment.to);
-            sensitivity::add(sums, 1.0, buffers.row, stack.at(&self.law, 0.0));
-        } else {
-            segment.panels(buffers.integrals.nodes_per_period).for_each(|t, weight| {
-                fill_phi(buffers.row, t);
-                let [displacement, ..] = self.motion.derivatives(t);
-                sensitivity::add(sums, weight, buffers.row, stack.at(&self.law, displacement));
+        if let Some(sums) = &mut self.sensitivity {
+            let stack = ReversalSensitivities::new(buffers.gradients.as_flattened_mut());
+            buffers.nodes.for_each_panel(&self.motion, segment, buffers.harmonics, |nodes, displacement, weights| {
+                let mut derivatives: [Nodes; PARAMETERS] = [[[0.0; 4]; _]; _];
+                for (block, displacement) in displacement.iter().enumerate() {
+                    for k in 0..4 {
+                        let at_node = stack.at(&self.law, displacement[k]);
+                        for (values, derivative) in derivatives.iter_mut().zip(at_node) {
+                            values.iter_mut().skip(block).take(1).for_each(|values| values[k] = derivative);
+                        }
+                    }
+                }
+                for (values, column) in derivatives.iter().zip(sums.chunks_exact_mut(coefficients)) {
+                    nodes.add(weights, values, column);
+                }
             });
+            return;
+        }
+        let evaluator = self.law.evaluator();
+        let orders = if stiffness { 2 * buffers.harmonics } else { buffers.harmonics };
+        let Buffers { nodes, segment_stiffness, assembly, force: force_sums, .. } = buffers;
+        let sums = segment_stiffness.as_flattened_mut().get_mut(..2 * coefficients - 1).unwrap_or(&mut []);
+        sums.fill(0.0);
+        nodes.for_each_panel(&self.motion, segment, orders, |nodes, displacement, weights| {
+            let [mut forces, mut stiffnesses]: [Nodes; 2] = [[[0.0; 4]; _]; _];
+            for ((forces, stiffnesses), displacement) in forces.iter_mut().zip(&mut stiffnesses).zip(displacement) {
+                for k in 0..4 {
+                    Response { force: forces[k], stiffness: stiffnesses[k] } = evaluator.at(displacement[k]);
+                }
+            }
+            if force {
+                nodes.add(weights, &forces, force_sums);
+            }
+            if stiffness {
+                nodes.add(weights, &stiffnesses, sums);
+            }
+        });
+        if stiffness {
+            assembly.sums.iter_mut().zip(sums).for_each(|(sum, segment)| *sum += *segment);
+            buffers.integrate_phi(from.t, to.t);
+            let Buffers { gradients, phi_integrals, segment_stiffness, assembly, .. } = buffers;
+            let row = phi_integrals.len().max(1);
+            let rows = gradients.chunks_exact((2 * row).max(1)).nth(branch.depth.wrapping_sub(1));
+            if let Some((phi, gradient)) = rows.and_then(|rows| rows.split_at_checked(row)) {
+                let columns = [gradient, phi].map(<[_]>::as_flattened);
+                assembly.add_products(columns, [phi_integrals, segment_stiffness.get(..row).unwrap_or(&[])]);
+            }
         }
     }
 }
@@ -415,29 +459,6 @@ mod tests {
             shifted[2 * k] = cosine * b - sine * a;
         }
         shifted
-    }
-
-    #[test]
-    fn one_harmonic_agrees_with_the_complex_stiffness() {
-        for contact in contacts() {
-            for (ratio, bound) in
-                [(1e-6, 1e-14), (0.3, 1e-14), (0.8, 1e-13), (0.95, 1e-12), (1.1, 1e-12), (3.0, 1e-12), (1e3, 1e-12)]
-            {
-                let amplitude = ratio * contact.slip_displacement;
-                let exact = contact.complex_stiffness(amplitude).unwrap();
-                let size = exact.real().hypot(exact.imaginary());
-                for phase in [0.0, 0.3, 2.0, 4.0] {
-                    let (sine, cosine) = f64::sin_cos(phase);
-                    let (force, _, energy) = all(&contact, 64, &[0.0, amplitude * cosine, amplitude * sine]);
-                    let real = (cosine * force[1] + sine * force[2]) / amplitude;
-                    let imaginary = (sine * force[1] - cosine * force[2]) / amplitude;
-                    let error = (real - exact.real()).hypot(imaginary - exact.imaginary());
-                    assert!(error < bound * size, "{ratio} {phase}: {:e}", error / size);
-                    // The energy of small loops is a difference of forces, with their absolute error.
-                    assert!((energy / exact.dissipated() - 1.0).abs() < 1e-12, "{ratio} {energy}");
-                }
-            }
-        }
     }
 
     #[test]
@@ -576,17 +597,5 @@ mod tests {
             assert!(distance(&one.0, &two.0) < 1e-9 * contact.slip_force, "{steps} {by}");
             assert!((one.2 / two.2 - 1.0).abs() < 1e-12, "{steps} {by}: {} {}", one.2, two.2);
         }
-    }
-
-    #[test]
-    fn the_force_of_a_large_motion_is_a_square_wave() {
-        let contact = contact(0.0);
-        let huge = 1e9 * contact.slip_displacement;
-        let (force, _, energy) = all(&contact, 16, &[0.0, 0.0, huge, 0.0, 0.0, 0.0, 0.0]);
-        // The contact sticks for 1e-4 of the period.
-        assert!((force[1] / contact.slip_force * PI / 4.0 - 1.0).abs() < 1e-4);
-        assert!((energy / (4.0 * contact.slip_force * huge) - 1.0).abs() < 1e-8);
-        let square: f64 = force.iter().map(|force| force * force).sum();
-        assert!((square.sqrt() / contact.slip_force / (4.0 / PI * (1.0 + 1.0 / 9.0f64).sqrt()) - 1.0).abs() < 1e-4);
     }
 }

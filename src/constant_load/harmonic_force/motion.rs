@@ -1,6 +1,6 @@
 //! Periodic displacement in continuous time: instants of reversal, and of crossing a given displacement.
 
-use super::columns::synthesise;
+use crate::fourier::folded::FoldedFourier;
 use crate::numerics::roots::bracketed_newton;
 use core::f64::consts::PI;
 
@@ -11,14 +11,15 @@ pub(super) struct Instant {
     pub displacement: f64,
 }
 
-/// Buffers of the search for reversals on a uniform grid.
+/// Uniform grid on which reversals are searched.
+#[derive(Debug)]
 pub(super) struct Grid<'a> {
-    /// Columns 1, cos t, sin t, cos 2t, ... over the first half of the grid.
-    pub columns: &'a [f64],
-    /// Receives the rate of the displacement on the grid.
-    pub rate: &'a mut [f64],
-    /// Receives the coefficients of the rate.
+    /// Number of points, even.
+    pub points: usize,
+    pub fourier: FoldedFourier<'a>,
+    /// Rate of the displacement: its coefficients, and its values.
     pub coefficients: &'a mut [f64],
+    pub rate: &'a mut [f64],
 }
 
 /// A periodic displacement.
@@ -55,8 +56,8 @@ impl<'a> Motion<'a> {
     /// Finds the reversals in chronological order. Returns their number, and whether the displacement is half-wave symmetric; then
     /// only half a period is searched.
     #[inline(always)]
-    pub fn find_reversals(&self, grid: Grid, instants: &mut [[f64; 2]]) -> (usize, bool) {
-        let Grid { columns, rate, coefficients } = grid;
+    pub fn find_reversals(&self, grid: &mut Grid, instants: &mut [[f64; 2]]) -> (usize, bool) {
+        let Grid { points, fourier, coefficients, rate } = grid;
         let Some((constant, pairs)) = coefficients.split_first_mut() else { return (0, false) };
         *constant = 0.0;
         let mut k = 1.0;
@@ -64,9 +65,12 @@ impl<'a> Motion<'a> {
             *pair = [k * b, -k * a];
             k += 1.0;
         }
-        let half = rate.len() / 2;
-        let half_wave_symmetric = synthesise(columns, half, rate, coefficients) && self.mean == 0.0;
-        let points = if half_wave_symmetric { half } else { 2 * half };
+        fourier.synthesise(coefficients, rate);
+        let half = *points / 2;
+        let rate = rate.get_mut(..2 * half).unwrap_or(&mut []);
+        let half_wave_symmetric =
+            self.mean == 0.0 && self.pairs.iter().skip(1).step_by(2).all(|pair| *pair == [0.0; 2]);
+        let searched = if half_wave_symmetric { half } else { 2 * half };
         // A rate of 0 counts as positive. Under half-wave symmetry the rate at π is minus that at 0: if it is exactly 0 and positive
         // before π, it has to count as negative at π, or the reversal there is missed.
         if half_wave_symmetric
@@ -81,7 +85,7 @@ impl<'a> Motion<'a> {
         let (Some(&last), Some(&first)) = (rate.last(), rate.first()) else { return (0, false) };
         let successors = rate.iter().skip(1).chain([&first]);
         let mut before = last;
-        for (j, (&here, &next)) in rate.iter().zip(successors).enumerate().take(points) {
+        for (j, (&here, &next)) in rate.iter().zip(successors).enumerate().take(searched) {
             let t = j as f64 * step;
             let sign = if here < 0.0 { -1.0 } else { 1.0 };
             if (next < 0.0) != (here < 0.0) {
@@ -181,8 +185,9 @@ pub(super) fn fill_integrals(row: &mut [f64], from: f64, to: f64) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::columns::fill_columns;
     use super::*;
+    use crate::fourier::folded::sample_length;
+    use crate::fourier::workspace::Parts;
     use std::vec;
 
     /// Two reversals between adjacent grid points: the rate has the same sign at both.
@@ -190,16 +195,18 @@ mod tests {
     fn pairs_of_reversals_between_grid_points_are_found() {
         let (harmonics, points) = (4, 64);
         let n = 2 * harmonics + 1;
-        let (mut columns, mut rate, mut row) = (vec![0.0; n * points / 2], vec![0.0; points], vec![0.0; n]);
-        fill_columns(&mut columns, points, points / 2);
+        let (mut rate, mut row) = (vec![0.0; sample_length(points)], vec![0.0; n]);
+        let mut memory = vec![0.0; Parts::count(|parts| FoldedFourier::take(parts, points, harmonics))];
+        let mut fourier = FoldedFourier::take(&mut Parts::of(&mut memory), points, harmonics).unwrap();
+        fourier.fill();
+        let mut grid = Grid { points, fourier, coefficients: &mut row, rate: &mut rate };
         for shift in [0.0, 0.02, 0.05, 0.1, 0.5] {
             // The rate cos t + 1.001 cos 2t is negative over an interval of 0.05 about t = π; the grid step is 0.1.
             let [[s1, c1], [s2, c2]] = [shift, 2.0 * shift].map(|angle: f64| <[f64; 2]>::from(angle.sin_cos()));
             let mut coefficients = vec![0.0; n];
             coefficients[1..5].copy_from_slice(&[s1, c1, 0.5005 * s2, 0.5005 * c2]);
             let mut instants = vec![[0.0; 2]; points];
-            let grid = Grid { columns: &columns, rate: &mut rate, coefficients: &mut row };
-            assert_eq!(Motion::new(&coefficients).find_reversals(grid, &mut instants), (4, false), "{shift}");
+            assert_eq!(Motion::new(&coefficients).find_reversals(&mut grid, &mut instants), (4, false), "{shift}");
             for [t, displacement] in &instants[..4] {
                 let [u, rate, ..] = Motion::new(&coefficients).derivatives(*t);
                 assert!(rate.abs() < 1e-12 && u == *displacement, "{shift} {t} {rate}");

@@ -9,57 +9,24 @@
 //! ```
 
 use crate::fourier::rows::{OuterProducts, RowStrips, Rows, Strip, Terms, add_scaled, with_strips};
-use crate::fourier::workspace::Blocks;
+use crate::fourier::workspace::{Blocks, record};
 use crate::simd::dispatch;
 
-/// Doubles of a branch, and of a reversal on the stack, in the workspace.
-pub(super) const BRANCH: usize = 1;
-pub(super) const ENTRY: usize = 2;
-
-/// The branches along a period in the order of their samples, encoded as the bits of doubles.
-#[derive(Debug)]
-pub(super) struct Branches<'a> {
-    encoded: &'a mut [f64],
-    used: usize,
+record! {
+    /// Consecutive samples on a branch.
+    pub(super) struct Branch {
+        pub first: u64,
+        pub count: u64,
+        /// Number of reversals on the stack.
+        pub depth: u64,
+    }
 }
 
-/// Consecutive samples on a branch.
-#[derive(Debug, Clone, Copy)]
-struct Branch {
-    /// Counted from the farthest sample.
-    first: usize,
-    count: usize,
-    /// Number of reversals on the stack.
-    depth: usize,
-}
-
-impl<'a> Branches<'a> {
-    pub fn new(encoded: &'a mut [f64]) -> Branches<'a> {
-        Branches { encoded, used: 0 }
-    }
-
-    pub fn clear(&mut self) {
-        self.used = 0;
-    }
-
-    /// Appends a branch of `count` samples.
-    #[inline(always)]
-    pub fn push(&mut self, count: usize, depth: usize) {
-        if let Some(place) = self.encoded.get_mut(self.used) {
-            *place = f64::from_bits(count as u64 | (depth as u64) << 32);
-            self.used += 1;
-        }
-    }
-
-    #[inline(always)]
-    fn iter(&self) -> impl Iterator<Item = Branch> {
-        let mut first = 1;
-        self.encoded.iter().take(self.used).map(move |word| {
-            let word = word.to_bits();
-            let branch = Branch { first, count: word as u32 as usize, depth: (word >> 32) as usize };
-            first += branch.count;
-            branch
-        })
+record! {
+    /// A reversal on the stack.
+    pub(super) struct Entry {
+        sample: u64,
+        stiffness: f64,
     }
 }
 
@@ -67,39 +34,40 @@ impl<'a> Branches<'a> {
 #[derive(Debug)]
 pub(super) struct ReversalTerms<'a> {
     pub rows: Rows<'a>,
-    /// Sample and stiffness of each reversal on the stack.
-    pub entries: &'a mut [[f64; ENTRY]],
+    /// The reversals on the stack.
+    pub entries: &'a mut [Entry],
     /// G and Y of each.
     pub sums: &'a mut Blocks,
     pub outer: OuterProducts<'a, 1>,
 }
 
 impl ReversalTerms<'_> {
-    /// Gathers the terms along the branches, from the farthest sample on, at which `stiffness` starts.
+    /// Gathers the terms along the branches, with the stiffness at the samples of two periods.
     #[inline(always)]
-    pub fn gather(&mut self, branches: &Branches, farthest: usize, stiffness: &[f64]) {
-        with_strips!(self.rows.blocks(), self.gather_strips(branches, farthest, stiffness));
+    pub fn gather(&mut self, branches: &[Branch], stiffness: &[f64]) {
+        with_strips!(self.rows.blocks(), self.gather_strips(branches, stiffness));
     }
 
     #[inline(always)]
-    fn gather_strips<const N: usize>(&mut self, branches: &Branches, farthest: usize, stiffness: &[f64]) {
-        dispatch!(self.strips_kernel::<N>(branches, farthest, stiffness));
+    fn gather_strips<const N: usize>(&mut self, branches: &[Branch], stiffness: &[f64]) {
+        dispatch!(self.strips_kernel::<N>(branches, stiffness));
     }
 
     #[inline(always)]
-    fn strips_kernel<const N: usize>(&mut self, branches: &Branches, farthest: usize, stiffness: &[f64]) {
+    fn strips_kernel<const N: usize>(&mut self, branches: &[Branch], stiffness: &[f64]) {
         let ReversalTerms { rows, entries, sums, outer } = self;
         let sums = sums.as_chunks_mut::<N>().0.as_chunks_mut().0;
         for strip in 0..outer.strips::<N>() {
             let (rows, terms) = (rows.strips::<N>(strip), outer.terms(strip));
-            let mut stack = Stack { rows, farthest, entries, sums, depth: 0, terms };
-            for branch in branches.iter() {
-                stack.pop(branch.depth);
-                if branch.depth > stack.depth {
-                    let before = branch.first - 1;
+            let mut stack = Stack { rows, entries, sums, depth: 0, terms };
+            for &Branch { first, count, depth } in branches {
+                let [first, count, depth] = [first, count, depth].map(|number| number as usize);
+                stack.pop(depth);
+                if depth > stack.depth {
+                    let before = first - 1;
                     stack.push(before, stiffness.get(before).copied().unwrap_or(0.0));
                 }
-                stack.add(&branch, stiffness);
+                stack.add(first, count, stiffness);
             }
             stack.pop(0);
         }
@@ -109,25 +77,24 @@ impl ReversalTerms<'_> {
 /// The stack of reversals with their sums, in strips of N blocks.
 struct Stack<'s, const N: usize> {
     rows: RowStrips<'s, N>,
-    farthest: usize,
-    entries: &'s mut [[f64; ENTRY]],
+    entries: &'s mut [Entry],
     sums: &'s mut [[Strip<N>; 2]],
     depth: usize,
     terms: Terms<'s, N, 1>,
 }
 
 impl<const N: usize> Stack<'_, N> {
-    /// The sample of the period.
+    /// The sample of the first period.
     #[inline(always)]
-    fn sample(&self, from_farthest: usize) -> usize {
-        (self.farthest + from_farthest) % self.rows.phi.len().max(1)
+    fn in_period(&self, sample: usize) -> usize {
+        sample.checked_sub(self.rows.phi.len()).unwrap_or(sample)
     }
 
     #[inline(always)]
     fn push(&mut self, sample: usize, stiffness: f64) {
-        let sample = self.sample(sample);
+        let sample = self.in_period(sample);
         if let (Some(entry), Some(sums)) = (self.entries.get_mut(self.depth), self.sums.get_mut(self.depth)) {
-            (*entry, *sums) = ([sample as f64, stiffness], [[[0.0; 4]; N]; 2]);
+            (*entry, *sums) = (Entry { sample: sample as u64, stiffness }, [[[0.0; 4]; N]; 2]);
             self.depth += 1;
         }
     }
@@ -138,7 +105,8 @@ impl<const N: usize> Stack<'_, N> {
         while self.depth > depth {
             self.depth -= 1;
             let top = self.depth;
-            let (Some(&[sample, stiffness]), Some(&[covered, mut y])) = (self.entries.get(top), self.sums.get(top))
+            let (Some(&Entry { sample, stiffness }), Some(&[covered, mut y])) =
+                (self.entries.get(top), self.sums.get(top))
             else {
                 return;
             };
@@ -155,9 +123,8 @@ impl<const N: usize> Stack<'_, N> {
 
     /// Adds the samples of a branch to the sums of the reversal that it leaves.
     #[inline(always)]
-    fn add(&mut self, branch: &Branch, stiffness: &[f64]) {
-        let Branch { first, count, .. } = *branch;
-        let (from, to) = (self.sample(first), self.sample(first + count));
+    fn add(&mut self, first: usize, count: usize, stiffness: &[f64]) {
+        let (from, to) = (self.in_period(first), self.in_period(first + count));
         let Some([covered, y]) = self.depth.checked_sub(1).and_then(|top| self.sums.get_mut(top)) else { return };
         add_scaled(covered, 1.0, &self.rows.sum_between(from, to, count));
         let (rows, weights) = (self.rows.phi, stiffness.get(first..first + count).unwrap_or(&[]));

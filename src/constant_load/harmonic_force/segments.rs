@@ -1,11 +1,11 @@
-//! Gauss-Legendre quadrature of force and stiffness over one segment of the event-driven rule.
+//! Gauss-Legendre quadrature over one segment of the event-driven rule.
 //!
 //! On a segment the force is analytic in time: after a reversal it depends on `u - u_r ~ (t - t_r)²` alone. A segment that ends at
 //! the onset of gross slip has a singularity there, a power of the cube root of the distance; its nodes are those of the cube root.
 
-use super::Requested;
 use super::motion::Motion;
-use crate::constant_load::masing::BranchEvaluator;
+use crate::error::Error;
+use crate::fourier::workspace::{Parts, Size};
 use crate::numerics::quadrature::{MAX_GAUSS_BLOCKS, gauss_rule};
 use crate::simd::dispatch;
 use core::f64::consts::PI;
@@ -18,7 +18,7 @@ const MIN_BLOCKS_TO_SLIP: usize = 4;
 pub(super) const PANEL: usize = 4 * MAX_GAUSS_BLOCKS;
 
 /// Values at the nodes of a panel.
-type Nodes = [[f64; 4]; MAX_GAUSS_BLOCKS];
+pub(super) type Nodes = [[f64; 4]; MAX_GAUSS_BLOCKS];
 
 /// The interval of time between two events.
 #[derive(Debug, Clone, Copy)]
@@ -29,35 +29,25 @@ pub(super) struct Segment {
     pub to_slip: bool,
 }
 
-/// The nodes of a segment, panel by panel.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Panels {
-    segment: Segment,
-    count: usize,
-    rule: &'static [[[f64; 4]; 2]],
-}
-
 impl Segment {
-    /// The rule for a density of nodes.
+    /// Number of panels for a density of nodes, and their rule.
     #[inline(always)]
-    pub fn panels(self, nodes_per_period: usize) -> Panels {
+    fn panels(&self, nodes_per_period: usize) -> (usize, &'static [[[f64; 4]; 2]]) {
         // Nodes of the cube root are three times as far apart at the start of the segment.
         let (density, fewest) = if self.to_slip { (2.0, MIN_BLOCKS_TO_SLIP) } else { (1.0, MIN_BLOCKS) };
         let blocks_per_radian = nodes_per_period as f64 / (8.0 * PI);
         let blocks = ((density * (self.to - self.from) * blocks_per_radian + 0.5) as usize).max(fewest);
         let count = blocks.div_ceil(MAX_GAUSS_BLOCKS);
-        Panels { segment: self, count, rule: gauss_rule(blocks.div_ceil(count.max(1))) }
+        (count, gauss_rule(blocks.div_ceil(count.max(1))))
     }
-}
 
-impl Panels {
     /// Instants and weights of the nodes of a panel.
     #[inline(always)]
-    fn nodes(&self, panel: usize) -> [Nodes; 2] {
-        let Segment { from, to, to_slip } = self.segment;
-        let (length, fraction) = (to - from, 1.0 / self.count as f64);
+    fn nodes(&self, panel: usize, panels: usize, rule: &[[[f64; 4]; 2]]) -> [Nodes; 2] {
+        let Segment { from, to, to_slip } = *self;
+        let (length, fraction) = (to - from, 1.0 / panels as f64);
         let [mut times, mut weights]: [Nodes; 2] = [[[0.0; 4]; _]; _];
-        for ((times, weights), [nodes, rule_weights]) in times.iter_mut().zip(weights.iter_mut()).zip(self.rule) {
+        for ((times, weights), [nodes, rule_weights]) in times.iter_mut().zip(weights.iter_mut()).zip(rule) {
             for k in 0..4 {
                 let s = (panel as f64 + nodes[k]) * fraction;
                 let weight = length * fraction * rule_weights[k];
@@ -73,84 +63,61 @@ impl Panels {
         }
         [times, weights]
     }
-
-    /// Calls a function for the instant and the weight of each node.
-    pub fn for_each(&self, mut function: impl FnMut(f64, f64)) {
-        for panel in 0..self.count {
-            let [times, weights] = self.nodes(panel);
-            let nodes = times.as_flattened().iter().zip(weights.as_flattened());
-            nodes.take(4 * self.rule.len()).for_each(|(&t, &weight)| function(t, weight));
-        }
-    }
 }
 
-/// Fourier integrals over segments.
+/// Fourier sums over the nodes of a panel.
 #[derive(Debug)]
-pub(super) struct Integrals<'a> {
-    pub harmonics: usize,
-    pub nodes_per_period: usize,
-    /// cos and sin of each order up to 2H at the nodes of a panel.
-    pub basis: &'a mut [f64],
-    /// Of the force, up to the order H, accumulated.
-    pub force: &'a mut [f64],
-    /// Of the stiffness, up to the order 2H, over the latest segment.
-    pub segment_stiffness: &'a mut [f64],
-    /// Of the stiffness, up to the order 2H, accumulated.
-    pub stiffness: &'a mut [f64],
+pub(super) struct NodalFourier<'a> {
+    nodes_per_period: usize,
+    /// cos and sin of each order at the nodes of a panel.
+    rows: &'a mut [[Nodes; 2]],
 }
 
-impl Integrals<'_> {
+impl<'a> NodalFourier<'a> {
+    /// For orders up to 2H.
+    ///
+    /// # Errors
+    /// `BadWorkspace` if fewer doubles remain.
     #[inline(always)]
-    pub fn clear(&mut self) {
-        self.force.fill(0.0);
-        self.stiffness.fill(0.0);
+    pub fn take(parts: &mut Parts<'a>, size: Size) -> Result<NodalFourier<'a>, Error> {
+        let rows = parts.take_blocks(4 * size.harmonics * MAX_GAUSS_BLOCKS)?.as_chunks_mut().0.as_chunks_mut().0;
+        Ok(NodalFourier { nodes_per_period: size.samples, rows })
     }
 
-    /// Adds the integrals over a segment without gross slip; `force` and `segment_stiffness` only.
-    pub fn add(&mut self, evaluator: &BranchEvaluator, motion: &Motion, segment: Segment, requested: Requested) {
-        let Requested { force, stiffness } = requested;
-        let panels = segment.panels(self.nodes_per_period);
-        let rule = panels.rule;
-        let orders = if stiffness { 2 * self.harmonics } else { self.harmonics };
-        if stiffness {
-            self.segment_stiffness.fill(0.0);
-        }
-        for panel in 0..panels.count {
-            let [times, weights] = panels.nodes(panel);
-            let times = times.get(..rule.len()).unwrap_or(&[]);
-            let mut forces: Nodes = [[0.0; 4]; _];
-            let mut stiffnesses = weights;
+    /// Calls a function for each panel of a segment, with cos and sin up to an order, displacements and weights of its nodes.
+    #[inline(always)]
+    pub fn for_each_panel(
+        &mut self,
+        motion: &Motion,
+        segment: Segment,
+        orders: usize,
+        mut function: impl FnMut(&Self, &[[f64; 4]], &[[f64; 4]]),
+    ) {
+        let (panels, rule) = segment.panels(self.nodes_per_period);
+        for panel in 0..panels {
+            let [times, weights] = segment.nodes(panel, panels, rule);
             let mut displacement: Nodes = [[0.0; 4]; _];
-            fill_basis(self.basis, motion, orders, times, &mut displacement);
-            let nodes = displacement.iter().zip(&weights).take(rule.len());
-            for ((forces, stiffnesses), (displacement, weights)) in
-                forces.iter_mut().zip(stiffnesses.iter_mut()).zip(nodes)
-            {
-                for k in 0..4 {
-                    let response = evaluator.at(displacement[k]);
-                    forces[k] = weights[k] * response.force;
-                    stiffnesses[k] = weights[k] * response.stiffness;
-                }
-            }
-            if force {
-                add_sums(self.force, self.basis, forces.get(..rule.len()).unwrap_or(&[]));
-            }
-            if stiffness {
-                add_sums(self.segment_stiffness, self.basis, stiffnesses.get(..rule.len()).unwrap_or(&[]));
-            }
+            fill_rows(self.rows, motion, orders, times.get(..rule.len()).unwrap_or(&[]), &mut displacement);
+            let nodes = displacement.get(..rule.len()).zip(weights.get(..rule.len()));
+            nodes.into_iter().for_each(|(displacement, weights)| function(self, displacement, weights));
         }
+    }
+
+    /// Adds the products of weights and values at the nodes of a panel with 1, cos t, sin t, cos 2t, ..., one for each of `sums`.
+    #[inline(always)]
+    pub fn add(&self, weights: &[[f64; 4]], values: &Nodes, sums: &mut [f64]) {
+        dispatch!(sums_kernel(self.rows, weights, values, sums));
     }
 }
 
 /// Evaluates cos and sin of all orders up to `orders`, and the displacement, at the nodes of a panel.
 #[inline(always)]
-fn fill_basis(basis: &mut [f64], motion: &Motion, orders: usize, times: &[[f64; 4]], displacement: &mut Nodes) {
-    dispatch!(basis_kernel(basis, motion, orders, times, displacement));
+fn fill_rows(rows: &mut [[Nodes; 2]], motion: &Motion, orders: usize, times: &[[f64; 4]], displacement: &mut Nodes) {
+    dispatch!(rows_kernel(rows, motion, orders, times, displacement));
 }
 
 #[inline(always)]
-fn basis_kernel(basis: &mut [f64], motion: &Motion, orders: usize, times: &[[f64; 4]], displacement: &mut Nodes) {
-    let rows = basis.as_chunks_mut::<4>().0.as_chunks_mut::<{ 2 * MAX_GAUSS_BLOCKS }>().0;
+fn rows_kernel(rows: &mut [[Nodes; 2]], motion: &Motion, orders: usize, times: &[[f64; 4]], displacement: &mut Nodes) {
     for (block, (times, displacement)) in times.iter().zip(displacement.iter_mut()).enumerate() {
         let (mut cosine, mut sine) = ([0.0; 4], [0.0; 4]);
         for k in 0..4 {
@@ -159,8 +126,7 @@ fn basis_kernel(basis: &mut [f64], motion: &Motion, orders: usize, times: &[[f64
         let (mut c, mut s) = (cosine, sine);
         let mut u = [motion.mean; 4];
         let mut pairs = motion.pairs.iter();
-        for row in rows.iter_mut().take(orders) {
-            let (cosines, sines) = row.split_at_mut(MAX_GAUSS_BLOCKS);
+        for [cosines, sines] in rows.iter_mut().take(orders) {
             if let (Some(cosines), Some(sines)) = (cosines.get_mut(block), sines.get_mut(block)) {
                 (*cosines, *sines) = (c, s);
             }
@@ -177,31 +143,26 @@ fn basis_kernel(basis: &mut [f64], motion: &Motion, orders: usize, times: &[[f64
     }
 }
 
-/// Adds the weighted values at the nodes of a panel to Fourier sums.
 #[inline(always)]
-fn add_sums(sums: &mut [f64], basis: &[f64], values: &[[f64; 4]]) {
-    dispatch!(sums_kernel(sums, basis, values));
-}
-
-#[inline(always)]
-fn sums_kernel(sums: &mut [f64], basis: &[f64], values: &[[f64; 4]]) {
+fn sums_kernel(rows: &[[Nodes; 2]], weights: &[[f64; 4]], values: &Nodes, sums: &mut [f64]) {
     let total = |[one, two, three, four]: [f64; 4]| (one + two) + (three + four);
     let Some((constant, pairs)) = sums.split_first_mut() else { return };
+    let mut products: Nodes = [[0.0; 4]; _];
     let mut sum = [0.0; 4];
-    for value in values {
+    for ((product, weight), value) in products.iter_mut().zip(weights).zip(values) {
         for k in 0..4 {
-            sum[k] += value[k];
+            product[k] = weight[k] * value[k];
+            sum[k] += product[k];
         }
     }
     *constant += total(sum);
-    let rows = basis.as_chunks::<4>().0.as_chunks::<{ 2 * MAX_GAUSS_BLOCKS }>().0;
-    for ([by_cosine, by_sine], row) in pairs.as_chunks_mut::<2>().0.iter_mut().zip(rows) {
-        let (cosines, sines) = row.split_at(MAX_GAUSS_BLOCKS);
+    let products = products.get(..weights.len()).unwrap_or(&[]);
+    for ([by_cosine, by_sine], [cosines, sines]) in pairs.as_chunks_mut::<2>().0.iter_mut().zip(rows) {
         let (mut c, mut s) = ([0.0; 4], [0.0; 4]);
-        for ((value, cosine), sine) in values.iter().zip(cosines).zip(sines) {
+        for ((product, cosine), sine) in products.iter().zip(cosines).zip(sines) {
             for k in 0..4 {
-                c[k] += value[k] * cosine[k];
-                s[k] += value[k] * sine[k];
+                c[k] += product[k] * cosine[k];
+                s[k] += product[k] * sine[k];
             }
         }
         *by_cosine += total(c);

@@ -3,10 +3,8 @@
 //! At a fixed displacement the instants of the reversals are fixed, and the force is continuous where a loop closes or gross slip starts.
 //! So the derivatives are those of the force along the branches: those at the reversal that a branch leaves, and its own.
 
-use super::columns::clear_opposite_parity;
 use crate::constant_load::steady_state::SteadyState;
-use crate::fourier::normalise;
-use crate::parameters::{PARAMETERS, Sensitivity, times};
+use crate::parameters::Sensitivity;
 
 /// The derivatives at the reversals on the stack; both rules keep them where the Jacobian has its terms of the reversals.
 pub(super) struct ReversalSensitivities<'a>(&'a mut [Sensitivity]);
@@ -31,32 +29,13 @@ impl<'a> ReversalSensitivities<'a> {
     }
 }
 
-/// Adds the outer product of a row over the coefficients and the derivatives.
-pub(super) fn add(sums: &mut [f64], weight: f64, row: &[f64], sensitivity: Sensitivity) {
-    for (column, derivative) in sums.chunks_exact_mut(row.len().max(1)).zip(times(weight, sensitivity)) {
-        column.iter_mut().zip(row).for_each(|(sum, phi)| *sum += derivative * phi);
-    }
-}
-
-/// Scales the sums, those of half a period if `half_wave_symmetric`, to coefficients.
-pub(super) fn complete(sums: &mut [f64], weight: f64, half_wave_symmetric: bool) {
-    let length = sums.len() / PARAMETERS;
-    for column in sums.chunks_exact_mut(length.max(1)) {
-        normalise(column, weight);
-        if half_wave_symmetric {
-            clear_opposite_parity(1, column);
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use crate::constant_load::contact::tests::ellipse;
+    use crate::Contact;
     use crate::constant_load::harmonic_force::tests::{ODD, SHAPE, compute, scaled, workspace};
     use crate::constant_load::harmonic_force::{Rule, Workspace, harmonic_sensitivity};
     use crate::constant_load::sensitivity::tests::{cases, differences};
     use crate::parameters::PARAMETERS;
-    use crate::{Contact, Error};
     use std::vec;
     use std::vec::Vec;
 
@@ -122,19 +101,5 @@ mod tests {
                 assert_eq!(sensitivity(&at(1.0, 1.0), &mut memory, &[0.0; 7]), [0.0; 49]);
             }
         }
-    }
-
-    #[test]
-    fn lengths_and_displacements_are_checked() {
-        let (contact, mut memory) = (ellipse(1e-4, 1e-4), workspace(RULES[0], 1, 8));
-        let mut check = |displacement: &[f64], length: usize| {
-            let mut sensitivity = [1.0; 22];
-            let mut workspace = Workspace::new(&mut memory).unwrap();
-            harmonic_sensitivity(&contact, &mut workspace, displacement, &mut sensitivity[..length])
-        };
-        assert_eq!(check(&[0.0; 2], 21), Err(Error::BadArraySize));
-        assert_eq!(check(&[0.0; 3], 20), Err(Error::BadArraySize));
-        assert_eq!(check(&[0.0, f64::NAN, 0.0], 21), Err(Error::BadDisplacement));
-        assert_eq!(check(&[0.0; 3], 21), Ok(()));
     }
 }

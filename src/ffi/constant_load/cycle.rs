@@ -1,9 +1,8 @@
 //! Cyclic loading: hysteresis loops, energy, complex stiffness, and equivalent spring-slider elements.
 
 use crate::constant_load::complex_stiffness::check_amplitude;
-use crate::constant_load::contact::Contact;
 use crate::constant_load::equivalents;
-use crate::constant_load::stiffness_table::{StiffnessOutputs, StiffnessTable, TABLE_LENGTH};
+use crate::constant_load::stiffness_table::{StiffnessTable, TABLE_LENGTH};
 use crate::error::Error;
 use crate::ffi::mslip_contact;
 use crate::ffi::pointers::{self, call, input, output, outputs, set};
@@ -76,7 +75,8 @@ pub unsafe extern "C" fn mslip_complex_stiffness(
         let (contact, amplitude, mut outputs) =
             (pointers::contact(contact)?, input(amplitude, n)?, outputs([k_real, k_imag, dk_real, dk_imag], n)?);
         amplitude.iter().try_for_each(|&amplitude| check_amplitude(amplitude))?;
-        (0..).zip(amplitude).try_for_each(|(i, &one)| write_complex_stiffness(contact, one, i, &mut outputs))
+        (0..).zip(amplitude).for_each(|(i, &one)| contact.write_complex_stiffness(one, i, &mut outputs));
+        Ok(())
     })
 }
 
@@ -119,7 +119,7 @@ pub unsafe extern "C" fn mslip_complex_stiffness_tabulated(
     dk_imag: *mut f64,
 ) -> i32 {
     call(|| {
-        let (contact, table, amplitude, mut outputs) = (
+        let (contact, table, amplitude, outputs) = (
             pointers::contact(contact)?,
             pointers::stiffness_table(table)?,
             input(amplitude, n)?,
@@ -129,41 +129,9 @@ pub unsafe extern "C" fn mslip_complex_stiffness_tabulated(
             return Err(Error::BadTable);
         }
         amplitude.iter().try_for_each(|&amplitude| check_amplitude(amplitude))?;
-        if table.has_polynomials() && !contact.is_frictionless() {
-            table.write(contact, amplitude, outputs);
-            return Ok(());
-        }
-        (0..).zip(amplitude).try_for_each(|(i, &one)| write_complex_stiffness(contact, one, i, &mut outputs))
+        table.write(contact, amplitude, outputs);
+        Ok(())
     })
-}
-
-/// Writes the requested outputs of `mslip_complex_stiffness`, in its order.
-pub(in crate::ffi) fn write_complex_stiffness(
-    contact: &Contact,
-    amplitude: f64,
-    i: usize,
-    outputs: &mut StiffnessOutputs,
-) -> Result<(), Error> {
-    if outputs.iter().all(Option::is_none) {
-        return Ok(());
-    }
-    if contact.is_frictionless() {
-        outputs.iter_mut().for_each(|output| set(output, i, || 0.0));
-        return Ok(());
-    }
-    let stiffness = contact.complex_stiffness(amplitude)?;
-    let [k_real, k_imag, dk_real, dk_imag] = outputs;
-    if k_real.is_some() || dk_real.is_some() {
-        let (real, slope) = stiffness.real_with_derivative();
-        set(k_real, i, || real);
-        set(dk_real, i, || slope);
-    }
-    if k_imag.is_some() || dk_imag.is_some() {
-        let (imaginary, slope) = stiffness.imaginary_with_derivative();
-        set(k_imag, i, || imaginary);
-        set(dk_imag, i, || slope);
-    }
-    Ok(())
 }
 
 /// Jenkins element (spring and slider in series) with the same K' and K'' at a displacement amplitude \[m\]: stiffness \[N/m\] and slip

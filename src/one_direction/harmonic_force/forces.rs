@@ -1,7 +1,7 @@
 //! Tangential forces of the samples, run by run.
 
 use crate::element::Element;
-use crate::one_direction::harmonic_force::runs::{Kind, Place, Run, Runs};
+use crate::one_direction::harmonic_force::runs::{Kind, Place, Run};
 use crate::one_direction::harmonic_force::samples::{Samples, at};
 use crate::simd::dispatch;
 use core::ops::Range;
@@ -55,36 +55,42 @@ impl Forces<'_> {
         element: &Element,
         samples: &Samples,
         cut_shift: &[[f64; 4]],
-        runs: Runs,
+        runs: &[Run],
     ) {
         dispatch!(self.kernel::<SLOPES>(element, samples, cut_shift, runs));
     }
 
     #[inline(always)]
-    fn kernel<const SLOPES: bool>(&mut self, element: &Element, samples: &Samples, cut_shift: &[[f64; 4]], runs: Runs) {
+    fn kernel<const SLOPES: bool>(
+        &mut self,
+        element: &Element,
+        samples: &Samples,
+        cut_shift: &[[f64; 4]],
+        runs: &[Run],
+    ) {
         self.evaluate_cuts::<SLOPES>(element, cut_shift);
         let friction_coefficient = element.friction_coefficient;
         for run in runs {
-            let range = run.first..run.first + run.count;
+            let range = run.samples();
             let inner = self.at_place(samples, run.inner);
             let loads = samples.load.get(range.clone()).unwrap_or(&[]);
             let forces = self.force.get_mut(range.clone()).unwrap_or(&mut []);
             let mu = run.sign * friction_coefficient;
             match run.kind {
-                Kind::Open => forces.fill(0.0),
-                Kind::GrossSlip => forces.iter_mut().zip(loads).for_each(|(force, load)| *force = mu * load),
-                Kind::Stuck => {
+                Kind::OPEN => forces.fill(0.0),
+                Kind::GROSS_SLIP => forces.iter_mut().zip(loads).for_each(|(force, load)| *force = mu * load),
+                Kind::STUCK => {
                     let slopes = self.slope.get_mut(range.clone()).unwrap_or(&mut []);
-                    stick(samples, &run, range, mu, slopes, inner, forces);
+                    stick(samples, run, range, mu, slopes, inner, forces);
                 }
-                Kind::Slip => {
+                _ => {
                     let [inner_load, inner_force] = inner;
                     let slope = friction_coefficient * run.parameter;
-                    let cuts = self.cut_load.get(run.packed..run.packed + run.count).unwrap_or(&[]);
+                    let cuts = self.cut_load.get(run.cuts()).unwrap_or(&[]);
                     for ((force, &load), &cut_load) in forces.iter_mut().zip(loads).zip(cuts) {
                         *force = inner_force + slope * (cut_load - inner_load) + mu * (load - cut_load);
                     }
-                    let last = run.first + run.count - 1;
+                    let last = range.end - 1;
                     let cut_load = cuts.last().copied().unwrap_or(0.0);
                     if let (Some(force), Some(load)) =
                         (self.last_cut_force.get_mut(last), self.last_cut_load.get_mut(last))
@@ -108,7 +114,7 @@ fn stick(
     [mut load_before, mut force_before]: [f64; 2],
     forces: &mut [f64],
 ) {
-    let before = samples.before(run.first);
+    let before = samples.before(range.start);
     let [mut xi_before, mut eta_before] =
         if run.inner == Place::CENTRE { [run.parameter; 2] } else { [at(samples.xi, before), at(samples.eta, before)] };
     let xi = samples.xi.get(range.clone()).unwrap_or(&[]);

@@ -18,83 +18,64 @@
 
 use crate::element::Element;
 use crate::fourier::rows::{OuterProducts, RowStrips, Rows, Strip, Terms, add_scaled, scaled, with_strips};
-use crate::fourier::workspace::Blocks;
-use crate::one_direction::harmonic_force::runs::{EMPTY_RUN, Kind, Run, Runs, closing};
+use crate::fourier::workspace::{Blocks, record};
+use crate::one_direction::harmonic_force::runs::{Kind, Run, closing};
 use crate::one_direction::harmonic_force::samples::{Part, Samples, at};
 use crate::one_direction::step::Crossing;
 use crate::simd::dispatch;
 
-/// Doubles of a piece in the workspace.
-pub(super) const PIECE: usize = 6;
-
-/// How a piece was made, in 3 bits.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Made(u64);
+record! {
+    /// How a piece was made.
+    #[derive(PartialEq)]
+    struct Made {
+        code: u64,
+    }
+}
 
 impl Made {
     /// The part with D = 0.
-    const NEVER: Made = Made(0);
+    const NEVER: Made = Made { code: 0 };
     /// By slip, forwards or backwards.
-    const FORWARDS: Made = Made(1);
-    const BACKWARDS: Made = Made(2);
+    const FORWARDS: Made = Made { code: 1 };
+    const BACKWARDS: Made = Made { code: 2 };
     /// By sticking, between two samples.
-    const BY_STICKING: Made = Made(3);
+    const BY_STICKING: Made = Made { code: 3 };
     /// By sticking, since the contact closed after the sample before.
-    const SINCE_CLOSING: Made = Made(4);
+    const SINCE_CLOSING: Made = Made { code: 4 };
 }
 
-/// A piece of the diagram, and its weights for the later samples.
-#[derive(Debug, Clone, Copy)]
-struct Piece {
-    made: Made,
-    /// The sample that made it.
-    sample: usize,
-    /// Weights of the constant part and of the linear part for samples from `since` on, counted along the path.
-    weights: [f64; 2],
-    since: usize,
-    /// Slip zone: f at the inner end; stuck: 1/(S_j - S_i).
-    parameter: f64,
-    /// A run of slip that cut it, not yet added to its sums.
-    cut: Cut,
-    /// Whether sums were stored.
-    stored: bool,
+record! {
+    /// A piece of the diagram, and its weights for the later samples.
+    pub(super) struct Piece {
+        made: Made,
+        /// The sample that made it.
+        sample: u64,
+        /// Weights of the constant part and of the linear part for samples from `since` on, counted along the path.
+        weights: [f64; 2],
+        since: u64,
+        /// Slip zone: f at the inner end; stuck: 1/(S_j - S_i).
+        parameter: f64,
+        /// A run of slip that cut it, not yet added to its sums.
+        cut: Cut,
+        /// 1 if sums were stored.
+        stored: u64,
+    }
 }
 
-/// A run that cuts a piece: its samples, counted along the path, and the first of its packed boundaries.
-#[derive(Debug, Clone, Copy)]
-struct Cut {
-    step: usize,
-    count: usize,
-    packed: usize,
+record! {
+    /// A run that cuts a piece: its samples, counted along the path, and the first of its packed boundaries.
+    struct Cut {
+        step: u64,
+        count: u64,
+        packed: u64,
+    }
 }
 
 const NO_CUT: Cut = Cut { step: 0, count: 0, packed: 0 };
 
 impl Piece {
-    #[inline(always)]
-    fn encoded(&self) -> [f64; PIECE] {
-        let word = self.made.0 | u64::from(self.stored) << 3 | (self.sample as u64) << 4 | (self.since as u64) << 34;
-        let Cut { step, count, packed } = self.cut;
-        let cut = [(step as u64) | (count as u64) << 32, packed as u64].map(f64::from_bits);
-        [f64::from_bits(word), self.weights[0], self.weights[1], self.parameter, cut[0], cut[1]]
-    }
-
-    #[inline(always)]
-    fn decoded([word, constant, linear, parameter, cut, packed]: [f64; PIECE]) -> Piece {
-        let (word, cut) = (word.to_bits(), cut.to_bits());
-        Piece {
-            made: Made(word & 7),
-            sample: ((word >> 4) & ((1 << 30) - 1)) as usize,
-            weights: [constant, linear],
-            since: (word >> 34) as usize,
-            parameter,
-            cut: Cut { step: cut as u32 as usize, count: (cut >> 32) as usize, packed: packed.to_bits() as usize },
-            stored: word & 8 != 0,
-        }
-    }
-
     fn is_stuck(&self) -> bool {
-        self.made.0 >= Made::BY_STICKING.0
+        self.made.code >= Made::BY_STICKING.code
     }
 }
 
@@ -119,7 +100,7 @@ impl InnerEnd {
 #[derive(Debug)]
 pub(super) struct Sensitivity<'a> {
     pub rows: Rows<'a>,
-    pub pieces: &'a mut [[f64; PIECE]],
+    pub pieces: &'a mut [Piece],
     /// Sums of φ times both weights of pieces that were cut repeatedly.
     pub stored: &'a mut Blocks,
     /// Term of each sample among the outer products, or -1.
@@ -165,24 +146,24 @@ impl Context<'_> {
 impl Sensitivity<'_> {
     /// Gathers the derivatives along the runs.
     #[inline(never)]
-    pub fn gather(&mut self, context: &Context, cuts: &Cuts, runs: &Runs) {
+    pub fn gather(&mut self, context: &Context, cuts: &Cuts, runs: &[Run]) {
         with_strips!(self.rows.blocks(), self.gather_strips(context, cuts, runs));
     }
 
     #[inline(always)]
-    fn gather_strips<const N: usize>(&mut self, context: &Context, cuts: &Cuts, runs: &Runs) {
+    fn gather_strips<const N: usize>(&mut self, context: &Context, cuts: &Cuts, runs: &[Run]) {
         dispatch!(self.strips_kernel::<N>(context, cuts, runs));
     }
 
     #[inline(always)]
-    fn strips_kernel<const N: usize>(&mut self, context: &Context, cuts: &Cuts, runs: &Runs) {
+    fn strips_kernel<const N: usize>(&mut self, context: &Context, cuts: &Cuts, runs: &[Run]) {
         let Sensitivity { rows, pieces, stored, places, outer, own: [own_by_u, own_by_input] } = self;
         let stored = stored.as_chunks_mut::<N>().0.as_chunks_mut().0;
         for strip in 0..outer.strips::<N>() {
             places.fill(-1.0);
             let (rows, terms) = (rows.strips(strip), outer.terms(strip));
             let mut gathering = Gathering { context, cuts, rows, pieces, depth: 0, stored, places, terms };
-            gathering.gather(runs.clone(), own_by_u, own_by_input);
+            gathering.gather(runs, own_by_u, own_by_input);
         }
     }
 }
@@ -203,7 +184,7 @@ struct Gathering<'c, const N: usize> {
     cuts: &'c Cuts<'c>,
     rows: RowStrips<'c, N>,
     /// Piece k ends at knot k: pieces are counted from the centre.
-    pieces: &'c mut [[f64; PIECE]],
+    pieces: &'c mut [Piece],
     depth: usize,
     stored: &'c mut [[Strip<N>; 2]],
     places: &'c mut [f64],
@@ -212,17 +193,16 @@ struct Gathering<'c, const N: usize> {
 
 impl<const N: usize> Gathering<'_, N> {
     #[inline(always)]
-    fn gather(&mut self, runs: Runs, by_u: &mut [f64], by_input: &mut [f64]) {
+    fn gather(&mut self, runs: &[Run], by_u: &mut [f64], by_input: &mut [f64]) {
         let Context { element, samples, .. } = *self.context;
         let mut now = 0;
-        let end = Run { kind: Kind::Open, count: 0, ..EMPTY_RUN };
-        for run in runs.chain([end]) {
-            let range = run.first..run.first + run.count;
-            let last = range.end.saturating_sub(1);
+        for run in runs.iter().chain([&Run::EMPTY]) {
+            let range = run.samples();
+            let (count, last) = (range.len(), range.end.saturating_sub(1));
             let kept = match run.kind {
-                Kind::Slip => run.kept,
-                Kind::Stuck => run.kept.saturating_sub(1),
-                Kind::Open | Kind::GrossSlip => 0,
+                Kind::SLIP => run.kept(),
+                Kind::STUCK => run.kept().saturating_sub(1),
+                _ => 0,
             };
             self.remove_beyond(kept, now);
             let by_u = by_u.get_mut(range.clone()).unwrap_or(&mut []);
@@ -231,32 +211,32 @@ impl<const N: usize> Gathering<'_, N> {
             let made = if run.sign > 0.0 { Made::FORWARDS } else { Made::BACKWARDS };
             let line = Piece {
                 made,
-                sample: last,
+                sample: last as u64,
                 weights: [at(samples.stiffness, last), 0.0],
-                since: now + run.count,
+                since: (now + count) as u64,
                 parameter: 0.0,
                 cut: NO_CUT,
-                stored: false,
+                stored: 0,
             };
             match run.kind {
-                Kind::Open => {
+                Kind::OPEN => {
                     by_u.fill(0.0);
                     by_input.fill(0.0);
                 }
-                Kind::GrossSlip => {
+                Kind::GROSS_SLIP => {
                     by_u.fill(0.0);
                     let slopes = samples.load_slope.get(range).unwrap_or(&[]);
                     by_input.iter_mut().zip(slopes).for_each(|(weight, slope)| *weight = mu * slope);
                     self.push(&line);
                 }
-                Kind::Stuck => {
+                Kind::STUCK => {
                     by_input.fill(0.0);
                     let stiffnesses = samples.stiffness.get(range).unwrap_or(&[]);
                     by_u.iter_mut().zip(stiffnesses).for_each(|(weight, stiffness)| *weight = *stiffness);
-                    self.stick(&run, now);
+                    self.stick(run, now);
                 }
-                Kind::Slip => {
-                    let cuts = self.cuts.stiffnesses.get(run.packed..run.packed + run.count).unwrap_or(&[]);
+                _ => {
+                    let cuts = self.cuts.stiffnesses.get(run.cuts()).unwrap_or(&[]);
                     let stiffnesses = samples.stiffness.get(range.clone()).unwrap_or(&[]);
                     let slopes = samples.shift_slope.get(range).unwrap_or(&[]);
                     for ((((by_u, by_input), cut), stiffness), slope) in
@@ -265,27 +245,25 @@ impl<const N: usize> Gathering<'_, N> {
                         *by_u = *cut;
                         *by_input = mu * slope * (stiffness - cut);
                     }
-                    if self.depth < run.kept {
+                    if self.depth < run.kept() {
                         self.push(&Piece { made: Made::NEVER, ..line });
                     }
-                    self.cut(self.depth.saturating_sub(1), Cut { step: now, count: run.count, packed: run.packed });
+                    self.cut(
+                        self.depth.saturating_sub(1),
+                        Cut { step: now as u64, count: count as u64, packed: run.cuts().start as u64 },
+                    );
                     let cut = cuts.last().copied().unwrap_or(0.0);
                     self.push(&Piece { weights: [line.weights[0] - cut, 0.0], parameter: cut, ..line });
                 }
             }
-            now += run.count;
+            now += count;
         }
-    }
-
-    #[inline(always)]
-    fn piece(&self, index: usize) -> Option<Piece> {
-        self.pieces.get(index).copied().map(Piece::decoded)
     }
 
     #[inline(always)]
     fn push(&mut self, piece: &Piece) {
         if let Some(place) = self.pieces.get_mut(self.depth) {
-            *place = piece.encoded();
+            *place = *piece;
             self.depth += 1;
         }
     }
@@ -294,16 +272,17 @@ impl<const N: usize> Gathering<'_, N> {
     #[inline(always)]
     fn stick(&mut self, run: &Run, now: usize) {
         let Context { samples, part, .. } = *self.context;
-        let closes = part.opens && samples.is_open(samples.before(run.first));
+        let range = run.samples();
+        let closes = part.opens && samples.is_open(samples.before(range.start));
         let mut made = if closes { Made::SINCE_CLOSING } else { Made::BY_STICKING };
-        let mut inner = self.context.inner_end(run.first);
-        for step in 0..run.count {
-            let sample = run.first + step;
+        let mut inner = self.context.inner_end(range.start);
+        for (since, sample) in (now..).zip(range) {
             let [shift, load, stiffness] =
                 [at(samples.shift, sample), at(samples.load, sample), at(samples.stiffness, sample)];
             let parameter = inverse(shift - inner.shift);
             let weights = inner.weights_to(parameter, [shift, load, stiffness]);
-            self.push(&Piece { made, sample, weights, since: now + step, parameter, cut: NO_CUT, stored: false });
+            let (sample, since) = (sample as u64, since as u64);
+            self.push(&Piece { made, sample, weights, since, parameter, cut: NO_CUT, stored: 0 });
             inner = InnerEnd { shift, load, stiffness };
             made = Made::BY_STICKING;
         }
@@ -325,22 +304,23 @@ impl<const N: usize> Gathering<'_, N> {
     #[inline(always)]
     fn sums(&self, index: usize, piece: &mut Piece, now: usize) -> [Strip<N>; 2] {
         let mut sums = [[[0.0; 4]; N]; 2];
-        if let (true, Some(stored)) = (piece.stored, self.stored.get(index)) {
+        if let (1, Some(stored)) = (piece.stored, self.stored.get(index)) {
             sums = *stored;
         }
-        let Cut { step, count, packed } = piece.cut;
+        let Piece { since, cut: Cut { step, count, packed }, .. } = *piece;
+        let [since, step, count, packed] = [since, step, count, packed].map(|number| number as usize);
         if count == 0 {
-            self.add_covered(&mut sums, piece.weights, piece.since, now);
+            self.add_covered(&mut sums, piece.weights, since, now);
             return sums;
         }
-        self.add_covered(&mut sums, piece.weights, piece.since, step);
+        self.add_covered(&mut sums, piece.weights, since, step);
         let first = self.context.sample_at(step);
         let rows = self.rows.phi.get(first..first + count).unwrap_or(&[]);
         let packed = packed..packed + count;
         let stiffnesses = self.cuts.stiffnesses.get(packed.clone()).unwrap_or(&[]);
         let [constant, linear] = &mut sums;
         if piece.is_stuck() {
-            let inner = self.context.inner_end(piece.sample);
+            let inner = self.context.inner_end(piece.sample as usize);
             let (shifts, loads) =
                 (self.cuts.shifts.get(packed.clone()).unwrap_or(&[]), self.cuts.loads.get(packed).unwrap_or(&[]));
             for (((row, &shift), &load), &stiffness) in rows.iter().zip(shifts).zip(loads).zip(stiffnesses) {
@@ -361,20 +341,20 @@ impl<const N: usize> Gathering<'_, N> {
     /// Cuts a piece by a run of slip.
     #[inline(always)]
     fn cut(&mut self, index: usize, cut: Cut) {
-        let Some(mut piece) = self.piece(index) else { return };
+        let Some(mut piece) = self.pieces.get(index).copied() else { return };
         if piece.made == Made::NEVER {
             return;
         }
         if piece.cut.count > 0 {
-            let sums = self.sums(index, &mut piece, cut.step);
+            let sums = self.sums(index, &mut piece, cut.step as usize);
             if let Some(place) = self.stored.get_mut(index) {
                 *place = sums;
             }
-            (piece.stored, piece.since) = (true, cut.step);
+            (piece.stored, piece.since) = (1, cut.step);
         }
         piece.cut = cut;
         if let Some(place) = self.pieces.get_mut(index) {
-            *place = piece.encoded();
+            *place = piece;
         }
     }
 
@@ -390,12 +370,12 @@ impl<const N: usize> Gathering<'_, N> {
     #[inline(always)]
     fn remove(&mut self, index: usize, now: usize) {
         let Context { element, samples, .. } = *self.context;
-        let Some(mut piece) = self.piece(index) else { return };
-        if piece.made == Made::NEVER || (!piece.stored && piece.cut.count == 0 && now <= piece.since) {
+        let Some(mut piece) = self.pieces.get(index).copied() else { return };
+        if piece.made == Made::NEVER || (piece.stored == 0 && piece.cut.count == 0 && now <= piece.since as usize) {
             return;
         }
         let [constant, linear] = self.sums(index, &mut piece, now);
-        let (made, sample) = (piece.made, piece.sample);
+        let (made, sample) = (piece.made, piece.sample as usize);
         let shift_slope = at(samples.shift_slope, sample);
         if !piece.is_stuck() {
             let mu = element.friction_coefficient * if made == Made::FORWARDS { 1.0 } else { -1.0 };

@@ -4,117 +4,102 @@
 //! afterwards, all at once: the shifts of these boundaries are packed in the order of the samples that slip.
 
 use crate::element::Element;
+use crate::fourier::workspace::record;
 use crate::one_direction::diagram::slope;
+use crate::one_direction::energy::{self, Path};
 use crate::one_direction::harmonic_force::samples::{Part, Samples, at, ranges};
 use crate::one_direction::step::Crossing;
+use core::ops::Range;
 
-/// Doubles of a knot and of a run in the workspace.
-pub(super) const KNOT: usize = 4;
-pub(super) const RUN: usize = 3;
-
-/// What the samples of a run do.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kind {
-    Open,
-    /// Everything sticks: each sample adds a piece to the diagram.
-    Stuck,
-    /// A slip zone grows along one piece of the diagram.
-    Slip,
-    GrossSlip,
+record! {
+    /// What the samples of a run do.
+    #[derive(PartialEq, Eq)]
+    pub(super) struct Kind {
+        code: u64,
+    }
 }
 
-/// End of a piece of the diagram, as the bits of a double.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) struct Place(u64);
+impl Kind {
+    pub const OPEN: Kind = Kind { code: 0 };
+    /// Everything sticks: each sample adds a piece to the diagram.
+    pub const STUCK: Kind = Kind { code: 1 };
+    /// A slip zone grows along one piece of the diagram.
+    pub const SLIP: Kind = Kind { code: 2 };
+    pub const GROSS_SLIP: Kind = Kind { code: 3 };
+}
+
+record! {
+    /// End of a piece of the diagram: twice the sample, and one more for the whole contact than for the boundary of the slip zone.
+    #[derive(PartialEq)]
+    pub(super) struct Place {
+        code: f64,
+    }
+}
 
 impl Place {
     /// The centre of the contact.
-    pub const CENTRE: Place = Place(1 << 40);
+    pub const CENTRE: Place = Place { code: -1.0 };
 
     /// The whole contact at a sample.
     fn end(sample: usize) -> Place {
-        Place((sample as u64) << 1 | 1)
+        Place { code: (2 * sample + 1) as f64 }
     }
 
     /// The boundary of the slip zone at a sample.
     fn cut(sample: usize) -> Place {
-        Place((sample as u64) << 1)
+        Place { code: (2 * sample) as f64 }
     }
 
     pub fn is_end(self) -> bool {
-        self.0 & 1 == 1
+        self.code as u32 % 2 == 1
     }
 
     pub fn sample(self) -> usize {
-        (self.0 >> 1) as usize
+        (self.code as u32 / 2) as usize
     }
 }
 
-/// Consecutive samples that change the diagram in the same way.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Run {
-    pub kind: Kind,
-    pub first: usize,
-    pub count: usize,
-    /// Number of knots that stay, and the last of these.
-    pub kept: usize,
-    pub inner: Place,
-    /// Slip: index of the first packed boundary.
-    pub packed: usize,
-    /// Slip: +1 or -1.
-    pub sign: f64,
-    /// Slip: D/mu of the piece that is cut. Stuck from the centre: displacement of the centre.
-    pub parameter: f64,
+record! {
+    /// Consecutive samples that change the diagram in the same way.
+    pub(super) struct Run {
+        pub kind: Kind,
+        first: u64,
+        count: u64,
+        /// Number of knots that stay, and the last of these.
+        kept: u64,
+        pub inner: Place,
+        /// Slip: index of the first packed boundary.
+        packed: u64,
+        /// Slip: +1 or -1.
+        pub sign: f64,
+        /// Slip: D/mu of the piece that is cut. Stuck from the centre: displacement of the centre.
+        pub parameter: f64,
+    }
 }
 
 impl Run {
-    /// In the workspace: kind, direction and counts in one word, the inner place, the parameter. First sample and packed index follow
-    /// from the runs before.
-    fn encoded(&self) -> [f64; RUN] {
-        let backward = u64::from(self.sign < 0.0);
-        let word = self.kind as u64 | backward << 2 | (self.count as u64) << 3 | (self.kept as u64) << 32;
-        [f64::from_bits(word), f64::from_bits(self.inner.0), self.parameter]
+    pub const EMPTY: Run = Run {
+        kind: Kind::OPEN,
+        first: 0,
+        count: 0,
+        kept: 0,
+        inner: Place::CENTRE,
+        packed: 0,
+        sign: 1.0,
+        parameter: 0.0,
+    };
+
+    pub fn samples(&self) -> Range<usize> {
+        self.first as usize..(self.first + self.count) as usize
     }
-}
 
-/// The runs of a path.
-#[derive(Debug, Clone)]
-pub(super) struct Runs<'a> {
-    encoded: core::slice::Iter<'a, [f64; RUN]>,
-    first: usize,
-    packed: usize,
-    samples: usize,
-}
+    /// Slip: the packed boundaries.
+    pub fn cuts(&self) -> Range<usize> {
+        self.packed as usize..(self.packed + self.count) as usize
+    }
 
-impl Iterator for Runs<'_> {
-    type Item = Run;
-
-    fn next(&mut self) -> Option<Run> {
-        let &[word, inner, parameter] = self.encoded.next()?;
-        let word = word.to_bits();
-        let kind = match word & 3 {
-            0 => Kind::Open,
-            1 => Kind::Stuck,
-            2 => Kind::Slip,
-            _ => Kind::GrossSlip,
-        };
-        let count = ((word >> 3) & ((1 << 29) - 1)) as usize;
-        let run = Run {
-            kind,
-            first: self.first,
-            count,
-            kept: (word >> 32) as usize,
-            inner: Place(inner.to_bits()),
-            packed: self.packed,
-            sign: if word & 4 == 0 { 1.0 } else { -1.0 },
-            parameter,
-        };
-        self.first += count;
-        if self.first >= self.samples {
-            self.first = 0;
-        }
-        self.packed += if kind == Kind::Slip { count } else { 0 };
-        Some(run)
+    pub fn kept(&self) -> usize {
+        self.kept as usize
     }
 }
 
@@ -134,16 +119,17 @@ impl Knot {
     /// The far end of the part with D = 0.
     const CORE: Knot = Knot { xi: -1e200, eta: 1e200, place: Place::CENTRE };
 
-    fn encoded(&self) -> [f64; KNOT] {
-        [self.xi, self.eta, f64::from_bits(self.place.0), 0.0]
+    /// A knot as in other diagrams, which have forces.
+    fn numbers(&self) -> [f64; 4] {
+        [self.xi, self.eta, self.place.code, 0.0]
     }
 }
 
 /// Memory of the diagram and the runs along a periodic path.
 #[derive(Debug)]
 pub(super) struct PeriodicPath<'a> {
-    pub knots: &'a mut [[f64; KNOT]],
-    pub runs: &'a mut [[f64; RUN]],
+    pub knots: &'a mut [[f64; 4]],
+    pub runs: &'a mut [Run],
     /// S at the boundaries of the slip zones.
     pub cut_shift: &'a mut [f64],
 }
@@ -157,19 +143,68 @@ pub(super) struct Extent {
 
 /// The stack of knots.
 struct Stack<'a> {
-    knots: &'a mut [[f64; KNOT]],
+    knots: &'a mut [[f64; 4]],
     depth: usize,
 }
 
-impl Stack<'_> {
+impl<'a> Stack<'a> {
+    /// The diagram before the first sample of a part.
+    fn new(knots: &'a mut [[f64; 4]], part: &Part) -> Stack<'a> {
+        let mut stack = Stack { knots, depth: 0 };
+        stack.restart(0.0);
+        if !part.opens {
+            stack.push(Knot::CORE);
+        }
+        stack
+    }
+
+    /// Starts anew from the displacement of the centre.
+    fn restart(&mut self, displacement: f64) {
+        self.depth = 0;
+        self.push(Knot::centre(displacement));
+    }
+
+    fn used(&self) -> &[[f64; 4]] {
+        self.knots.get(..self.depth).unwrap_or(&[])
+    }
+
+    /// Advances along the leading samples of a range that change the diagram in the same way; `cuts` receives the boundaries of their
+    /// slip zones.
+    fn advance(
+        &mut self,
+        element: &Element,
+        samples: &Samples,
+        part: &Part,
+        range: Range<usize>,
+        cuts: &mut [f64],
+    ) -> Run {
+        let (first, span) = (range.start, Span::of(samples, range));
+        let run = if part.opens && samples.is_open(first) {
+            let closes = span.inputs.iter().position(|input| *input > 0.0);
+            Run { count: closes.unwrap_or(span.inputs.len()) as u64, ..Run::EMPTY }
+        } else {
+            if part.opens && samples.is_open(samples.before(first)) {
+                self.restart(closing(samples, element, first).displacement);
+            }
+            if !self.close_loops(at(span.xi, 0), at(span.eta, 0)) {
+                stick(self, span)
+            } else if self.depth == 0 {
+                slip_grossly(self, span)
+            } else {
+                slip(self, span, element.per_two_mu, cuts)
+            }
+        };
+        Run { first: first as u64, ..run }
+    }
+
     fn knot(&self, index: usize) -> Knot {
-        let [xi, eta, place, _] = self.knots.get(index).copied().unwrap_or([0.0; KNOT]);
-        Knot { xi, eta, place: Place(place.to_bits()) }
+        let [xi, eta, code, _] = self.knots.get(index).copied().unwrap_or([0.0; 4]);
+        Knot { xi, eta, place: Place { code } }
     }
 
     fn push(&mut self, knot: Knot) {
         if let Some(place) = self.knots.get_mut(self.depth) {
-            *place = knot.encoded();
+            *place = knot.numbers();
             self.depth += 1;
         }
     }
@@ -196,67 +231,36 @@ struct Span<'a> {
     inputs: &'a [f64],
 }
 
-impl PeriodicPath<'_> {
-    /// The memory of the knots, for a diagram with forces.
-    pub fn diagram(&mut self) -> &mut [[f64; 4]] {
-        self.knots
+impl<'a> Span<'a> {
+    fn of(samples: &'a Samples, range: Range<usize>) -> Span<'a> {
+        let [xi, eta, inputs] =
+            [&*samples.xi, samples.eta, samples.input].map(|values| values.get(range.clone()).unwrap_or(&[]));
+        Span { first: range.start, xi, eta, inputs }
     }
+}
 
+impl PeriodicPath<'_> {
     /// The packed boundaries in blocks of four.
     pub fn cuts(&self, extent: Extent) -> &[[f64; 4]] {
         self.cut_shift.as_chunks().0.get(..extent.cuts.div_ceil(4)).unwrap_or(&[])
     }
 
-    /// The runs along a part of the period.
-    pub fn runs(&self, extent: Extent, part: &Part, samples: usize) -> Runs<'_> {
-        let encoded = self.runs.get(..extent.runs).unwrap_or(&[]).iter();
-        Runs { encoded, first: part.start, packed: 0, samples }
-    }
-
+    /// Finds the runs along a part of the period.
     #[inline(never)]
     pub fn evaluate(&mut self, element: &Element, samples: &Samples, part: &Part) -> Extent {
-        let mut stack = Stack { knots: self.knots, depth: 0 };
-        stack.push(Knot::centre(0.0));
-        if !part.opens {
-            stack.push(Knot::CORE);
-        }
+        let mut stack = Stack::new(self.knots, part);
         let mut runs = self.runs.iter_mut();
         let mut extent = Extent { runs: 0, cuts: 0 };
-        let mut was_open = part.opens;
         for range in ranges(part, samples.count) {
             let mut next = range.start;
             while next < range.end {
-                let span = Span {
-                    first: next,
-                    xi: samples.xi.get(next..range.end).unwrap_or(&[]),
-                    eta: samples.eta.get(next..range.end).unwrap_or(&[]),
-                    inputs: samples.input.get(next..range.end).unwrap_or(&[]),
-                };
-                let (Some(&x), Some(&y), Some(place)) = (span.xi.first(), span.eta.first(), runs.next()) else { break };
-                let run = if part.opens && samples.is_open(next) {
-                    was_open = true;
-                    let closes = span.inputs.iter().position(|input| *input > 0.0);
-                    Run { count: closes.unwrap_or(span.inputs.len()), ..EMPTY_RUN }
-                } else {
-                    if was_open {
-                        stack.depth = 0;
-                        stack.push(Knot::centre(closing(samples, element, next).displacement));
-                        was_open = false;
-                    }
-                    if !stack.close_loops(x, y) {
-                        stick(&mut stack, span)
-                    } else if stack.depth == 0 {
-                        slip_grossly(&mut stack, span)
-                    } else {
-                        let places = self.cut_shift.get_mut(extent.cuts..).unwrap_or(&mut []);
-                        let run = slip(&mut stack, span, element.per_two_mu, places);
-                        extent.cuts += run.count;
-                        run
-                    }
-                };
-                *place = run.encoded();
+                let Some(place) = runs.next() else { break };
+                let cuts = self.cut_shift.get_mut(extent.cuts..).unwrap_or(&mut []);
+                let run = stack.advance(element, samples, part, next..range.end, cuts);
+                *place = Run { packed: extent.cuts as u64, ..run };
+                extent.cuts += if run.kind == Kind::SLIP { run.count as usize } else { 0 };
                 extent.runs += 1;
-                next += run.count;
+                next += run.count as usize;
             }
         }
         // Fills the last block of four.
@@ -264,10 +268,33 @@ impl PeriodicPath<'_> {
         self.cut_shift.iter_mut().skip(extent.cuts).take(3).for_each(|place| *place = last);
         extent
     }
-}
 
-pub(super) const EMPTY_RUN: Run =
-    Run { kind: Kind::Open, first: 0, count: 1, kept: 0, inner: Place::CENTRE, packed: 0, sign: 1.0, parameter: 0.0 };
+    /// Energy \[J\] dissipated in the steps along a part of the period.
+    #[inline(never)]
+    pub fn dissipated(&mut self, element: &Element, samples: &Samples, part: &Part) -> f64 {
+        let mut stack = Stack::new(self.knots, part);
+        let mut energy = 0.0;
+        // The step to the first sample (or to its counterpart half a period later) is the last.
+        let steps = ranges(&Part { length: part.length + 1, ..*part }, samples.count).into_iter().flatten();
+        for (step, sample) in steps.enumerate() {
+            let before = samples.before(sample);
+            let [was_open, is_open] = [before, sample].map(|sample| part.opens && samples.is_open(sample));
+            if step > 0 && !(was_open && is_open) {
+                let [mut start, mut end] = [before, sample].map(|sample| at(samples.displacement, sample));
+                let shift = [before, sample].map(|sample| at(samples.shift, sample));
+                if was_open {
+                    start = closing(samples, element, sample).displacement;
+                    stack.restart(start);
+                } else if is_open {
+                    end = closing(samples, element, sample).displacement;
+                }
+                energy += energy::dissipated(element, stack.used(), &Path { shift, displacement: end - start });
+            }
+            stack.advance(element, samples, part, sample..sample + 1, self.cut_shift);
+        }
+        energy
+    }
+}
 
 /// Samples that stick.
 fn stick(stack: &mut Stack, span: Span) -> Run {
@@ -279,12 +306,19 @@ fn stick(stack: &mut Stack, span: Span) -> Run {
         if x >= xi || y <= eta {
             break;
         }
-        *place = Knot { xi: x, eta: y, place: Place::end(span.first + count) }.encoded();
+        *place = Knot { xi: x, eta: y, place: Place::end(span.first + count) }.numbers();
         (xi, eta) = (x, y);
         count += 1;
     }
     stack.depth += count;
-    Run { kind: Kind::Stuck, count, kept, inner: inner.place, parameter: inner.xi, ..EMPTY_RUN }
+    Run {
+        kind: Kind::STUCK,
+        count: count as u64,
+        kept: kept as u64,
+        inner: inner.place,
+        parameter: inner.xi,
+        ..Run::EMPTY
+    }
 }
 
 /// Samples of gross slip in one direction, from an empty stack that still holds the centre in its memory.
@@ -293,7 +327,7 @@ fn slip_grossly(stack: &mut Stack, span: Span) -> Run {
     let (count, [xi, eta]) = if is_forward { count_gross_slip::<true>(span) } else { count_gross_slip::<false>(span) };
     stack.push(Knot::centre(if is_forward { xi } else { eta }));
     stack.push(Knot { xi, eta, place: Place::end(span.first + count - 1) });
-    Run { kind: Kind::GrossSlip, count, sign: if is_forward { 1.0 } else { -1.0 }, ..EMPTY_RUN }
+    Run { kind: Kind::GROSS_SLIP, count: count as u64, sign: if is_forward { 1.0 } else { -1.0 }, ..Run::EMPTY }
 }
 
 /// Lower bound of divisors: compilers may divide before they compare.
@@ -319,13 +353,13 @@ fn slip(stack: &mut Stack, span: Span, per_two_mu: f64, places: &mut [f64]) -> R
     stack.push(Knot { xi: cut[0], eta: cut[1], place: Place::cut(last) });
     stack.push(Knot { xi, eta, place: Place::end(last) });
     Run {
-        kind: Kind::Slip,
-        count,
-        kept,
+        kind: Kind::SLIP,
+        count: count as u64,
+        kept: kept as u64,
         inner: inner.place,
         sign: if is_forward { 1.0 } else { -1.0 },
         parameter: slope(falling, rising),
-        ..EMPTY_RUN
+        ..Run::EMPTY
     }
 }
 

@@ -1,6 +1,5 @@
 use super::*;
 use crate::constant_load::contact::tests::parameters;
-use crate::constant_load::harmonic_force::Rule;
 use crate::element::{Directions, NormalInput};
 use crate::fourier::angle;
 use crate::one_direction::{advance, state};
@@ -296,53 +295,6 @@ fn half_of_a_half_wave_symmetric_motion_is_enough() {
 }
 
 #[test]
-fn a_constant_normal_force_gives_the_law_of_constant_load() {
-    let mut random = Scattered(3);
-    for input in INPUTS {
-        let element = &elements(input)[1];
-        let contact = crate::constant_load::contact::tests::contact(50e-6);
-        let normal = if element.by_approach() { element.approach } else { element.normal_force };
-        for (harmonics, samples, size) in [(1, 16, 0.8), (4, 64, 0.5), (5, 33, 3.0), (9, 128, 0.9)] {
-            for symmetric in [false, true] {
-                let mut displacement = motion(element, harmonics, size, 1.0, 0.0, &mut random);
-                if symmetric {
-                    displacement = half_wave_symmetric(displacement);
-                }
-                let c = 2 * harmonics + 1;
-                displacement[c] = normal;
-                let (force, jacobian, energy) = all(element, &mut workspace(harmonics, samples), &displacement);
-                let mut memory = vec![0.0; Rule::UniformSampling.workspace_length(harmonics, samples)];
-                Rule::UniformSampling.workspace_init(harmonics, samples, &mut memory).unwrap();
-                let (mut constant, mut derivative, mut loss) = (vec![0.0; c], vec![0.0; c * c], 0.0);
-                let output = HarmonicOutput {
-                    force: Some(&mut constant),
-                    jacobian: Some(&mut derivative),
-                    dissipated: Some(&mut loss),
-                    drift: None,
-                };
-                let mut opened = crate::constant_load::harmonic_force::Workspace::new(&mut memory).unwrap();
-                crate::constant_load::harmonic_force::harmonic_force(&contact, &mut opened, &displacement[..c], output)
-                    .unwrap();
-                for (one, two) in force.iter().zip(&constant) {
-                    assert!(
-                        (one - two).abs() < 2e-14 * contact.slip_force,
-                        "{harmonics} {size}: {force:?} {constant:?}"
-                    );
-                }
-                assert!((energy - loss).abs() < 1e-12 * loss, "{energy} {loss}");
-                for (j, column) in derivative.chunks(c).enumerate() {
-                    for (i, exact) in column.iter().enumerate() {
-                        // Rounding of the displacement is amplified near gross slip.
-                        let error = jacobian[i + 2 * c * j] - exact;
-                        assert!(error.abs() < 1e-9 * contact.initial_stiffness, "{harmonics} {size} {i} {j}: {error}");
-                    }
-                }
-            }
-        }
-    }
-}
-
-#[test]
 fn scenes_without_friction_or_contact_are_zero_and_normal_forces_remain() {
     let frictionless = crate::parameters::Parameters { friction_coefficient: 0.0, ..parameters(50e-6) };
     let mut random = Scattered(4);
@@ -404,88 +356,4 @@ fn negative_normal_forces_are_rejected_but_for_rounding() {
         assert!(is_valid || (energy == 7.0 && force.iter().chain(&jacobian).all(|value| *value == 7.0)));
         assert!(!is_valid || (force[5..] == displacement[5..] && force[1].is_finite()));
     }
-}
-
-#[test]
-fn a_huge_displacement_gives_a_square_wave() {
-    for input in INPUTS {
-        let element = elements(input)[1];
-        let normal = if element.by_approach() { element.approach } else { element.normal_force };
-        for huge in [1.0, 1e150] {
-            let mut displacement = [0.0; 6];
-            (displacement[1], displacement[3]) = (huge, normal);
-            let (force, _, energy) = all(&element, &mut workspace(1, 32), &displacement);
-            let slip_force = element.friction_coefficient * element.normal_force;
-            // The first coefficient of sign(cos t) at 32 samples, from steps with cos t = 0.
-            assert!(force[2].abs() > 0.12 * slip_force && force[1].hypot(force[2]) < 1.28 * slip_force, "{force:?}");
-            assert!((energy / (4.0 * slip_force * huge) - 1.0).abs() < 1e-5, "{energy}");
-        }
-    }
-}
-
-#[test]
-fn invalid_arguments_have_their_own_errors() {
-    let mut memory = [0.0; 8];
-    for (harmonics, samples, error) in [
-        (0, 16, Error::BadHarmonics),
-        (1 << 25, 1 << 26, Error::BadHarmonics),
-        (3, 6, Error::BadSamples),
-        (3, 1 << 25, Error::BadSamples),
-    ] {
-        assert_eq!(workspace_length(harmonics, samples), 0);
-        assert_eq!(workspace_init(harmonics, samples, &mut memory), Err(error));
-    }
-    assert_eq!(workspace_init(3, 7, &mut memory), Err(Error::WorkspaceTooShort));
-    assert_eq!(memory, [0.0; 8]);
-    let mut good = workspace(1, 8);
-    let header = good.first_chunk().unwrap();
-    let layout = Layout::read(header).unwrap();
-    assert_eq!((layout.length(), layout.0.harmonics, layout.0.samples), (good.len(), 1, 8));
-    assert!(crate::constant_load::harmonic_force::Workspace::new(&mut good).is_err());
-    assert!(Workspace::new(&mut []).is_err());
-    let mut short = good.clone();
-    short.pop();
-    assert!(matches!(Workspace::new(&mut short), Err(Error::BadWorkspace)));
-    let element = elements(NormalInput::Approach)[0];
-    for (displacement, length, squared, error) in [
-        (&[0.0; 5][..], 6, 36, Error::BadArraySize),
-        (&[0.0; 6], 5, 36, Error::BadArraySize),
-        (&[0.0; 6], 6, 35, Error::BadArraySize),
-        (&[0.0, 0.0, f64::NAN, 0.0, 0.0, 0.0], 6, 36, Error::BadDisplacement),
-        (&[0.0, 0.0, 0.0, 0.0, 0.0, 1.1e150], 6, 36, Error::BadDisplacement),
-    ] {
-        let (mut force, mut jacobian, mut energy) = (vec![7.0; length], vec![7.0; squared], 7.0);
-        let output = HarmonicOutput {
-            force: Some(&mut force),
-            jacobian: Some(&mut jacobian),
-            dissipated: Some(&mut energy),
-            drift: None,
-        };
-        assert_eq!(evaluate(&element, &mut good, displacement, output), Err(error));
-        assert!(energy == 7.0 && force.iter().chain(&jacobian).all(|value| *value == 7.0));
-    }
-}
-
-#[test]
-fn results_do_not_depend_on_earlier_use_or_on_other_outputs() {
-    let mut random = Scattered(5);
-    let element = elements(NormalInput::Approach)[1];
-    let used = workspace_length(3, 32);
-    let mut memory = vec![-1.0; used + 2];
-    workspace_init(3, 32, &mut memory).unwrap();
-    let motions = [[0.4, 0.5, 0.3], [3.0, 0.2, 0.6]]
-        .map(|[size, mean, swing]| motion(&element, 3, size, mean, swing, &mut random));
-    let first = all(&element, &mut memory, &motions[0]);
-    let second = all(&element, &mut memory, &motions[1]);
-    assert_eq!(all(&element, &mut memory, &motions[0]), first);
-    assert_eq!(force_of(&element, &mut memory, &motions[1]), second.0);
-    let mut energy = 0.0;
-    let output = HarmonicOutput { force: None, jacobian: None, dissipated: Some(&mut energy), drift: None };
-    evaluate(&element, &mut memory, &motions[0], output).unwrap();
-    assert_eq!(energy, first.2);
-    let mut jacobian = vec![0.0; 14 * 14];
-    let output = HarmonicOutput { force: None, jacobian: Some(&mut jacobian), dissipated: None, drift: None };
-    evaluate(&element, &mut memory, &motions[1], output).unwrap();
-    assert_eq!(jacobian, second.1);
-    assert_eq!(memory[used..], [-1.0, -1.0]);
 }

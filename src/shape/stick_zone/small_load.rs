@@ -203,35 +203,3 @@ impl SmallLoadSeries {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn economized_series_equals_the_series() {
-        // The series of a cylinder, 1/(2 - 2τ), and an alternating one.
-        for ratio in [1.0, -1.0] {
-            let mut series = [0.5; TERMS];
-            for (k, term) in series.iter_mut().enumerate() {
-                *term *= f64::powi(ratio, k as i32);
-            }
-            let retained = economized(series);
-            for k in 0..=50 {
-                let at = |terms: &[f64]| terms.iter().rev().fold(0.0, |sum, term| sum * f64::from(k) / 100.0 + term);
-                // The truncation error of 5.8⁻²⁰, and the rounding errors of both sums.
-                assert!((at(&retained) / at(&series) - 1.0).abs() < 2e-15, "{ratio} {k}");
-            }
-        }
-    }
-
-    #[test]
-    fn factors_equal_the_integrals() {
-        for (m, factor) in factors(4.0, &[2, 3]).as_flattened().iter().enumerate() {
-            // ∫ t (1-t) tᵐ dt from 0 to 1, four times.
-            let exact = 4.0 * (1.0 / (m + 2) as f64 - 1.0 / (m + 3) as f64);
-            // The difference loses log2(m) bits to cancellation.
-            assert!((factor / exact - 1.0).abs() < 4e-16 * (m + 3) as f64, "{m}");
-        }
-    }
-}

@@ -14,7 +14,7 @@ use cbindgen::{Bindings, Builder, Config};
 const HEADER: &str = "include/microslip.h";
 const MODULE: &str = "include/microslip.f90";
 const PYTHON: &str = "python/microslip/_core.py";
-const TEST_OF_FORTRAN: &str = "tests/fortran/bad_input.f90";
+const TEST_OF_FORTRAN: [&str; 2] = ["tests/fortran/interfaces.f90", "tests/fortran/calls.f90"];
 const CALLS_OF_RUST: &str = "tests/calls/table.rs";
 const CALLS_OF_C: &str = "c_tests/functions.h";
 const OUTPUTS_OF_C: &str = "c_tests/outputs.h";
@@ -48,21 +48,21 @@ pub fn symbols() -> Vec<String> {
 }
 
 /// The generated files, as paths in the repository, with the texts that they should have.
-fn generated() -> Result<[(&'static str, String); 8], String> {
+fn generated() -> Result<[(&'static str, String); 9], String> {
     let header = header();
     let module = fortran::fill(&read(MODULE)?, &header).map_err(|e| format!("{MODULE}: {e}"))?;
     let python = fortran::python(&read(PYTHON)?, &header).map_err(|e| format!("{PYTHON}: {e}"))?;
-    let declared = interface::Header::new(&header)?;
-    let prototypes = declared.prototypes()?;
+    let source = interface::Header::new(&header)?;
+    let prototypes = source.prototypes()?;
     let functions = interface::functions(&prototypes)?;
-    let test = fortran::replaced(&read(TEST_OF_FORTRAN)?, wrappers::test(&functions).into());
-    let test = (TEST_OF_FORTRAN, test.map_err(|e| format!("{TEST_OF_FORTRAN}: {e}"))?);
+    let [declarations, calls] = fortran::test(&prototypes, &functions)?;
+    let (declared, called) = ((TEST_OF_FORTRAN[0], declarations), (TEST_OF_FORTRAN[1], calls));
     let rust = (CALLS_OF_RUST, tables::rust(&functions));
     let c = (CALLS_OF_C, tables::c(&functions));
     let outputs = (OUTPUTS_OF_C, tables::outputs(&functions));
     let record = record::record(&header)?;
     record::is_compatible(&read(RECORD).unwrap_or_default(), &record, &read(CHANGELOG)?)?;
-    Ok([(HEADER, header), (RECORD, record), (MODULE, module), (PYTHON, python), rust, c, outputs, test])
+    Ok([(HEADER, header), (RECORD, record), (MODULE, module), (PYTHON, python), rust, c, outputs, declared, called])
 }
 
 /// Writes the header and the generated blocks of the Fortran module.

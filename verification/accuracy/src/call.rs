@@ -44,8 +44,8 @@ pub fn force(contact: &mslip_contact, displacement: f64) -> [f64; 3] {
 }
 
 /// Force and its derivatives with respect to the parameters.
-pub fn sensitivity(contact: &mslip_contact, displacement: f64) -> (f64, [f64; 6]) {
-    let (mut force, mut sensitivity) = (f64::NAN, [f64::NAN; 6]);
+pub fn sensitivity(contact: &mslip_contact, displacement: f64) -> (f64, [f64; MSLIP_PARAMETER_COUNT as usize]) {
+    let (mut force, mut sensitivity) = (f64::NAN, [f64::NAN; _]);
     let place = sensitivity.as_mut_ptr();
     ok(unsafe { mslip_monotonic_sensitivity(contact, 1, &displacement, &mut force, place) }, "monotonic_sensitivity");
     (force, sensitivity)

@@ -256,7 +256,11 @@ impl Check<'_> {
         let rise = self.before.size.as_ref().map_or(size.shift.clone(), |before| &size.shift - &before.shift);
         let at_edge =
             |edge: &Size, rate: &Real| (family.curvature(edge) * &edge.tangential_compliance * &reach / rate).f64();
-        let motion = (&self.displacement - &self.before.displacement).abs();
+        let mut motion = (&self.displacement - &self.before.displacement).abs();
+        if self.before.size.is_none() {
+            // From where the contact closes on.
+            motion = motion * &self.normal / (&self.normal - &self.before.input);
+        }
         // Of a rising load, unless all of it slips for sure.
         let secant = rise.is_positive() && motion < &family.friction * &rise + &reach * (64.0 * f64::EPSILON);
         let condition = soft

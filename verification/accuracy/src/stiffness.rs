@@ -10,6 +10,7 @@ use reference::Real;
 use reference::law::bits_for;
 use reference::quadrature::Quadrature;
 use reference::stiffness::{cycle_energy, imaginary_part, real_part};
+use std::f64::consts::PI;
 
 /// K' and its derivative in units.
 fn real(case: &Case, x: &Real) -> [Real; 2] {
@@ -51,9 +52,17 @@ pub fn at_amplitude(case: &Case, table: &[f64], amplitude: f64, range: &'static 
     let slips = amplitude > contact.slip_displacement;
     let slip = if slips { find("slip_displacement").k / find("k_imag").k * (4.0 * &x / &energy).f64() } else { 0.0 };
     let [real, real_rate] = real(case, &x);
-    let scale = (real.square() + imaginary.square()).sqrt() / &x * &slope_unit;
+    let size = (real.square() + imaginary.square()).sqrt();
+    // dE/dx = 4 (τ - x/(Λ+λ)) changes by 4 x h''/(Λ+λ)³ per distance from gross slip, which has the promised error of x_s.
+    let slope = if point.slips() {
+        0.0
+    } else {
+        (&point.curvature / (&point.compliance * point.compliance.square() * &size)).f64()
+    };
+    let near = find("slip_displacement").k / find("dk_imag").k * 4.0 / PI * (1.0 + law.x_slip.f64()) * slope;
+    let scale = size / &x * &slope_unit;
     let exact = [unit * &real, unit * &imaginary, &slope_unit * real_rate, &slope_unit * imaginary_rate];
-    let conditions = [soft, 3.0 * soft + slip, soft, 3.0 * soft];
+    let conditions = [soft, 3.0 * soft + slip, soft, 3.0 * soft + near];
     let mut check = |names: [&'static str; 4], got: [f64; 4]| {
         for i in 0..2 {
             tally.check((names[i], kind, range), got[i], &exact[i], conditions[i], place);

@@ -1,9 +1,8 @@
-//! Inputs shared by the targets: numbers relative to a scale, displacement paths, and contacts; and checked calls.
+//! Inputs shared by the targets: numbers relative to a scale, displacement paths, and contacts; the calls of the tests.
 
-pub mod calls;
-#[allow(dead_code, reason = "the valid arguments are those of the tests")]
+#[allow(dead_code, missing_docs, reason = "the valid arguments are those of the tests")]
 #[path = "../../../tests/calls/mod.rs"]
-mod interface;
+pub mod interface;
 
 /// Asserts a bound of all values; NaN violates it.
 #[macro_export]

@@ -1,6 +1,6 @@
 //! The figures of the paper and of the guide computed by the library, and a check of each claim of the paper.
 //!
-//! - `paper` writes the data of the figures to `target/figures`, the tables of claims in `docs/paper.md`, and the tables of samples and of
+//! - `paper` writes the data of the figures to `target/figures`, the claims in `docs/claims.csv`, and the tables of samples and of
 //!   periods in `docs/guide.md`;
 //! - `paper --check` compares the tables with what the library computes now.
 
@@ -30,27 +30,28 @@ fn main() -> ExitCode {
         }));
     }
     drawings::all().iter().for_each(|table| documents.data(table));
-    documents.page("paper.md", |old| with_claims(old, &claims));
+    documents.page("claims.csv", |old| with_claims(old, &claims));
     documents.page("guide.md", |old| between(old, "samples of elements", |_| Ok(samples::table())));
     documents.page("guide.md", |old| between(old, "periods of elements", |_| Ok(periods::table())));
     documents.report()
 }
 
-/// The page with the results of the claims in the third column of the tables between its markers.
-fn with_claims(page: &str, tables: &[(&str, Vec<Claim>)]) -> Result<String, String> {
-    tables.iter().try_fold(page.to_owned(), |page, (name, claims)| {
-        between(&page, &format!("claims {name}"), |old| {
-            let mut rows: Vec<String> = old.lines().map(str::to_owned).collect();
-            if rows.len() != claims.len() + 2 {
-                return Err(format!("docs/paper.md: not {} rows in {name}", claims.len()));
-            }
-            for (row, (computed, _)) in rows[2..].iter_mut().zip(claims) {
-                let [place, claim, _, verdict] = row.split(" | ").collect::<Vec<_>>()[..] else {
-                    return Err(format!("docs/paper.md: {row}: not four cells"));
-                };
-                *row = format!("{place} | {claim} | {computed} | {verdict}");
-            }
-            Ok(rows.join("\n") + "\n")
-        })
-    })
+/// The file with the results of the claims in its fourth column.
+fn with_claims(file: &str, tables: &[(&str, Vec<Claim>)]) -> Result<String, String> {
+    let claims = tables.iter().flat_map(|(figure, claims)| claims.iter().map(move |claim| (figure, claim)));
+    let (head, rows) = file.split_once('\n').ok_or("docs/claims.csv: empty")?;
+    let mut text = head.to_owned() + "\n";
+    if rows.lines().count() != tables.iter().map(|(_, claims)| claims.len()).sum::<usize>() {
+        return Err("docs/claims.csv: another number of claims".to_owned());
+    }
+    for (row, (figure, (computed, _))) in rows.lines().zip(claims) {
+        let [place, claim, _, verdict] = row.split("\",\"").collect::<Vec<_>>()[..] else {
+            return Err(format!("docs/claims.csv: {row}: not five cells"));
+        };
+        if !place.starts_with(&format!("{figure},")) {
+            return Err(format!("docs/claims.csv: {row}: not a claim of {figure}"));
+        }
+        text += &format!("{place}\",\"{claim}\",\"{computed}\",\"{verdict}\n");
+    }
+    Ok(text)
 }

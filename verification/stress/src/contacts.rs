@@ -60,6 +60,27 @@ pub fn ellipse(semi_axis_x: f64, semi_axis_y: f64, length: i32, force: i32) -> I
     })
 }
 
+/// The contact with a layer: its compliance over that of the contact, and N_c over the normal force.
+fn with_layer(input: Input, share: f64, stiffening: f64) -> Input {
+    let compliance = share / Contact::new("alone", input).stiffness();
+    let layer = |normal_force: f64| Layer {
+        normal_compliance: 0.5 * compliance,
+        tangential_compliance: compliance,
+        stiffening_load: stiffening * normal_force,
+        reference_load: 0.0,
+    };
+    match input {
+        Input::Flat(one) => Input::Flat(Parameters { layer: layer(one.normal_force), ..one }),
+        Input::Ellipse(one) => Input::Ellipse(EllipticParameters { layer: layer(one.normal_force), ..one }),
+    }
+}
+
+/// Whether there is a layer: the multi-precision law has none.
+pub fn has_layer(input: &Input) -> bool {
+    let (Input::Flat(Parameters { layer, .. }) | Input::Ellipse(EllipticParameters { layer, .. })) = input;
+    layer.tangential_compliance > 0.0
+}
+
 pub fn all() -> Vec<Contact> {
     let like = [STEEL, STEEL];
     let shape = |rounded: f64, length: f64| Shape { rounded, length, material: like, reference: CENTRE_POINT };
@@ -85,6 +106,9 @@ pub fn all() -> Vec<Contact> {
         ("flat, newtons of 2^-400", flat(&unlike(0.5, CENTRE_POINT), 0, -400)),
         ("cylinder, metres of 2^200", flat(&unlike(1.0, RIGID_STRIP), 200, 400)),
         ("ellipse, metres of 2^-200", ellipse(1e-4, 3e-4, -200, -400)),
+        ("cylinder with a layer", with_layer(flat(&shape(1.0, 20.0), 0, 0), 2.0, 0.0)),
+        ("flat with a layer that stiffens", with_layer(flat(&shape(0.5, 20.0), 0, 0), 0.5, 0.3)),
+        ("ellipse with a layer that stiffens", with_layer(ellipse(1e-4, 3e-4, 0, 0), 1.0, 0.05)),
     ];
     inputs.into_iter().map(|(name, input)| Contact::new(name, input)).collect()
 }

@@ -88,7 +88,9 @@ fn constant_load<'a>(contacts: &'a [Contact], steps: &'a (dyn Fn(f64) -> u64 + S
     for (number, contact) in contacts.iter().enumerate() {
         let Contact { name, input, .. } = contact;
         let run = |rng: &mut SmallRng| bank::compare(contact, steps(1e6), rng);
-        cases.push(Case::new(format!("bank: {name}"), *input, run));
+        if !contacts::has_layer(input) {
+            cases.push(Case::new(format!("bank: {name}"), *input, run));
+        }
         for (kind, (history, _)) in histories::all(1.0).into_iter().enumerate() {
             // In full length with one contact, a twentieth of it with the others.
             let full = if kind == number { 1e7 } else { 5e5 };
@@ -120,7 +122,7 @@ fn varying_load<'a>(elements: &'a [(String, Element)], steps: &'a (dyn Fn(f64) -
         let full = if number == 0 { 1e8 } else { 1e6 };
         let cycles = move |rng: &mut SmallRng| element::cycles(element, steps(full), rng);
         cases.push(Case::new(format!("element, cycles: {name}"), element.input, cycles));
-        if element.by_force() {
+        if element.by_force() && !contacts::has_layer(&element.input) {
             let springs = |rng: &mut SmallRng| element::springs::compare(element, steps(1e5), rng);
             cases.push(Case::new(format!("element, springs: {name}"), element.input, springs));
         }

@@ -216,16 +216,20 @@ fn drawings(comparisons: &[Comparison]) -> Vec<Table> {
     ]
 }
 
-/// The page with new tables.
-fn with_tables(page: &str, comparisons: &[Comparison], others: &[(&str, String)]) -> Result<String, String> {
+/// A table of Markdown as CSV.
+fn csv(table: &str) -> String {
+    let rows = table.lines().filter(|line| !line.starts_with("|---"));
+    rows.map(|line| line.trim_matches(['|', ' ']).replace(", ", "; ").replace(" | ", ",") + "\n").collect()
+}
+
+fn table_of(comparisons: &[Comparison]) -> String {
     let mut table = String::from(
         "| contact | path | rows | displacement | without the change of the load | dissipation | heat of a cycle | work of a cycle |
 |---|---|---:|---:|---:|---:|---:|---:|
 ",
     );
     comparisons.iter().for_each(|comparison| table.write_str(&comparison.row()).expect("a string"));
-    let page = between(page, "comparison", |_| Ok(table))?;
-    others.iter().try_fold(page, |page, (name, table)| between(&page, name, |_| Ok(table.clone())))
+    table
 }
 
 fn main() -> ExitCode {
@@ -256,12 +260,11 @@ fn main() -> ExitCode {
     let mut tables = Vec::from(directions.tables());
     let [measured, computed] = rebound.tables();
     tables.extend([("rebound", measured), ("rebound by finite elements", computed)]);
-    tables.extend([
-        ("strips", strips),
-        ("finite elements", finite_elements),
-        ("fretting", fretting.table()),
-        ("opening", opening),
-    ]);
-    documents.page("validation.md", |old| with_tables(old, &comparisons, &tables));
+    tables.extend([("strips", strips), ("finite elements", finite_elements), ("fretting", fretting.table())]);
+    documents.page("boundary_elements.csv", |_| Ok(csv(&table_of(&comparisons))));
+    documents.page("opening.csv", |_| Ok(csv(&opening)));
+    documents.page("validation.md", |old| {
+        tables.iter().try_fold(old.to_owned(), |page, (name, table)| between(&page, name, |_| Ok(table.clone())))
+    });
     documents.report()
 }

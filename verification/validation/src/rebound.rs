@@ -49,7 +49,7 @@ struct Rebound {
 }
 
 impl Impact {
-    /// A sphere of a radius and density that meets a plane at a normal velocity; 
+    /// A sphere of a radius and density that meets a plane at a normal velocity.
     fn new(radius: f64, density: f64, material: [Material; 2], friction: f64, velocity: f64) -> Self {
         let of = |material: Material| {
             let Material { young_modulus: e, poisson_ratio: nu } = material;

@@ -1,0 +1,504 @@
+//! Memory that is not what it should be: flipped, shifted, mixed or foreign contacts, elements, states, workspaces and tables;
+//! states that are not finite or not nested; batches with invalid items; arbitrary bytes.
+
+use super::values::{NON_FINITE, accepted};
+use super::*;
+use calls::mutation::{Bytes, mutated_call};
+
+/// The count of a tag is in its lower 40 bits.
+const COUNT: u64 = (1 << 40) - 1;
+
+/// Pseudorandom bytes, the same in every run.
+fn pseudorandom(seed: u64, length: usize) -> Vec<u8> {
+    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
+    let mut next = || {
+        state ^= state << 13;
+        state ^= state >> 7;
+        state ^= state << 17;
+        (state >> 56) as u8
+    };
+    (0..length).map(|_| next()).collect()
+}
+
+/// Uniform in -1 to 1.
+fn numbers(seed: u64, length: usize) -> Vec<f64> {
+    let bytes = pseudorandom(seed, 2 * length);
+    bytes.chunks(2).map(|two| f64::from(u16::from_le_bytes([two[0], two[1]])) / 32768.0 - 1.0).collect()
+}
+
+fn laws() -> impl Iterator<Item = (&'static Call, &'static Law)> {
+    let contacts = calls::contacts().iter().map(|law| (call("mslip_contact_check"), law));
+    contacts.chain(calls::elements().iter().map(|law| (call("mslip_element_check"), law)))
+}
+
+/// Any changed bit of a contact or an element is found, and any mixture of two, but no copy.
+#[test]
+fn changed_contacts_and_elements() {
+    for (check, law) in laws() {
+        let mut arguments = Arguments::new(check, law, Before::Filled);
+        let status = check.arguments[0].status;
+        let valid = arguments.memory(0).values::<u64>().to_vec();
+        let mut expect = |words: &[u64], status: i32| {
+            arguments.memory_mut(0).values_mut().copy_from_slice(words);
+            assert_eq!(check.make(&arguments.slots), status);
+        };
+        expect(&valid, MSLIP_OK);
+        let mut words = valid.clone();
+        for bit in 0..64 * valid.len() {
+            words[bit / 64] ^= 1 << (bit % 64);
+            expect(&words, status);
+            words[bit / 64] ^= 1 << (bit % 64);
+        }
+        for (_, other) in laws().filter(|(_, other)| other.bytes.len() == law.bytes.len() && other.bytes != law.bytes) {
+            let other = Memory::of(&other.bytes);
+            let other: Vec<u64> =
+                other.values::<u8>().chunks(8).map(|word| u64::from_le_bytes(word.try_into().unwrap())).collect();
+            for k in 0..=valid.len() {
+                let mixed = [&valid[..k], &other[k..]].concat();
+                let is_valid = mixed == valid || mixed == other;
+                expect(&mixed, if is_valid { MSLIP_OK } else { status });
+            }
+        }
+        let zeros = vec![0; valid.len()];
+        for k in 0..valid.len() {
+            let truncated = [&valid[..k], &zeros[k..]].concat();
+            expect(&truncated, if truncated == valid { MSLIP_OK } else { status });
+        }
+        expect(&[&valid[1..], &valid[..1]].concat(), status);
+        expect(&valid.iter().map(|word| word.swap_bytes()).collect::<Vec<_>>(), status);
+    }
+}
+
+/// Where the tags of an argument are, and their bits that no call accepts otherwise. The others are the geometry of a contact and
+/// of an element, the normal input and the directions of an element, and counts.
+fn tags(call: &Call, kind: Kind, length: usize) -> (Vec<usize>, u64) {
+    let items = call.items();
+    let each = |word: usize| (0..items).map(|i| i * length / items + word).collect();
+    match kind {
+        Contact => (each(6), !1),
+        Element => (each(8), !7),
+        State => (each(0), !COUNT),
+        Workspace => (vec![0, 1, 2], !COUNT),
+        _ => (vec![0], !COUNT),
+    }
+}
+
+/// Each bit of each tag; shifted memory; counts and sizes that are not allowed; random bytes.
+#[test]
+fn tags_are_checked() {
+    for_each_call(|call, law| {
+        let mut arguments = Arguments::new(call, law, Before::Filled);
+        for (place, argument) in call.arguments.iter().enumerate() {
+            if !matches!(argument.kind, Contact | Element | State | Workspace | Table) {
+                continue;
+            }
+            let words = arguments.memory(place).values::<u64>().to_vec();
+            let mut expect = |words: &[u64]| {
+                arguments.memory_mut(place).values_mut().copy_from_slice(words);
+                rejected_in(0..1, call, &arguments, argument.status, argument.name);
+            };
+            let (tags, bits) = tags(call, argument.kind, words.len());
+            for (tag, bit) in tags.iter().flat_map(|tag| (0..64).map(move |bit| (*tag, bit))) {
+                if bits >> bit & 1 != 0 {
+                    let mut words = words.clone();
+                    words[tag] ^= 1 << bit;
+                    expect(&words);
+                }
+            }
+            expect(&[&words[1..], &words[..1]].concat());
+            let count = |count: u64| (words[0] & !COUNT) | count;
+            match argument.kind {
+                State if !(call.is_of_element() && law.directions == 2) => {
+                    for many in [2000, 1 << 32, COUNT] {
+                        expect(&[&[count(many)], &words[1..]].concat());
+                    }
+                }
+                Workspace => {
+                    for sizes in [
+                        [0, 16, 1],
+                        [2, 0, 1],
+                        [2, 4, 1],
+                        [2, (1 << 24) + 1, 1],
+                        [(1 << 24) + 1, 1 << 24, 1],
+                        [2, 16, 0],
+                        [2, 16, (1 << 16) + 1],
+                    ] {
+                        let tags = [0, 1, 2].map(|i| (words[i] & !COUNT) | sizes[i]);
+                        expect(&[&tags, &words[3..]].concat());
+                    }
+                }
+                _ => {}
+            }
+            for seed in 0..20 {
+                let random = pseudorandom(seed, 8 * words.len());
+                expect(&random.chunks(8).map(|word| u64::from_le_bytes(word.try_into().unwrap())).collect::<Vec<_>>());
+            }
+            arguments.memory_mut(place).values_mut().copy_from_slice(&words);
+        }
+    });
+}
+
+/// A step with a contact or an element.
+fn step(law: &Law, of_element: bool, state: &mut Memory, [u, v, w]: [f64; 3]) {
+    let (n, s, none) = (state.bytes / 8, state.start.cast(), null_mut());
+    let laws = Memory::of_law(law, 1);
+    let status = unsafe {
+        if of_element {
+            let step = if law.directions == 1 { [u, w, 0.0] } else { [u, v, w] };
+            mslip_element_update(laws.start.cast(), n, s, step.as_ptr(), s, none, none, none)
+        } else {
+            mslip_masing_update(laws.start.cast(), n, s, u, s, none, none, none)
+        }
+    };
+    assert_eq!(status, MSLIP_OK);
+}
+
+fn check(law: &Law, of_element: bool, state: &Memory) -> i32 {
+    let (n, s) = (state.bytes / 8, state.start.cast());
+    unsafe { if of_element { mslip_element_state_check(law.directions, n, s) } else { mslip_state_check(n, s) } }
+}
+
+const REVERSALS: usize = 3;
+const PIECES: usize = 5;
+
+/// A long state with nested reversals or with pieces, and the length that is in use.
+fn filled_state(law: &Law, of_element: bool) -> (Memory, usize) {
+    if of_element {
+        let mut state =
+            law.long_state(call("mslip_element_update"), mslip_element_state_length(law.directions, 50) + 9);
+        for k in 0..PIECES {
+            let u = 0.01 * law.displacement * if k % 2 == 0 { 1.0 } else { -1.0 };
+            step(law, true, &mut state, [u, 0.7 * u, law.normal * (0.1 + 0.15 * k as f64)]);
+        }
+        (state, mslip_element_state_length(law.directions, PIECES))
+    } else {
+        let mut state = law.long_state(call("mslip_masing_update"), mslip_state_length(50));
+        for k in 0..=REVERSALS {
+            let part = 0.15 * (1.0 - 0.05 * k as f64) * if k % 2 == 0 { 1.0 } else { -1.0 };
+            step(law, false, &mut state, [part * law.displacement, 0.0, 0.0]);
+        }
+        (state, mslip_state_length(REVERSALS))
+    }
+}
+
+/// States of every history are valid: with reversals or pieces beyond the length, slip, gross slip and separation.
+#[test]
+fn states_of_histories_are_valid() {
+    for (of_element, law) in laws().map(|(check, law)| (check.is_of_element(), law)) {
+        let function = call(if of_element { "mslip_element_update" } else { "mslip_masing_update" });
+        for extra in [0, 17, 500] {
+            let mut state = law.long_state(function, law.memory_length(function, "state") + extra);
+            assert_eq!(check(law, of_element, &state), MSLIP_OK);
+            for (i, motion) in numbers(7, 9000).chunks(3).enumerate() {
+                let part = if i % 100 < 50 { 0.05 } else { 1.5 };
+                // A decaying vibration, or any motion.
+                let sign = if i % 2 == 0 { 1.0 } else { -1.0 };
+                let decaying = if i % 100 < 20 { sign * (1.0 - 0.05 * (i % 20) as f64) } else { motion[0] };
+                let displacement = if law.displacement > 0.0 { law.displacement } else { 1e-7 };
+                let by_force = law.normal_input == MSLIP_INPUT_NORMAL_FORCE;
+                let normal = law.normal * if by_force { motion[2].max(0.0) } else { 0.5 * motion[2] + 0.4 };
+                step(
+                    law,
+                    of_element,
+                    &mut state,
+                    [part * displacement * decaying, part * displacement * motion[1], normal],
+                );
+                assert_eq!(check(law, of_element, &state), MSLIP_OK, "step {i}: {:?}", state.values::<f64>());
+            }
+        }
+    }
+}
+
+/// Values that are not finite, of the wrong sign or not nested are found; what is not in use is not read.
+#[test]
+fn invalid_states() {
+    for (of_element, law) in laws().map(|(check, law)| (check.is_of_element(), law)).filter(|(_, law)| law.force > 0.0)
+    {
+        let (mut state, used) = filled_state(law, of_element);
+        let mut found = |i: usize, value: f64, what: &str| {
+            let valid = std::mem::replace(&mut state.values_mut::<f64>()[i], value);
+            assert_eq!(check(law, of_element, &state), MSLIP_BAD_STATE, "{what}: double {i}, {value}");
+            state.values_mut::<f64>()[i] = valid;
+            valid
+        };
+        for i in 1..used {
+            NON_FINITE.into_iter().for_each(|bits| _ = found(i, f64::from_bits(bits), "not finite"));
+        }
+        match (of_element, law.directions) {
+            (false, _) => {
+                // Displacement, force and error of each reversal.
+                const FIRST: usize = 5;
+                for (i, value) in [(2, 0.5), (2, -2.0), (1, 1.0), (1, -1.0)] {
+                    found(i, value, "a slip direction, a displacement outside of the last branch");
+                }
+                for i in 0..REVERSALS {
+                    let sign = if i % 2 == 0 { 1.0 } else { -1.0 };
+                    found(FIRST + 3 * i + 2, -1e-3, "a negative error");
+                    found(FIRST + 3 * i, -sign, "not nested");
+                    (i > 0).then(|| found(FIRST + 3 * i, sign, "not nested"));
+                }
+            }
+            (true, 1) => {
+                const FIRST: usize = 8;
+                (3..FIRST).for_each(|i| _ = found(i, -1e-3, "negative"));
+                for i in (FIRST..FIRST + 4 * PIECES).step_by(4) {
+                    found(i, -1.0, "a size that decreases");
+                    found(i + 1, 1.0, "a size that decreases");
+                    found(i + 2, -1.0, "a negative force");
+                }
+                found(1, 1.0, "a displacement outside of the last knot");
+                let load = found(3, -1.0, "negative");
+                found(3, 1e-6 * load, "less than the last knot");
+            }
+            _ => {}
+        }
+        let length = state.bytes / 8;
+        for shorter in 0..used {
+            let (d, s) = (law.directions, state.start.cast());
+            let status = unsafe {
+                if of_element { mslip_element_state_check(d, shorter, s) } else { mslip_state_check(shorter, s) }
+            };
+            assert!(matches!(status, MSLIP_BAD_STATE | MSLIP_STATE_TOO_SHORT), "{shorter} of {used}: {status}");
+        }
+        state.values_mut::<u64>()[used..length].fill(u64::MAX);
+        assert_eq!(check(law, of_element, &state), MSLIP_OK);
+    }
+}
+
+/// Results depend neither on the unused part of a state nor on the scratch memory of a workspace.
+#[test]
+fn unused_memory() {
+    for_each_call(|call, law| {
+        let of_element = call.is_of_element();
+        let Some(input) = call.place(State).or(call.place(Workspace)) else { return };
+        if call.has(Index) || !call.has(Output) || call.name.ends_with("_error") {
+            return;
+        }
+        let mut arguments = Arguments::new(call, law, Before::Filled);
+        let length = call.arguments.iter().position(|argument| argument.kind == Length);
+        let mut used = 3;
+        if let (Some(length), State) = (length, call.arguments[input].kind) {
+            let (state, state_used) = filled_state(law, of_element);
+            used = state_used;
+            arguments.slots[length] = Slot::Size(state.bytes / 8);
+            call.place(NewState).inspect(|new| arguments.set(*new, Memory::of(state.values::<f64>())));
+            arguments.set(input, state);
+        } else if call.has(Workspace) {
+            arguments.memory(input).fill(0);
+            law.init_workspace(call, arguments.memory(input));
+        }
+        let before = arguments.memory(input).values::<u64>().to_vec();
+        assert_eq!(call.make(&arguments.slots), MSLIP_OK, "{}", call.name);
+        let expected = results(call, &arguments);
+        let mut changed = 0;
+        for (i, word) in before.iter().enumerate() {
+            let memory = arguments.memory_mut(input).values_mut::<u64>();
+            let is_scratch = call.has(Workspace) && memory[i] != *word || call.has(State) && i >= used;
+            if is_scratch {
+                (memory[i], changed) = (u64::MAX, changed + 1);
+            }
+        }
+        assert!(changed > 0 && arguments.memory(input).values::<u64>()[..3] == before[..3], "{}", call.name);
+        assert_eq!(call.make(&arguments.slots), MSLIP_OK, "{}", call.name);
+        assert_eq!(results(call, &arguments), expected, "{}", call.name);
+    });
+}
+
+/// The table of another shape is rejected; friction coefficient and scale do not matter.
+#[test]
+fn tables_of_other_contacts() {
+    let f = call("mslip_complex_stiffness_tabulated");
+    let p = FLAT;
+    let mut soft = p.material;
+    soft[0].poisson_ratio += 1e-6;
+    for (i, other) in [
+        microslip::Parameters { flat_half_width: p.flat_half_width * (1.0 + 1e-6), ..p },
+        microslip::Parameters { edge_radius: p.edge_radius * (1.0 + 1e-6), ..p },
+        microslip::Parameters { length: p.length * (1.0 + 1e-6), ..p },
+        microslip::Parameters { normal_force: p.normal_force * (1.0 + 1e-6), ..p },
+        microslip::Parameters { material: soft, ..p },
+        microslip::Parameters { displacement_reference: MSLIP_RIGID_STRIP, ..p },
+        microslip::Parameters { normal_force: 0.0, ..p },
+        microslip::Parameters { friction_coefficient: 0.7, ..p },
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let law = calls::contact(&p);
+        let mut arguments = Arguments::new(f, &calls::contacts()[0], Before::Filled);
+        arguments.set(0, Memory::of_law(&law, 1));
+        let table = f.place(Table).expect("a table");
+        arguments.set(table, calls::contact(&other).new_table());
+        if i == 7 {
+            accepted(f, &arguments, "the table of another friction coefficient");
+            continue;
+        }
+        rejected_as(f, &arguments, MSLIP_BAD_TABLE, "the table of another shape");
+        places(f, Output).collect::<Vec<_>>().into_iter().for_each(|place| arguments.omit(place));
+        rejected_as(f, &arguments, MSLIP_BAD_TABLE, "the table of another shape, without outputs");
+        arguments.set(table, calls::contacts()[1].new_table());
+        rejected_as(f, &arguments, MSLIP_BAD_TABLE, "the table of an ellipse");
+    }
+}
+
+/// The state of a stronger contact has forces that a weaker one cannot carry; steps with it stay within its bound.
+#[test]
+fn states_of_other_contacts() {
+    let strong = calls::contact(&FLAT);
+    let (state, _) = filled_state(&strong, false);
+    for friction_coefficient in [0.0, 1e-6, 0.01, 0.2, 0.41, 10.0] {
+        let weak = calls::contact(&microslip::Parameters { friction_coefficient, ..FLAT });
+        for name in ["mslip_masing_tractions", "mslip_masing_update"] {
+            let f = call(name);
+            let mut arguments = Arguments::new(f, &weak, Before::Filled);
+            arguments.slots[1] = Slot::Size(state.bytes / 8);
+            arguments.set(2, Memory::of(state.values::<f64>()));
+            f.place(NewState).inspect(|new| arguments.set(*new, Memory::of(state.values::<f64>())));
+            if f.has(NewState) {
+                for k in -20..=20 {
+                    arguments.slots[3] = Slot::Value(0.05 * f64::from(k) * strong.displacement);
+                    accepted(f, &arguments, "the state of another contact");
+                    let [force, stiffness, energy] = [5, 6, 7].map(|place| arguments.memory(place).values::<f64>()[0]);
+                    assert!(force.abs() <= weak.force && stiffness >= 0.0 && energy >= 0.0);
+                }
+            } else if friction_coefficient < 0.05 {
+                rejected_as(f, &arguments, MSLIP_FORCE_EXCEEDS_SLIP, "the state of a stronger contact");
+            } else {
+                accepted(f, &arguments, "the state of another contact");
+            }
+        }
+    }
+}
+
+/// A batch gives the results of its items alone, each with a contact, a state and values of its own.
+#[test]
+fn batches_are_single_items() {
+    for batch in CALLS.iter().filter(|call| call.has(Index)) {
+        let single = call(&batch.name.replace("batch_", ""));
+        let directions = if batch.is_of_element() { vec![1, 2] } else { vec![1] };
+        for directions in directions {
+            let laws: Vec<Law> =
+                Law::all(batch).into_iter().filter(|law| law.directions == directions && law.rule == 0).collect();
+            let law = |i: usize| &laws[i % laws.len()];
+            let items: Vec<Arguments> = (0..N).map(|i| Arguments::new(batch, law(i), Before::Filled)).collect();
+            let mut all = Arguments::new(batch, law(0), Before::Filled);
+            let part = |memory: &Memory, i: usize| {
+                memory.values::<u8>()[memory.bytes / N * i..memory.bytes / N * (i + 1)].to_vec()
+            };
+            // Contact i is of law i; item i uses contact index(i), and all values are of that.
+            let index: Vec<usize> =
+                all.memory(batch.place(Index).expect("an index")).values::<i32>().iter().map(|i| *i as usize).collect();
+            for (place, argument) in batch.arguments.iter().enumerate() {
+                if matches!(argument.kind, Contact | Element | State | Input) {
+                    let own = |i: usize| {
+                        part(
+                            items[if matches!(argument.kind, Contact | Element) { i } else { index[i] }].memory(place),
+                            i,
+                        )
+                    };
+                    let bytes: Vec<u8> = (0..N).flat_map(own).collect();
+                    all.memory_mut(place).values_mut::<u8>().copy_from_slice(&bytes);
+                }
+            }
+            // The last item is skipped, with its outputs unchanged.
+            all.memory_mut(batch.place(Active).expect("flags")).values_mut().copy_from_slice(&[1, 2, 0]);
+            assert_eq!(batch.make(&all.slots), MSLIP_OK, "{}", batch.name);
+            let shares = |kind: Kind| places(batch, kind).collect::<Vec<_>>();
+            for i in 0..N {
+                let mut one = Arguments::new(single, law(index[i]), Before::Filled);
+                let places_of = |kind: Kind| places(single, kind).collect::<Vec<_>>();
+                for kind in [State, Input] {
+                    for (to, from) in places_of(kind).into_iter().zip(shares(kind)) {
+                        one.set(to, Memory::of(&part(all.memory(from), i)));
+                    }
+                }
+                if let Some(value) = single.place(Value) {
+                    let input = all.memory(batch.place(Input).expect("an input")).values::<f64>()[i];
+                    one.slots[value] = Slot::Value(input);
+                }
+                single.place(Count).inspect(|count| one.slots[*count] = Slot::Size(1));
+                for kind in [NewState, Output] {
+                    for (to, from) in places_of(kind).into_iter().zip(shares(kind)) {
+                        one.set(to, Memory::of(&vec![FILLED; all.memory(from).bytes / N]));
+                    }
+                }
+                if i < N - 1 {
+                    assert_eq!(single.make(&one.slots), MSLIP_OK, "{}", single.name);
+                }
+                for kind in [NewState, Output] {
+                    for (to, from) in places_of(kind).into_iter().zip(shares(kind)) {
+                        assert_eq!(
+                            part(all.memory(from), i),
+                            one.memory(to).values::<u8>(),
+                            "{}: item {i}",
+                            batch.name
+                        );
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// One invalid item: nothing is written.
+#[test]
+fn invalid_items() {
+    for_each_call(|call, law| {
+        let (Some(index), Some(active)) = (call.place(Index), call.place(Active)) else { return };
+        for bad in 0..N {
+            let mut arguments = Arguments::new(call, law, Before::Filled);
+            arguments.memory_mut(index).values_mut().copy_from_slice(&[0, 1, 2]);
+            for code in [-1, N as i32, i32::MAX, i32::MIN] {
+                arguments.memory_mut(index).values_mut::<i32>()[bad] = code;
+                rejected_as(call, &arguments, MSLIP_BAD_INDEX, "one index");
+            }
+            arguments.memory_mut(index).values_mut::<i32>()[bad] = bad as i32;
+            for kind in [Contact, Element, State] {
+                for place in places(call, kind) {
+                    let memory = arguments.memory(place).values::<u64>().to_vec();
+                    let share = memory.len() / N;
+                    arguments.memory_mut(place).values_mut::<u64>()[bad * share..(bad + 1) * share].fill(u64::MAX);
+                    for flag in [1, -1, 2, i32::MIN] {
+                        arguments.memory_mut(active).values_mut::<i32>()[bad] = flag;
+                        rejected_as(call, &arguments, call.arguments[place].status, "one item");
+                    }
+                    arguments.memory_mut(active).values_mut::<i32>()[bad] = 0;
+                    accepted_but(call, &arguments, bad);
+                    arguments.memory_mut(active).values_mut::<i32>()[bad] = 1;
+                    arguments.memory_mut(place).values_mut::<u64>().copy_from_slice(&memory);
+                }
+            }
+        }
+        // Fewer contacts than items, with an index or without.
+        let mut arguments = Arguments::new(call, law, Before::Filled);
+        let count = call.place(Laws).expect("a number of contacts");
+        for n in 0..N {
+            rejected(call, &mut arguments, count, Slot::Size(n), MSLIP_BAD_INDEX);
+        }
+        arguments.omit(index);
+        for n in 0..N {
+            rejected(call, &mut arguments, count, Slot::Size(n), MSLIP_BAD_INDEX);
+        }
+    });
+}
+
+/// Accepted without one item, which is not written.
+fn accepted_but(call: &Call, arguments: &Arguments, skipped: usize) {
+    let outputs = || places(call, Output).chain(places(call, NewState)).map(|place| arguments.memory(place));
+    outputs().for_each(|memory| memory.fill(FILLED));
+    assert_eq!(call.make(&arguments.slots), MSLIP_OK, "{}", call.name);
+    for (i, share) in outputs().flat_map(|memory| memory.values::<u8>().chunks(memory.bytes / N).enumerate()) {
+        let is_written = share.chunks(8).next().is_some_and(|first| first.iter().any(|byte| *byte != FILLED));
+        assert!(is_written == (i != skipped), "{}: item {i} of the call without {skipped}", call.name);
+    }
+}
+
+/// Calls with invalid pointers and lengths, arbitrary values and arbitrary memory behind valid tags. `verification/fuzz` makes the
+/// same under AddressSanitizer, guided by coverage.
+#[test]
+fn arbitrary_bytes() {
+    for seed in 0..20_000 {
+        let bytes = pseudorandom(seed, 96);
+        mutated_call(&mut Bytes::new(&bytes));
+    }
+}
