@@ -61,9 +61,9 @@ pub(crate) struct Slip {
     pub level: Row<f64>,
     pub e: Both<Row<f64>>,
     pub sigma: Both<Row<f64>>,
-    /// K, and the angles by which e turns per excess of r* - A σ over l e, as `[m][i]`.
+    /// K, and the inverse of the derivative of the residual by the angles, as `[m][i]`.
     pub k: Both<Matrix>,
-    pub turns: Both<Matrix>,
+    pub inverse: Matrix,
     /// The points and the load of K.
     known: (Set, f64),
 }
@@ -235,7 +235,7 @@ impl Slip {
         e: [[0.0; N]; 2],
         sigma: [[0.0; N]; 2],
         k: [[[0.0; N]; N]; 2],
-        turns: [[[0.0; N]; N]; 2],
+        inverse: [[0.0; N]; N],
         known: (0, 0.0),
     };
 
@@ -289,7 +289,6 @@ impl Slip {
                 }
             }
             let constant = both!(|k| times(&self.k[k], [first, end], &r_trial[k]));
-            let mut inverse = [[0.0; N]; N];
             let (mut turn, mut reviewed, mut done, mut fresh) = (9.0f64, false, false, false);
             loop {
                 let ([e_x, e_y], level) = (self.e, self.level);
@@ -321,18 +320,15 @@ impl Slip {
                             let own = if i == m { diagonal[i] } else { 0.0 };
                             let (k_x, k_y) = (self.k[0][m][i], self.k[1][m][i]);
                             let turns = e_x[i] * e_x[m] * k_y + e_y[i] * e_y[m] * k_x;
-                            inverse[m][i] = slips[i] * (turns * level[m] + own);
+                            self.inverse[m][i] = slips[i] * (turns * level[m] + own);
                         }
                     }
-                    invert(&mut inverse, set, [first, end]);
+                    invert(&mut self.inverse, set, [first, end]);
                 }
                 if done {
-                    if derivatives {
-                        self.differentiate(&inverse, [first, end]);
-                    }
                     return true;
                 }
-                let turns = times(&inverse, [first, end], &residual);
+                let turns = times(&self.inverse, [first, end], &residual);
                 let (before, mut largest) = (turn, 0.0);
                 for i in 0..N {
                     let size = slips[i] * turns[i].abs();
@@ -364,21 +360,6 @@ impl Slip {
             }
         }
         false
-    }
-
-    /// The angles by which e turns, from the inverse of the derivative of the residual by the angles.
-    #[inline(always)]
-    fn differentiate(&mut self, inverse: &Matrix, range: [usize; 2]) {
-        for k in 0..2 {
-            let (across, sign) = if k == 0 { (&self.e[1], -1.0) } else { (&self.e[0], 1.0) };
-            for m in range[0]..range[1] {
-                let mut residual = [0.0; N];
-                for i in 0..N {
-                    residual[i] = sign * across[i] * self.k[k][m][i];
-                }
-                self.turns[k][m] = times(inverse, range, &residual);
-            }
-        }
     }
 
     /// From sweeps of the points.

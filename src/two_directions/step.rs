@@ -218,9 +218,12 @@ fn slide<A: Real, X: Over<A>, T: Tables<A>>(t: &T, c: &Contact<A>, level: &Row<X
             }
         }
     }
-    let mut turn = [zero; N];
-    add_product(&slip.turns[0], [first, end], &excess[0], &mut turn);
-    add_product(&slip.turns[1], [first, end], &excess[1], &mut turn);
+    let slips = both!(|k| product(&slip.k[k], [first, end], &excess[k]));
+    let mut residual = [zero; N];
+    for i in first..end {
+        residual[i] = slips[1][i].scale(slip.e[0][i]) - slips[0][i].scale(slip.e[1][i]);
+    }
+    let turn = product(&slip.inverse, [first, end], &residual);
     let every = slip.set.count_ones() as usize == end - first;
     for k in 0..2 {
         let (across, sign) = if k == 0 { (&slip.e[1], -1.0) } else { (&slip.e[0], 1.0) };
@@ -244,14 +247,10 @@ fn slide<A: Real, X: Over<A>, T: Tables<A>>(t: &T, c: &Contact<A>, level: &Row<X
                 v[k][j] = above;
             }
         } else {
-            let mut sigma = [zero; N];
+            let mut sigma = product(&slip.k[k], [first, end], &change);
             for i in first..end {
-                sigma[i] = X::constant(if slip.contains(i) { slip.sigma[k][i] } else { 0.0 });
-                change[i] = change[i] + excess[k][i];
-            }
-            add_product(&slip.k[k], [first, end], &change, &mut sigma);
-            for i in first..end {
-                sigma[i] = sigma[i].times(c.per_pressure[i]);
+                let own = if slip.contains(i) { slip.sigma[k][i] } else { 0.0 };
+                sigma[i] = (sigma[i] + slips[k][i] + X::constant(own)).times(c.per_pressure[i]);
             }
             let mut before = zero;
             for j in first..end {
@@ -266,16 +265,18 @@ fn slide<A: Real, X: Over<A>, T: Tables<A>>(t: &T, c: &Contact<A>, level: &Row<X
     }
 }
 
-/// y += Σ x_m matrix[m][i]: x is 0 at points that stick.
+/// Σ x_m matrix[m][i]: rows of points that stick are 0.
 #[inline(always)]
-fn add_product<X: Real>(matrix: &Matrix, [first, end]: [usize; 2], x: &Row<X>, y: &mut Row<X>) {
+fn product<X: Real>(matrix: &Matrix, [first, end]: [usize; 2], x: &Row<X>) -> Row<X> {
+    let mut y = [X::constant(0.0); N];
     for i in first..end {
-        let mut sum = y[i];
+        let mut sum = X::constant(0.0);
         for m in first..end {
             sum.add_scaled(&x[m], matrix[m][i]);
         }
         y[i] = sum;
     }
+    y
 }
 
 /// A step of values whose slip is known, in the units of the springs: force, and dissipated energy if requested.
