@@ -50,10 +50,10 @@ impl Pressed<f64> {
     }
 
     /// With derivatives by one parameter.
-    pub fn dual<const M: usize>(&self, slopes: &Pressed<f64>, parameter: usize) -> Pressed<Dual<M>> {
+    pub fn dual(&self, slopes: &Pressed<f64>, parameter: usize) -> Pressed<Dual<1>> {
         let of = |value: f64, slope: f64| {
             let mut dual = Dual::constant(value);
-            dual.slopes[parameter] = slope;
+            dual.0[0][parameter] = slope;
             dual
         };
         Pressed {
@@ -109,19 +109,19 @@ impl Contact<f64> {
     }
 
     /// The contact with derivatives.
-    pub fn derived<const M: usize, T: Tables<Dual<M>>>(&self, tables: &T, slopes: &Pressed<f64>) -> Contact<Dual<M>> {
+    pub fn derived(&self, tables: &impl Tables<Dual<1>>, slopes: &Pressed<f64>) -> Contact<Dual<1>> {
         let now = self.now.dual(slopes, END);
         Contact::new(tables, &now, [self.last, self.part], self.under_flat)
     }
 }
 
 /// The derivatives that are multiplied with columns are those by the load at the end and the alignment.
-pub(crate) fn derive(contact: &Contact<f64>, tables: [&Rows; 2], slopes: &Pressed<f64>) -> Contact<Dual<4>> {
+pub(crate) fn derive(contact: &Contact<f64>, tables: [&Rows; 2], slopes: &Pressed<f64>) -> Contact<Dual<1>> {
     dispatch!(derive_kernel(contact, tables, slopes))
 }
 
 #[inline(always)]
-fn derive_kernel(contact: &Contact<f64>, tables: [&Rows; 2], slopes: &Pressed<f64>) -> Contact<Dual<4>> {
+fn derive_kernel(contact: &Contact<f64>, tables: [&Rows; 2], slopes: &Pressed<f64>) -> Contact<Dual<1>> {
     contact.derived(&tables, slopes)
 }
 

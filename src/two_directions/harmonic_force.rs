@@ -13,7 +13,7 @@
 use super::Requested;
 use super::contact::{Contact, Pressed, derive};
 use super::path::Path;
-use super::scalar::Dual;
+use super::scalar::{Dual, Real};
 use super::slip::Slips;
 use super::step::{advance, separated, step};
 use super::tables::{ALIGNMENT, Both, END, N, PARAMETERS, ROWS, Rows, START, Units, fill, under_flat};
@@ -22,7 +22,7 @@ use crate::element::{Element, Normal};
 use crate::error::Error;
 use crate::fourier::workspace::{HEADER, Parts, Size, WorkspaceLayout, padded};
 use crate::limits::check_coefficients;
-use crate::simd::dispatch;
+use crate::simd::{dispatch, plus};
 use crate::tag::Kind;
 use core::f64::consts::TAU;
 
@@ -244,7 +244,7 @@ struct Walk<'a> {
     /// The contact, its derivatives by the normal component, those with respect to parameters, and its normal force.
     contact: Contact<f64>,
     slopes: Pressed<f64>,
-    derived: Option<Contact<Dual<PADDED>>>,
+    derived: Option<Contact<Dual<1>>>,
     normal: Normal,
     springs: Values,
     slip: Slips,
@@ -307,30 +307,27 @@ impl Walk<'_> {
     }
 }
 
-/// Lanes of the parameters.
-const PADDED: usize = 4;
-
 /// Columns of the springs in the workspace, beside their values at the start of a step.
 struct Columns<'a, const L: usize> {
     values: &'a Values,
-    springs: &'a mut [[f64; L]; SPRINGS],
+    springs: &'a mut [[[f64; 4]; L]; SPRINGS],
     /// Derivatives of the parameters of a contact by the coefficients.
-    parameters: &'a [[f64; L]; PARAMETERS],
+    parameters: &'a [[[f64; 4]; L]; PARAMETERS],
 }
 
 impl<const L: usize> Columns<'_, L> {
-    /// Columns of a number: derivatives by the parameters are added.
-    #[expect(clippy::manual_memcpy, reason = "a copy of a slice may panic")]
+    /// Columns of a number: derivatives by the parameters, which are in its first block, are added.
     #[inline(always)]
-    fn of<const M: usize>(&self, x: &Dual<M>) -> [f64; L] {
-        let mut columns = [0.0; L];
+    fn of<const M: usize>(&self, x: &Dual<M>) -> [[f64; 4]; L] {
+        let mut columns = [[0.0; 4]; L];
         for c in 0..L {
-            columns[c] = x.slopes[PADDED + c];
+            columns[c] = x.0[1 + c];
         }
-        if x.slopes[END] != 0.0 || x.slopes[START] != 0.0 || x.slopes[ALIGNMENT] != 0.0 {
+        let slopes = &x.0[0];
+        if slopes[END] != 0.0 || slopes[START] != 0.0 || slopes[ALIGNMENT] != 0.0 {
             for p in 0..PARAMETERS {
                 for c in 0..L / 3 {
-                    columns[c] += x.slopes[p] * self.parameters[p][c];
+                    columns[c] = plus(columns[c], slopes[p], self.parameters[p][c]);
                 }
             }
         }
@@ -338,18 +335,17 @@ impl<const L: usize> Columns<'_, L> {
     }
 }
 
-/// With lanes of the parameters: M = L + 4.
+/// With a block of the parameters: M = L + 1.
 impl<const L: usize, const M: usize> Springs<Dual<M>> for Columns<'_, L> {
     const KEPT: bool = true;
 
-    #[expect(clippy::manual_memcpy, reason = "a copy of a slice may panic")]
     #[inline(always)]
     fn get(&self, place: usize) -> Dual<M> {
-        let mut dual = Dual { slopes: [0.0; M], value: 0.0 };
+        let mut dual = Dual::constant(0.0);
         if let (Some(value), Some(columns)) = (self.values.as_flattened().get(place), self.springs.get(place)) {
-            dual.value = *value;
+            dual = Dual::constant(*value);
             for c in 0..L {
-                dual.slopes[PADDED + c] = columns[c];
+                dual.0[1 + c] = columns[c];
             }
         }
         dual
@@ -377,22 +373,22 @@ fn fade(derivatives: &mut [f64]) {
 /// A step in columns: the derivatives of both forces.
 fn columns<const L: usize, const M: usize>(
     tables: [&Rows; 2],
-    contact: &Contact<Dual<PADDED>>,
-    motion: &Motion<Dual<PADDED>, Dual<M>>,
+    contact: &Contact<Dual<1>>,
+    motion: &Motion<Dual<1>, Dual<M>>,
     slip: &Slips,
     springs: &mut Columns<L>,
-) -> Both<[f64; L]> {
+) -> Both<[[f64; 4]; L]> {
     dispatch!(columns_kernel(tables, contact, motion, slip, springs))
 }
 
 #[inline(always)]
 fn columns_kernel<const L: usize, const M: usize>(
     tables: [&Rows; 2],
-    contact: &Contact<Dual<PADDED>>,
-    motion: &Motion<Dual<PADDED>, Dual<M>>,
+    contact: &Contact<Dual<1>>,
+    motion: &Motion<Dual<1>, Dual<M>>,
     slip: &Slips,
     springs: &mut Columns<L>,
-) -> Both<[f64; L]> {
+) -> Both<[[f64; 4]; L]> {
     let force = step(&tables, contact, motion, slip, springs);
     [springs.of(&force[0]), springs.of(&force[1])]
 }
@@ -454,9 +450,9 @@ fn walk(element: &Element, workspace: &mut Workspace, output: HarmonicOutput) {
                 if taken.closed[1] {
                     let samples = [before, Some(index), Some(largest)];
                     if workspace.forces.len() == 2 * NARROW {
-                        differentiate::<NARROW, { NARROW + PADDED }>(workspace, &mut walk, &taken, samples, by_top);
+                        differentiate::<{ NARROW / 4 }, { NARROW / 4 + 1 }>(workspace, &mut walk, &taken, samples, by_top);
                     } else {
-                        differentiate::<WIDE, { WIDE + PADDED }>(workspace, &mut walk, &taken, samples, by_top);
+                        differentiate::<{ WIDE / 4 }, { WIDE / 4 + 1 }>(workspace, &mut walk, &taken, samples, by_top);
                     }
                 } else {
                     workspace.forces.fill(0.0);
@@ -580,25 +576,27 @@ fn differentiate<const L: usize, const M: usize>(
         walk.derived = Some(derive(&walk.contact, walk.tables, &walk.slopes));
     }
     let Some(contact) = &walk.derived else { return };
-    let mut shift = motion.before.map(|shift| Dual { slopes: [0.0; PADDED], value: shift });
-    shift.iter_mut().zip(before.shift).for_each(|(shift, slope)| shift.slopes[START] = slope);
+    let mut shift = motion.before.map(Dual::constant);
+    shift.iter_mut().zip(before.shift).for_each(|(shift, slope)| shift.0[0][START] = slope);
     let (forces_x, forces_y) = workspace.forces.split_at_mut(workspace.forces.len() / 2);
-    let memories = workspace.derivatives.as_chunks_mut::<L>().0.as_chunks_mut::<SPRINGS>().0.iter_mut();
-    let forces = forces_x.as_chunks_mut().0.iter_mut().zip(forces_y.as_chunks_mut().0);
-    for (block, (memory, (x, y))) in memories.zip(forces).enumerate() {
-        let mut by = motion.by.map(|by| Dual { slopes: [0.0; M], value: by });
-        let mut parameters = [[0.0; L]; PARAMETERS];
-        for c in 0..(L / 3).min(n - block * (L / 3)) {
-            let coefficient = block * (L / 3) + c;
+    let blocks = workspace.derivatives.as_chunks_mut::<4>().0.as_chunks_mut::<L>().0;
+    let memories = blocks.as_chunks_mut::<SPRINGS>().0.iter_mut();
+    let [forces_x, forces_y] = [forces_x, forces_y].map(|forces| forces.as_chunks_mut::<4>().0.as_chunks_mut().0);
+    for (block, (memory, (x, y))) in memories.zip(forces_x.iter_mut().zip(forces_y)).enumerate() {
+        let mut by = motion.by.map(Dual::<M>::constant);
+        let mut parameters = [[[0.0; 4]; L]; PARAMETERS];
+        let each = 4 * L / 3;
+        for c in 0..each.min(n - block * each) {
+            let (coefficient, part, lane) = (block * each + c, c / 4, c % 4);
             let (from, to) = (at(start, coefficient), at(end, coefficient));
             for k in 0..2 {
-                by[k].slopes[PADDED + c] = path.per_input[k][0] * from + path.per_input[k][1] * to;
-                by[k].slopes[PADDED + (1 + k) * (L / 3) + c] = path.per_distance * (to - from);
+                by[k].0[1 + part][lane] = path.per_input[k][0] * from + path.per_input[k][1] * to;
+                by[k].0[1 + (1 + k) * (L / 3) + part][lane] = path.per_distance * (to - from);
             }
             // The load at the start of the first step is that of the largest one.
             let top = at(top, coefficient);
-            parameters[START][c] = if start.is_empty() { top } else { from };
-            (parameters[END][c], parameters[ALIGNMENT][c]) = (to, by_top * top);
+            parameters[START][part][lane] = if start.is_empty() { top } else { from };
+            (parameters[END][part][lane], parameters[ALIGNMENT][part][lane]) = (to, by_top * top);
         }
         let motion = Motion { before: shift, by, constant_load: motion.constant_load };
         let mut springs = Columns { values: old, springs: memory, parameters: &parameters };

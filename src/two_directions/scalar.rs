@@ -1,5 +1,6 @@
 //! Numbers over which the law is written: f64, and dual numbers, a value with derivatives.
 
+use crate::simd::plus;
 use core::ops::{Add, Mul, Sub};
 
 /// An array of the values of an expression for 0 and 1. In kernels, in place of `map`: closures would be compiled for the baseline.
@@ -105,104 +106,114 @@ impl Over<f64> for f64 {
     }
 }
 
-/// A value and M derivatives.
+/// Derivatives and, in the last lane of the first block, a value: blocks of four lanes are what the compiler makes vectors of.
 #[derive(Debug, Clone, Copy)]
 #[repr(align(32))]
-pub(crate) struct Dual<const M: usize> {
-    pub slopes: [f64; M],
-    pub value: f64,
-}
+pub(crate) struct Dual<const B: usize>(pub [[f64; 4]; B]);
 
-/// Each derivative from those of one or two numbers.
-macro_rules! slopes {
-    (|$k:ident| $slope:expr) => {{
-        let mut slopes = [0.0; M];
-        for $k in 0..M {
-            slopes[$k] = $slope;
+/// The lane of a value.
+const VALUE: usize = 3;
+
+impl<const B: usize> Dual<B> {
+    #[inline(always)]
+    fn with_value(mut self, value: f64) -> Self {
+        self.0[0][VALUE] = value;
+        self
+    }
+
+    /// Adds the derivatives of a number, times a factor.
+    #[inline(always)]
+    fn plus_slopes<const P: usize>(mut self, factor: f64, x: &Dual<P>) -> Self {
+        let value = self.value();
+        for b in 0..P.min(B) {
+            self.0[b] = plus(self.0[b], factor, x.0[b]);
         }
-        slopes
-    }};
+        self.with_value(value)
+    }
 }
 
-impl<const M: usize> Real for Dual<M> {
+impl<const B: usize> Real for Dual<B> {
     #[inline(always)]
     fn constant(value: f64) -> Self {
-        Dual { slopes: [0.0; M], value }
+        Dual([[0.0; 4]; B]).with_value(value)
     }
 
     #[inline(always)]
     fn value(&self) -> f64 {
-        self.value
+        self.0[0][VALUE]
     }
 
     #[inline(always)]
-    fn scale(self, factor: f64) -> Self {
-        Dual { slopes: slopes!(|k| self.slopes[k] * factor), value: self.value * factor }
-    }
-
-    #[inline(always)]
-    fn chain(self, value: f64, slope: f64) -> Self {
-        Dual { slopes: slopes!(|k| self.slopes[k] * slope), value }
-    }
-
-    #[inline(always)]
-    fn add_scaled(&mut self, x: &Self, factor: f64) {
-        for k in 0..M {
-            self.slopes[k] += x.slopes[k] * factor;
+    fn scale(mut self, factor: f64) -> Self {
+        for b in 0..B {
+            let [x, y, z, w] = self.0[b];
+            self.0[b] = [x * factor, y * factor, z * factor, w * factor];
         }
-        self.value += x.value * factor;
-    }
-}
-
-impl<const M: usize> Add for Dual<M> {
-    type Output = Self;
-    #[inline(always)]
-    fn add(self, other: Self) -> Self {
-        Dual { slopes: slopes!(|k| self.slopes[k] + other.slopes[k]), value: self.value + other.value }
-    }
-}
-
-impl<const M: usize> Sub for Dual<M> {
-    type Output = Self;
-    #[inline(always)]
-    fn sub(self, other: Self) -> Self {
-        Dual { slopes: slopes!(|k| self.slopes[k] - other.slopes[k]), value: self.value - other.value }
-    }
-}
-
-impl<const M: usize> Mul for Dual<M> {
-    type Output = Self;
-    #[inline(always)]
-    fn mul(self, other: Self) -> Self {
-        let slopes = slopes!(|k| self.slopes[k] * other.value + self.value * other.slopes[k]);
-        Dual { slopes, value: self.value * other.value }
-    }
-}
-
-impl<const M: usize, const P: usize> Over<Dual<P>> for Dual<M> {
-    #[inline(always)]
-    fn minus(mut self, a: Dual<P>) -> Self {
-        for k in 0..P.min(M) {
-            self.slopes[k] -= a.slopes[k];
-        }
-        self.value -= a.value;
         self
     }
 
     #[inline(always)]
-    fn times(self, a: Dual<P>) -> Self {
-        let mut product = self.scale(a.value);
-        for k in 0..P.min(M) {
-            product.slopes[k] += self.value * a.slopes[k];
-        }
-        product
+    fn chain(self, value: f64, slope: f64) -> Self {
+        self.scale(slope).with_value(value)
     }
 
     #[inline(always)]
-    fn add_product(&mut self, x: &Self, a: Dual<P>) {
-        self.add_scaled(x, a.value);
-        for k in 0..P.min(M) {
-            self.slopes[k] += x.value * a.slopes[k];
+    fn add_scaled(&mut self, x: &Self, factor: f64) {
+        for b in 0..B {
+            self.0[b] = plus(self.0[b], factor, x.0[b]);
         }
+    }
+}
+
+impl<const B: usize> Add for Dual<B> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(mut self, other: Self) -> Self {
+        for b in 0..B {
+            let ([x, y, z, w], [p, q, r, s]) = (self.0[b], other.0[b]);
+            self.0[b] = [x + p, y + q, z + r, w + s];
+        }
+        self
+    }
+}
+
+impl<const B: usize> Sub for Dual<B> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(mut self, other: Self) -> Self {
+        for b in 0..B {
+            let ([x, y, z, w], [p, q, r, s]) = (self.0[b], other.0[b]);
+            self.0[b] = [x - p, y - q, z - r, w - s];
+        }
+        self
+    }
+}
+
+impl<const B: usize> Mul for Dual<B> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        self.scale(other.value()).plus_slopes(self.value(), &other)
+    }
+}
+
+/// The numbers of a contact have one block.
+impl<const B: usize> Over<Dual<1>> for Dual<B> {
+    #[inline(always)]
+    fn minus(mut self, a: Dual<1>) -> Self {
+        let ([x, y, z, w], [p, q, r, s]) = (self.0[0], a.0[0]);
+        self.0[0] = [x - p, y - q, z - r, w - s];
+        self
+    }
+
+    #[inline(always)]
+    fn times(self, a: Dual<1>) -> Self {
+        self.scale(a.value()).plus_slopes(self.value(), &a)
+    }
+
+    #[inline(always)]
+    fn add_product(&mut self, x: &Self, a: Dual<1>) {
+        self.add_scaled(x, a.value());
+        *self = self.plus_slopes(x.value(), &a);
     }
 }

@@ -61,9 +61,9 @@ pub(crate) struct Slip {
     pub level: Row<f64>,
     pub e: Both<Row<f64>>,
     pub sigma: Both<Row<f64>>,
-    /// K, and the angles by which e turns per excess of r* - A σ over l e, as `[m][i]`.
+    /// K, and the inverse of the derivative of the residual by the angles, as `[m][i]`.
     pub k: Both<Matrix>,
-    pub turns: Both<Matrix>,
+    pub inverse: Matrix,
     /// The points and the load of K.
     known: (Set, f64),
 }
@@ -80,7 +80,7 @@ struct Guess {
 struct Problem<'a> {
     r: Both<Row<f64>>,
     compliance: &'a Both<Matrix>,
-    last: usize,
+    end: usize,
     load: f64,
 }
 
@@ -109,7 +109,7 @@ impl Slips {
 
     /// Guesses for the middle: a contact that slips on hardly turns; otherwise slip begins from the trial state.
     #[inline(always)]
-    fn guesses(&mut self, r: &Both<Row<f64>>, start: &Both<Row<f64>>, by: &Both<f64>, last: usize) -> [Guess; 2] {
+    fn guesses(&mut self, r: &Both<Row<f64>>, start: &Both<Row<f64>>, by: &Both<f64>, end: usize) -> [Guess; 2] {
         let (mut e, mut from_trial, mut continues) = (*r, *r, [0.0; N]);
         let mut beyond = [0.0; N];
         let backwards = TURNS_BACK * (by[0] * by[0] + by[1] * by[1]).sqrt();
@@ -135,7 +135,7 @@ impl Slips {
             continues[i] = if slipped && r_x * by[0] + r_y * by[1] >= backwards { 1.0 } else { 0.0 };
         }
         let (mut set, mut outside) = (0, 0);
-        for i in (0..=last.min(N - 1)).rev().map(|i| i.min(N - 1)) {
+        for i in (0..end.min(N)).rev() {
             outside |= Set::from(beyond[i] > 0.0) << i;
             // A point that slipped before continues if the next one outside does.
             let outer = set >> (i + 1) & 1 == 1;
@@ -156,7 +156,7 @@ fn find_kernel(
     trial: &Trial,
     derivatives: bool,
 ) {
-    let (last, start) = (contact.last.min(N - 1), &trial.start);
+    let (end, start) = ((contact.last + 1).min(N), &trial.start);
     (slips.middle.set, slips.end.set, slips.slides, slips.v) = (0, 0, 0.0, trial.v);
     if trial.sticks {
         return;
@@ -167,7 +167,7 @@ fn find_kernel(
     if !motion.constant_load {
         let before = limits_before(&t, contact, contact.now.shift[0] - motion.before[0]);
         for i in 0..N {
-            slips.middle.level[i] = if i <= last { before[i] + theta * (1.0 - before[i]) } else { 1.0 };
+            slips.middle.level[i] = if i < end { before[i] + theta * (1.0 - before[i]) } else { 1.0 };
         }
     }
     let mut r = *start;
@@ -177,7 +177,7 @@ fn find_kernel(
         }
     }
     let mut v = trial.v;
-    let mut guesses = slips.guesses(&r, start, &motion.by, last);
+    let mut guesses = slips.guesses(&r, start, &motion.by, end);
     for stage in 0..2 {
         let middle = stage == 0;
         let [slip, other] =
@@ -185,8 +185,8 @@ fn find_kernel(
         if !middle {
             // The rest of the step slips as the middle did.
             (r, guesses[0].set) = (trial.r, 0);
-            other.relax(&mut r, compliance, last, 1.0 / theta);
-            for i in 0..=last {
+            other.relax(&mut r, compliance, end, 1.0 / theta);
+            for i in 0..end {
                 let square = r[0][i] * r[0][i] + r[1][i] * r[1][i];
                 let length = (if square > TINY { square } else { TINY }).sqrt();
                 (guesses[0].e[0][i], guesses[0].e[1][i]) = (r[0][i] / length, r[1][i] / length);
@@ -198,7 +198,7 @@ fn find_kernel(
         if guesses[1].set == 0 {
             continue;
         }
-        let problem = Problem { r, compliance, last, load: contact.now.load };
+        let problem = Problem { r, compliance, end, load: contact.now.load };
         let mut converged = false;
         for guess in &guesses {
             converged = converged || slip.solve(other, &problem, guess, derivatives);
@@ -213,8 +213,8 @@ fn find_kernel(
                 sigma[i] = if slip.set >> i & 1 == 1 { slip.sigma[k][i] * scale } else { 0.0 };
             }
             let mut before = 0.0;
-            for j in 0..=last {
-                let row = if j < last { &t[MAP + k * N + j] } else { &contact.edge[k] };
+            for j in 0..end {
+                let row = if j < contact.last { &t[MAP + k * N + j] } else { &contact.edge[k] };
                 let mut products = [0.0; N];
                 for i in 0..N {
                     products[i] = row[i] * sigma[i];
@@ -235,7 +235,7 @@ impl Slip {
         e: [[0.0; N]; 2],
         sigma: [[0.0; N]; 2],
         k: [[[0.0; N]; N]; 2],
-        turns: [[[0.0; N]; N]; 2],
+        inverse: [[0.0; N]; N],
         known: (0, 0.0),
     };
 
@@ -246,9 +246,9 @@ impl Slip {
 
     /// Takes what slips, times a factor, from the tractions of all points.
     #[inline(always)]
-    fn relax(&self, r: &mut Both<Row<f64>>, compliance: &Both<Matrix>, last: usize, factor: f64) {
+    fn relax(&self, r: &mut Both<Row<f64>>, compliance: &Both<Matrix>, end: usize, factor: f64) {
         for k in 0..2 {
-            for m in 0..=last.min(N - 1) {
+            for m in 0..end.min(N) {
                 if self.contains(m) {
                     let sigma = self.sigma[k][m] * factor;
                     for i in 0..N {
@@ -262,13 +262,13 @@ impl Slip {
     /// Newton's method from a guess; whether it converged. What derivatives need is computed if they are requested.
     #[inline(always)]
     fn solve(&mut self, other: &Slip, problem: &Problem, guess: &Guess, derivatives: bool) -> bool {
-        let Problem { r: r_trial, compliance, last, load } = problem;
-        let last = (*last).min(N - 1);
+        let Problem { r: r_trial, compliance, end, load } = problem;
+        let end = (*end).min(N);
         (self.set, self.e) = (guess.set, guess.e);
         let mut steps = 0;
         'sets: for _ in 0..CHANGES {
             let set = self.set;
-            let first = (set.trailing_zeros() as usize).min(last);
+            let first = (set.trailing_zeros() as usize).min(end);
             let mut slips = [0.0; N];
             for i in 0..N {
                 slips[i] = if set >> i & 1 == 1 { 1.0 } else { 0.0 };
@@ -279,17 +279,16 @@ impl Slip {
                     self.k = other.k;
                 } else {
                     for k in 0..2 {
-                        for i in first..=last {
+                        for i in first..end {
                             for m in 0..N {
-                                self.k[k][i][m] = compliance[k][i][m] * slips[m];
+                                self.k[k][i][m] = compliance[k][i][m] * (slips[i] * slips[m]);
                             }
                         }
-                        invert(&mut self.k[k], set, [first, last]);
+                        invert(&mut self.k[k], set, [first, end]);
                     }
                 }
             }
-            let constant = both!(|k| times(&self.k[k], set, [first, last], &r_trial[k]));
-            let mut inverse = [[0.0; N]; N];
+            let constant = both!(|k| times(&self.k[k], [first, end], &r_trial[k]));
             let (mut turn, mut reviewed, mut done, mut fresh) = (9.0f64, false, false, false);
             loop {
                 let ([e_x, e_y], level) = (self.e, self.level);
@@ -298,7 +297,7 @@ impl Slip {
                     for i in 0..N {
                         r[i] *= level[i];
                     }
-                    let own = times(&self.k[k], set, [first, last], &r);
+                    let own = times(&self.k[k], [first, end], &r);
                     for i in 0..N {
                         self.sigma[k][i] = slips[i] * (constant[k][i] - own[i]);
                     }
@@ -316,23 +315,20 @@ impl Slip {
                     }
                 }
                 if (done && derivatives) || (!done && (turn > RENEWED || !fresh)) {
-                    for m in first..=last {
+                    for m in first..end {
                         for i in 0..N {
                             let own = if i == m { diagonal[i] } else { 0.0 };
                             let (k_x, k_y) = (self.k[0][m][i], self.k[1][m][i]);
                             let turns = e_x[i] * e_x[m] * k_y + e_y[i] * e_y[m] * k_x;
-                            inverse[m][i] = slips[i] * (turns * level[m] + own);
+                            self.inverse[m][i] = slips[i] * (turns * level[m] + own);
                         }
                     }
-                    invert(&mut inverse, set, [first, last]);
+                    invert(&mut self.inverse, set, [first, end]);
                 }
                 if done {
-                    if derivatives {
-                        self.differentiate(&inverse, [first, last]);
-                    }
                     return true;
                 }
-                let turns = times(&inverse, set, [first, last], &residual);
+                let turns = times(&self.inverse, [first, end], &residual);
                 let (before, mut largest) = (turn, 0.0);
                 for i in 0..N {
                     let size = slips[i] * turns[i].abs();
@@ -366,30 +362,15 @@ impl Slip {
         false
     }
 
-    /// The angles by which e turns, from the inverse of the derivative of the residual by the angles.
-    #[inline(always)]
-    fn differentiate(&mut self, inverse: &Matrix, range: [usize; 2]) {
-        for k in 0..2 {
-            let (across, sign) = if k == 0 { (&self.e[1], -1.0) } else { (&self.e[0], 1.0) };
-            for m in range[0]..=range[1] {
-                let mut residual = [0.0; N];
-                for i in 0..N {
-                    residual[i] = sign * across[i] * self.k[k][m][i];
-                }
-                self.turns[k][m] = times(inverse, self.set, range, &residual);
-            }
-        }
-    }
-
     /// From sweeps of the points.
     #[cold]
     #[inline(never)]
     fn descend(&mut self, other: &Slip, problem: &Problem, derivatives: bool) {
-        let Problem { r, compliance, last, .. } = problem;
+        let Problem { r, compliance, end, .. } = problem;
         let (mut guess, mut sigma, mut sweeps, mut r) = (Guess { e: *r, set: 0 }, [[0.0; N]; 2], SWEEPS, *r);
         while sweeps < MOST_SWEEPS {
             for _ in 0..sweeps {
-                for i in (0..=(*last).min(N - 1)).rev().map(|i| i.min(N - 1)) {
+                for i in (0..(*end).min(N)).rev() {
                     let (a, limit) = ([compliance[0][i][i], compliance[1][i][i]], self.level[i]);
                     let g = [r[0][i] + a[0] * sigma[0][i], r[1][i] + a[1] * sigma[1][i]];
                     guess.set &= !(1 << i);
@@ -420,8 +401,8 @@ impl Slip {
     #[inline(always)]
     fn review(&mut self, problem: &Problem, done: bool) -> bool {
         let (before, mut r) = (self.set, problem.r);
-        self.relax(&mut r, problem.compliance, problem.last, 1.0);
-        for i in 0..=problem.last.min(N - 1) {
+        self.relax(&mut r, problem.compliance, problem.end, 1.0);
+        for i in 0..problem.end.min(N) {
             let (x, y, limit) = (r[0][i], r[1][i], self.level[i]);
             let square = x * x + y * y;
             if before >> i & 1 == 1 {
@@ -438,15 +419,13 @@ impl Slip {
     }
 }
 
-/// Σ x_m matrix[m][i] over the points of a set.
+/// Σ x_m matrix[m][i]: rows of points that stick are 0.
 #[inline(always)]
-fn times(matrix: &Matrix, set: Set, [first, last]: [usize; 2], x: &Row<f64>) -> Row<f64> {
+fn times(matrix: &Matrix, [first, end]: [usize; 2], x: &Row<f64>) -> Row<f64> {
     let mut y = [0.0; N];
-    for m in first..=last {
-        if set >> m & 1 == 1 {
-            for i in 0..N {
-                y[i] += x[m] * matrix[m][i];
-            }
+    for m in first..end {
+        for i in 0..N {
+            y[i] += x[m] * matrix[m][i];
         }
     }
     y
@@ -455,8 +434,8 @@ fn times(matrix: &Matrix, set: Set, [first, last]: [usize; 2], x: &Row<f64>) -> 
 /// The inverse of the block of a set, in place, by Gauss and Jordan. Single elements are chosen by their place in the lanes: a vector that
 /// is loaded right after one of its elements was stored would wait for it.
 #[inline(always)]
-fn invert(matrix: &mut Matrix, set: Set, [first, last]: [usize; 2]) {
-    for p in first..=last {
+fn invert(matrix: &mut Matrix, set: Set, [first, end]: [usize; 2]) {
+    for p in first..end {
         if set >> p & 1 == 0 {
             continue;
         }
@@ -467,7 +446,7 @@ fn invert(matrix: &mut Matrix, set: Set, [first, last]: [usize; 2]) {
             row[j] = if j == p { reciprocal } else { row[j] * reciprocal };
             others[j] = if j == p { 0.0 } else { 1.0 };
         }
-        for i in first..=last {
+        for i in first..end {
             let old = matrix[i];
             let (factor, mut values) = (matrix[i][p], [0.0; N]);
             for j in 0..N {

@@ -12,7 +12,7 @@
 
 use super::contact::{Contact, Pressed};
 use super::path::{LONGEST, Path};
-use super::scalar::Dual;
+use super::scalar::{Dual, Real};
 use super::slip::Slips;
 use super::step::{advance, separated, step};
 use super::stick;
@@ -349,7 +349,7 @@ pub(super) fn advance_state(element: &Element, state: &mut [f64], to: [f64; 3], 
         if requested.tangent {
             let slopes = stick::tangent(memory.tables, &contact, &slopes, &edge, memory.springs);
             for k in 0..2 {
-                let [w, x, y] = slopes[k].map(|slope| force_unit * slope);
+                let [w, x, y, _] = slopes[k].map(|slope| force_unit * slope);
                 let [u, v] = [x, y].map(|slope| path.per_distance * slope);
                 (result.tangent[k], result.tangent[3 + k], result.tangent[6 + k]) = (u, v, w);
             }
@@ -364,14 +364,14 @@ pub(super) fn advance_state(element: &Element, state: &mut [f64], to: [f64; 3], 
     slip.find(memory.tables, &contact, memory.compliance, &motion, &trial, requested.tangent);
     if requested.tangent {
         let by = [0, 1].map(|k| {
-            let mut by = Dual { slopes: [0.0; 4], value: motion.by[k] };
-            (by.slopes[END], by.slopes[END + 1 + k]) = (path.per_input[k][1], path.per_distance);
+            let mut by = Dual::constant(motion.by[k]);
+            (by.0[0][END], by.0[0][END + 1 + k]) = (path.per_input[k][1], path.per_distance);
             by
         });
-        let motion = Motion { before: motion.before.map(constant), by, constant_load: same };
+        let motion = Motion { before: motion.before.map(Dual::constant), by, constant_load: same };
         let force = tangent(memory.tables, &contact, &slopes, &motion, &slip, memory.springs);
         for k in 0..2 {
-            let [w, u, v, _] = force[k].slopes.map(|slope| force_unit * slope);
+            let [w, u, v, _] = force[k].0[0].map(|slope| force_unit * slope);
             (result.tangent[k], result.tangent[3 + k], result.tangent[6 + k]) = (u, v, w);
         }
         result.tangent[8] = normal.load_slope;
@@ -385,19 +385,15 @@ pub(super) fn advance_state(element: &Element, state: &mut [f64], to: [f64; 3], 
     result
 }
 
-fn constant(value: f64) -> Dual<1> {
-    Dual { slopes: [0.0], value }
-}
-
 /// The force of a step with its derivatives: by the normal component, u and v.
 fn tangent(
     tables: &Rows,
     contact: &Contact<f64>,
     slopes: &Pressed<f64>,
-    motion: &Motion<Dual<1>, Dual<4>>,
+    motion: &Motion<Dual<1>, Dual<1>>,
     slip: &Slips,
     springs: &Values,
-) -> Both<Dual<4>> {
+) -> Both<Dual<1>> {
     dispatch!(tangent_kernel(tables, contact, slopes, motion, slip, springs))
 }
 
@@ -406,10 +402,10 @@ fn tangent_kernel(
     tables: &Rows,
     contact: &Contact<f64>,
     slopes: &Pressed<f64>,
-    motion: &Motion<Dual<1>, Dual<4>>,
+    motion: &Motion<Dual<1>, Dual<1>>,
     slip: &Slips,
     mut springs: &Values,
-) -> Both<Dual<4>> {
-    let contact = contact.derived::<1, _>(&tables, slopes);
+) -> Both<Dual<1>> {
+    let contact = contact.derived(&tables, slopes);
     step(&tables, &contact, motion, slip, &mut springs)
 }

@@ -22,11 +22,11 @@ pub(crate) fn step<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     slip: &Slips,
     s: &mut S,
 ) -> Both<X> {
-    let (zero, start, last) = (X::constant(0.0), starts(c.under_flat), c.last.min(N - 1));
+    let (zero, start, end) = (X::constant(0.0), starts(c.under_flat), (c.last + 1).min(N));
     let rise = both!(|k| c.now.shift[k] - motion.before[k]);
     let mut v = [[zero; N]; 2];
     for k in 0..2 {
-        for j in 0..=last {
+        for j in 0..end {
             v[k][j] = s.get(k * N + j) + moved(c.limit(t, k, start[j]), rise[k], motion.by[k]);
         }
     }
@@ -35,19 +35,19 @@ pub(crate) fn step<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
         let theta = (slides + X::constant(1.0)).scale(0.5);
         let (before, first) = (limits_before(t, c, rise[0]), slip.middle.set.trailing_zeros() as usize);
         let mut level = [zero; N];
-        for i in first..=last {
+        for i in first..end {
             level[i] = X::constant(1.0).times(before[i]) + theta.times(A::constant(1.0) - before[i]);
         }
         let (mut at, per) = (v, theta.inverse());
         for k in 0..2 {
-            for j in first..=last {
+            for j in first..end {
                 let old = s.get(k * N + j);
                 at[k][j] = old + (v[k][j] - old) * theta;
             }
         }
         slide(t, c, &level, &mut at, &slip.middle);
         for k in 0..2 {
-            for j in first..=last {
+            for j in first..end {
                 let old = s.get(k * N + j);
                 v[k][j] = old + (at[k][j] - old) * per;
             }
@@ -70,12 +70,12 @@ fn finish<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     mut v: Both<Row<X>>,
     s: &mut S,
 ) -> Both<X> {
-    let (zero, start, last) = (X::constant(0.0), starts(c.under_flat), c.last.min(N - 1));
+    let (zero, start, end) = (X::constant(0.0), starts(c.under_flat), (c.last + 1).min(N));
     let rise = both!(|k| c.now.shift[k] - motion.before[k]);
     let mut force = [zero; 2];
     let far = if slip.slides > 0.0 { Some(Far::new(t, c, part, &v)) } else { None };
     for k in 0..2 {
-        for j in 0..=last {
+        for j in 0..end {
             if let Some(far) = &far {
                 v[k][j] = far.blend(k, v[k][j], c.limit(t, k, start[j]));
             }
@@ -89,7 +89,7 @@ fn finish<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
         }
     }
     let part = c.part.min(INSIDE - 1);
-    for f in 0..=part {
+    for f in 0..part + 1 {
         let w = both!(|k| c.fine(t, k, f));
         let limit = both!(|k| c.limit(t, k, f));
         let mut v = both!(|k| s.get(FINE_SPRING + k * FINE + f) + moved(limit[k], rise[k], motion.by[k]));
@@ -139,7 +139,7 @@ impl<X: Real> Far<X> {
     {
         let mut force = [X::constant(0.0); 2];
         for k in 0..2 {
-            for j in 0..=c.last.min(N - 1) {
+            for j in 0..(c.last + 1).min(N) {
                 force[k].add_product(&v[k][j], c.stiffness(t, k, j));
             }
         }
@@ -183,36 +183,34 @@ pub(crate) fn returned<A: Real, X: Over<A>>(v: Both<X>, limit: &Both<A>, far: Op
 /// Springs that slip to the limits of their points, with derivatives: by a step of Newton's method from the slip.
 #[inline(always)]
 fn slide<A: Real, X: Over<A>, T: Tables<A>>(t: &T, c: &Contact<A>, level: &Row<X>, v: &mut Both<Row<X>>, slip: &Slip) {
-    let (zero, last) = (X::constant(0.0), c.last.min(N - 1));
-    let first = (slip.set.trailing_zeros() as usize).min(last);
+    let (zero, end) = (X::constant(0.0), (c.last + 1).min(N));
+    let first = (slip.set.trailing_zeros() as usize).min(end);
     let mut excess = [[zero; N]; 2];
     for k in 0..2 {
         // Springs by which σ relaxes the contact, and the excess of r* - A σ over l e.
         let mut relaxed = [A::constant(0.0); N];
         let (mut before, mut per_slip) = (A::constant(0.0), [A::constant(0.0); N]);
-        for i in first..=last {
-            per_slip[i] = c.per_pressure[i].scale(slip.sigma[k][i]);
+        for i in first..end {
+            per_slip[i] = c.per_pressure[i].scale(if slip.contains(i) { slip.sigma[k][i] } else { 0.0 });
         }
-        for j in first..=last {
+        for j in first..end {
             let mut sum = A::constant(0.0);
-            for i in first..=j {
-                if slip.contains(i) {
-                    sum = sum + c.map(t, k, j, i) * per_slip[i];
-                }
+            for i in first..j + 1 {
+                sum = sum + c.map(t, k, j, i) * per_slip[i];
             }
             relaxed[j] = (sum - before) * c.flexibility(t, k, j);
             before = sum;
         }
         let (mut d, mut above) = ([zero; N], zero);
-        for j in (first..=last).rev().map(|j| j.min(N - 1)) {
+        for j in (first..end).rev() {
             let at = v[k][j].minus(relaxed[j]);
             d[j] = at - above;
             above = at;
         }
-        for i in first..=last {
+        for i in first..end {
             if slip.contains(i) {
                 let mut sum = zero;
-                for j in i..=last {
+                for j in i..end {
                     sum.add_product(&d[j], c.map(t, k, j, i));
                 }
                 excess[k][i] = sum.times(c.per_pressure[i]);
@@ -220,14 +218,17 @@ fn slide<A: Real, X: Over<A>, T: Tables<A>>(t: &T, c: &Contact<A>, level: &Row<X
             }
         }
     }
-    let mut turn = [zero; N];
-    add_product(&slip.turns[0], slip, [first, last], &excess[0], &mut turn);
-    add_product(&slip.turns[1], slip, [first, last], &excess[1], &mut turn);
-    let every = slip.set.count_ones() as usize == last + 1 - first;
+    let slips = both!(|k| product(&slip.k[k], [first, end], &excess[k]));
+    let mut residual = [zero; N];
+    for i in first..end {
+        residual[i] = slips[1][i].scale(slip.e[0][i]) - slips[0][i].scale(slip.e[1][i]);
+    }
+    let turn = product(&slip.inverse, [first, end], &residual);
+    let every = slip.set.count_ones() as usize == end - first;
     for k in 0..2 {
         let (across, sign) = if k == 0 { (&slip.e[1], -1.0) } else { (&slip.e[0], 1.0) };
         let mut change = [zero; N];
-        for i in first..=last {
+        for i in first..end {
             if slip.contains(i) {
                 change[i] = turn[i].scale(-sign * across[i] * slip.level[i]);
             }
@@ -236,9 +237,9 @@ fn slide<A: Real, X: Over<A>, T: Tables<A>>(t: &T, c: &Contact<A>, level: &Row<X
             // From the tractions, from outside: without gaps they determine the springs.
             let mut d = [zero; N];
             let mut above = zero;
-            for j in (first..=last).rev().map(|j| j.min(N - 1)) {
+            for j in (first..end).rev() {
                 let mut sum = (level[j].scale(slip.e[k][j]) - change[j]).times(c.per_pressure[j].inverse());
-                for m in j + 1..=last {
+                for m in j + 1..end {
                     sum = sum - d[m].times(c.map(t, k, m, j));
                 }
                 d[j] = sum.times(c.per_map(t, k, j));
@@ -246,22 +247,16 @@ fn slide<A: Real, X: Over<A>, T: Tables<A>>(t: &T, c: &Contact<A>, level: &Row<X
                 v[k][j] = above;
             }
         } else {
-            let mut sigma = [zero; N];
-            for i in first..=last {
-                sigma[i] = X::constant(slip.sigma[k][i]);
-                change[i] = change[i] + excess[k][i];
-            }
-            add_product(&slip.k[k], slip, [first, last], &change, &mut sigma);
-            for i in first..=last {
-                sigma[i] = sigma[i].times(c.per_pressure[i]);
+            let mut sigma = product(&slip.k[k], [first, end], &change);
+            for i in first..end {
+                let own = if slip.contains(i) { slip.sigma[k][i] } else { 0.0 };
+                sigma[i] = (sigma[i] + slips[k][i] + X::constant(own)).times(c.per_pressure[i]);
             }
             let mut before = zero;
-            for j in first..=last {
+            for j in first..end {
                 let mut sum = zero;
-                for i in first..=j {
-                    if slip.contains(i) {
-                        sum.add_product(&sigma[i], c.map(t, k, j, i));
-                    }
+                for i in first..j + 1 {
+                    sum.add_product(&sigma[i], c.map(t, k, j, i));
                 }
                 v[k][j] = v[k][j] - (sum - before).times(c.flexibility(t, k, j));
                 before = sum;
@@ -270,20 +265,18 @@ fn slide<A: Real, X: Over<A>, T: Tables<A>>(t: &T, c: &Contact<A>, level: &Row<X
     }
 }
 
-/// y += Σ x_m matrix[m][i] over the points that slip.
+/// Σ x_m matrix[m][i]: rows of points that stick are 0.
 #[inline(always)]
-fn add_product<X: Real>(matrix: &Matrix, slip: &Slip, [first, last]: [usize; 2], x: &Row<X>, y: &mut Row<X>) {
-    for i in first..=last {
-        if slip.contains(i) {
-            let mut sum = y[i];
-            for m in first..=last {
-                if slip.contains(m) {
-                    sum.add_scaled(&x[m], matrix[m][i]);
-                }
-            }
-            y[i] = sum;
+fn product<X: Real>(matrix: &Matrix, [first, end]: [usize; 2], x: &Row<X>) -> Row<X> {
+    let mut y = [X::constant(0.0); N];
+    for i in first..end {
+        let mut sum = X::constant(0.0);
+        for m in first..end {
+            sum.add_scaled(&x[m], matrix[m][i]);
         }
+        y[i] = sum;
     }
+    y
 }
 
 /// A step of values whose slip is known, in the units of the springs: force, and dissipated energy if requested.

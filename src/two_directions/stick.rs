@@ -67,16 +67,16 @@ pub(crate) fn tangent(
     slopes: &Pressed<f64>,
     edge: &Both<f64>,
     springs: &Values,
-) -> Both<[f64; 3]> {
+) -> Both<[f64; 4]> {
     let springs = springs.as_flattened();
     let at = |place: usize| springs.get(place).copied().unwrap_or(0.0);
-    let derived = c.derived::<1, _>(&t, slopes);
-    let edge = [Dual { slopes: [0.0, 1.0, 0.0], value: edge[0] }, Dual { slopes: [0.0, 0.0, 1.0], value: edge[1] }];
+    let derived = c.derived(&t, slopes);
+    let edge = [Dual([[0.0, 1.0, 0.0, edge[0]]]), Dual([[0.0, 0.0, 1.0, edge[1]]])];
     let ends = returned(edge, &both!(|k| derived.limit_inside(k)), None);
     both!(|k| {
-        let fine = |f: usize| derived.fine(&t, k, f).slopes[END] * at(FINE_SPRING + k * FINE + f);
-        let mut slopes = ends[k].times(derived.fine_inside(k)).slopes;
-        slopes[END] += derived.stiffness[k].slopes[END] * at(k * N + c.last);
+        let fine = |f: usize| derived.fine(&t, k, f).0[0][END] * at(FINE_SPRING + k * FINE + f);
+        let [mut slopes] = ends[k].times(derived.fine_inside(k)).0;
+        slopes[END] += derived.stiffness[k].0[0][END] * at(k * N + c.last);
         slopes[END] += (c.first_edge()..=c.part).map(fine).sum::<f64>();
         slopes[1 + k] += c.total(k) - c.fine_inside(k);
         slopes

@@ -113,19 +113,19 @@ impl Tables<f64> for &Rows {
 }
 
 /// Without derivatives.
-impl<const M: usize> Tables<Dual<M>> for &Rows {
+impl Tables<Dual<1>> for &Rows {
     #[inline(always)]
-    fn at(&self, row: usize, i: usize) -> Dual<M> {
+    fn at(&self, row: usize, i: usize) -> Dual<1> {
         Dual::constant(Tables::<f64>::at(self, row, i))
     }
 }
 
 /// Tables and their derivatives by the alignment.
-impl<const M: usize> Tables<Dual<M>> for [&Rows; 2] {
+impl Tables<Dual<1>> for [&Rows; 2] {
     #[inline(always)]
-    fn at(&self, row: usize, i: usize) -> Dual<M> {
+    fn at(&self, row: usize, i: usize) -> Dual<1> {
         let mut dual = Dual::constant(self[0].at(row, i));
-        dual.slopes[ALIGNMENT] = self[1].at(row, i);
+        dual.0[0][ALIGNMENT] = self[1].at(row, i);
         dual
     }
 }
