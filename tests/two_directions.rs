@@ -11,6 +11,7 @@ use microslip::two_directions::harmonic_force::{
     HarmonicOutput, Workspace, harmonic_force, workspace_init, workspace_length,
 };
 use microslip::two_directions::{Step, advance, state_check, state_init, state_length};
+use std::array::from_fn;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 const STEEL: Material = Material { young_modulus: 2e11, poisson_ratio: 0.3 };
@@ -234,8 +235,8 @@ fn apart(one: &Step, two: &Step) -> f64 {
 }
 
 /// Error of the springs on a line over mu N in histories whose load rises and falls at random: a corner of the distribution of displacements is
-/// cut between the nodes of the fine springs, and again by each new alignment.
-const LINE_ERROR: f64 = 2e-4;
+/// cut between the nodes of the fine springs, and again by each new alignment. Up to 2.5e-4 without a layer, 5.5e-4 with a rough one.
+const LINE_ERROR: f64 = 6e-4;
 
 /// Loads and displacements along x, with separation.
 fn on_line(element: &Element, steps: usize, random: &mut Random) -> Vec<[f64; 3]> {
@@ -289,15 +290,16 @@ fn a_linear_layer_is_a_spring_in_series() {
                     let step = both.to([u, v, load]);
                     at = in_series(&contact, layer.tangential_compliance, [u, v, load], at, 1e-12 * unit);
                     let alone = contact.to([at[0], at[1], load]);
-                    // Falls with the length of the parts: 2e-2 with 4 of them, 4e-3 with 16.
+                    // On flats it falls with the length of the parts: 1.2e-2 with 16 of them, 3e-4 with 256. The fine springs of spheres
+                    // leave 4e-3.
                     let error = apart(&step, &alone) / slip_force;
-                    assert!(error < 1.5e-3, "{k} {share}: {error:e}");
+                    assert!(error < if k < HALF_WIDTHS.len() { 3e-3 } else { 4.5e-3 }, "{k} {share}: {error:e}");
                     energies = [energies[0] + step.dissipated, energies[1] + alone.dissipated];
                 }
                 from = to;
             }
             let error = energies[0] / energies[1] - 1.0;
-            assert!(error.abs() < 2e-4, "{k} {share}: {energies:?}, {error:e}");
+            assert!(error.abs() < 3e-4, "{k} {share}: {energies:?}, {error:e}");
         }
     }
 }
@@ -471,9 +473,9 @@ fn orbit(element: &Element, n: usize, [a, b]: [f64; 2], swing: f64) -> [f64; 2] 
 #[test]
 fn a_closed_orbit_dissipates_its_work() {
     // Trapezia of the forces over chords, and slip with the mean of the tractions at both ends of a step: second order in the step;
-    // after 20 periods the orbit is closed to 0.3 %.
-    for (n, bound) in [(24, 0.012), (96, 0.005)] {
-        for swing in [0.0, 0.6, 0.97] {
+    // after 20 periods the orbit is closed to 0.3 %. In 24 steps a load that falls to 3 % changes up to threefold in one of them.
+    for (n, bounds) in [(24, [0.012, 0.012, 0.02]), (96, [0.005; 3])] {
+        for (swing, bound) in [0.0, 0.6, 0.97].into_iter().zip(bounds) {
             for element in &without_layer(Directions::Two, NormalInput::Force) {
                 for axes in [[0.3, 0.3], [0.9, 0.9], [0.6, 0.3]] {
                     let [work, dissipated] = orbit(element, n, axes, swing);
@@ -689,12 +691,20 @@ fn check_random_jacobians(motions: usize, seed: u64) {
                 let error = |i| (high[i] - low[i]) / h - jacobian[i + COEFFICIENTS * j] * scale;
                 (0..COEFFICIENTS).all(|i: usize| error(i).abs() < bound * slip_force)
             };
-            // Corners beside the motion are avoided by smaller differences, whose rounding errors are 1e-15 over h; N_c far below N makes
+            // Corners beside the motion are avoided by smaller differences, whose rounding errors are 1e-14 over h; N_c far below N makes
             // the force as curved as a corner.
             let is_central = |bound: f64| {
                 [1e-5, 1e-4, 1e-6, 1e-7, 1e-8].into_iter().any(|h| is_within(bound, &moved(h), &moved(-h), 2.0 * h))
             };
-            let is_exact = is_central(1e-8);
+            // Of fourth order.
+            let is_extrapolated = |h: f64| {
+                let [high, low] = [h, -h].map(|h| {
+                    let [near, far] = [h, 2.0 * h].map(moved);
+                    from_fn(|i| (8.0 * near[i] - far[i]) / 6.0)
+                });
+                is_within(1e-8, &high, &low, 2.0 * h)
+            };
+            let is_exact = is_central(1e-8) || [1e-5, 1e-4, 3e-6].into_iter().any(is_extrapolated);
             beyond += usize::from(!is_exact);
             if !is_exact && !is_central(1e-5) {
                 // A jump by more than 1e-6 mu N is no corner.
@@ -758,14 +768,15 @@ fn for_long_slides(input: NormalInput, poisson_ratio: f64, mut visit: impl FnMut
 
 #[test]
 fn a_rough_flat_that_slides_far_carries_mu_n() {
-    // Exact if both directions are equally stiff. Otherwise the points, whose shares of the force differ between both directions, turn
-    // apart: the force is lower in the second order of the angles, up to 2.4e-4 in a step under a load that rises, 2e-5 after one more.
-    for (poisson_ratio, bounds) in [(0.0, [1e-12; 2]), (0.3, [4e-4, 2e-5])] {
+    // Exact from 5 slip displacements on, and if both directions are equally stiff. Otherwise the points, whose shares of the force differ
+    // between both directions, turn apart: the force is lower in the second order of the angles.
+    for (poisson_ratio, bound) in [(0.0, 4e-12), (0.3, 4e-4)] {
         for_long_slides(NormalInput::Approach, poisson_ratio, |mut contact, _, to| {
-            let ends = [to, [3.0 * to[0], 3.0 * to[1], to[2]]];
-            for (end, bound) in ends.into_iter().zip(bounds) {
+            let far = 10.0 * unit(contact.element);
+            for end in [to, [3.0 * to[0], 3.0 * to[1], to[2]]] {
                 let [x, y, load] = contact.to(end).force;
                 let missing = 1.0 - x.hypot(y) / (contact.element.friction_coefficient * load);
+                let bound = if to[0].hypot(to[1]) > far { 1e-12 } else { bound };
                 assert!(
                     missing < bound,
                     "{poisson_ratio}, {end:?}: {missing:e}, half-width {}",

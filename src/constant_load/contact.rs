@@ -323,7 +323,6 @@ pub(crate) mod tests {
             friction_coefficient: 0.4,
             material: [TITANIUM; 2],
             layer: layer(&ellipse(1e-4, 2e-4)),
-            ..EllipticParameters::default()
         };
         std::vec![flat(0.0), flat(50e-6), flat(5e-3), Contact::elliptic(&ellipse).unwrap()]
     }

@@ -179,7 +179,6 @@ pub(crate) mod tests {
                 friction_coefficient,
                 material: [Material { young_modulus, ..parameters(0.0).material[0] }; 2],
                 layer: Layer { tangential_compliance, stiffening_load, reference_load: 80.0, ..Layer::none() },
-                ..EllipticParameters::default()
             })
             .unwrap()
         }

@@ -39,7 +39,7 @@ pub(crate) type Matrix = [Row<f64>; N];
 /// Springs under the flat.
 const UNDER_FLAT: usize = 2;
 /// Width of the shell at the edge over that of the innermost one: any value from 0.02 to 0.1 is as good.
-const GRADING: f64 = 0.03;
+const GRADING: f64 = 0.035;
 /// Position of x_i in its shell: in the inner half, for which G decreases with j. Values from 0.02 to 0.2 are as good.
 const POINT: f64 = 0.1;
 /// Parts of the shells from the innermost one under pressure.
