@@ -324,11 +324,9 @@ impl<const L: usize> Columns<'_, L> {
             columns[c] = x.0[1 + c];
         }
         let slopes = &x.0[0];
-        if slopes[END] != 0.0 || slopes[START] != 0.0 || slopes[ALIGNMENT] != 0.0 {
-            for p in 0..PARAMETERS {
-                for c in 0..L / 3 {
-                    columns[c] = plus(columns[c], slopes[p], self.parameters[p][c]);
-                }
+        for p in 0..PARAMETERS {
+            for c in 0..L / 3 {
+                columns[c] = plus(columns[c], slopes[p], self.parameters[p][c]);
             }
         }
         columns
