@@ -305,7 +305,6 @@ impl ContactArgs {
                 friction_coefficient,
                 material,
                 layer,
-                ..EllipticParameters::default()
             })
         } else {
             ShapeParameters::Flat(Parameters {

@@ -320,8 +320,8 @@ impl<const L: usize> Columns<'_, L> {
     #[inline(always)]
     fn of<const M: usize>(&self, x: &Dual<M>) -> [[f64; 4]; L] {
         let mut columns = [[0.0; 4]; L];
-        for c in 0..L {
-            columns[c] = x.0[1 + c];
+        for (column, slopes) in columns.iter_mut().zip(x.0.iter().skip(1)) {
+            *column = *slopes;
         }
         let slopes = &x.0[0];
         for p in 0..PARAMETERS {
@@ -342,8 +342,8 @@ impl<const L: usize, const M: usize> Springs<Dual<M>> for Columns<'_, L> {
         let mut dual = Dual::constant(0.0);
         if let (Some(value), Some(columns)) = (self.values.as_flattened().get(place), self.springs.get(place)) {
             dual = Dual::constant(*value);
-            for c in 0..L {
-                dual.0[1 + c] = columns[c];
+            for (slopes, column) in dual.0.iter_mut().skip(1).zip(columns) {
+                *slopes = *column;
             }
         }
         dual
@@ -448,7 +448,9 @@ fn walk(element: &Element, workspace: &mut Workspace, output: HarmonicOutput) {
                 if taken.closed[1] {
                     let samples = [before, Some(index), Some(largest)];
                     if workspace.forces.len() == 2 * NARROW {
-                        differentiate::<{ NARROW / 4 }, { NARROW / 4 + 1 }>(workspace, &mut walk, &taken, samples, by_top);
+                        differentiate::<{ NARROW / 4 }, { NARROW / 4 + 1 }>(
+                            workspace, &mut walk, &taken, samples, by_top,
+                        );
                     } else {
                         differentiate::<{ WIDE / 4 }, { WIDE / 4 + 1 }>(workspace, &mut walk, &taken, samples, by_top);
                     }

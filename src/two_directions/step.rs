@@ -88,8 +88,8 @@ fn finish<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
             s.put(k * N + j, v[k][j]);
         }
     }
-    let part = c.part.min(INSIDE - 1);
-    for f in 0..part + 1 {
+    let (part, end) = (c.part.min(INSIDE - 1), c.part.min(INSIDE - 1) + 1);
+    for f in 0..end {
         let w = both!(|k| c.fine(t, k, f));
         let limit = both!(|k| c.limit(t, k, f));
         let mut v = both!(|k| s.get(FINE_SPRING + k * FINE + f) + moved(limit[k], rise[k], motion.by[k]));
@@ -194,8 +194,8 @@ fn slide<A: Real, X: Over<A>, T: Tables<A>>(t: &T, c: &Contact<A>, level: &Row<X
             per_slip[i] = c.per_pressure[i].scale(if slip.contains(i) { slip.sigma[k][i] } else { 0.0 });
         }
         for j in first..end {
-            let mut sum = A::constant(0.0);
-            for i in first..j + 1 {
+            let (mut sum, next) = (A::constant(0.0), j + 1);
+            for i in first..next {
                 sum = sum + c.map(t, k, j, i) * per_slip[i];
             }
             relaxed[j] = (sum - before) * c.flexibility(t, k, j);
@@ -254,8 +254,8 @@ fn slide<A: Real, X: Over<A>, T: Tables<A>>(t: &T, c: &Contact<A>, level: &Row<X
             }
             let mut before = zero;
             for j in first..end {
-                let mut sum = zero;
-                for i in first..j + 1 {
+                let (mut sum, next) = (zero, j + 1);
+                for i in first..next {
                     sum.add_product(&sigma[i], c.map(t, k, j, i));
                 }
                 v[k][j] = v[k][j] - (sum - before).times(c.flexibility(t, k, j));
