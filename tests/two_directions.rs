@@ -73,7 +73,6 @@ fn ellipse_with(
         friction_coefficient: 0.4,
         material: [STEEL; 2],
         layer,
-        ..EllipticParameters::default()
     };
     Element::elliptic(&parameters, directions, input).unwrap()
 }
