@@ -50,8 +50,8 @@ fn kernel(t: &Rows, c: &Contact<f64>, by: &Both<f64>, springs: &mut Values) -> O
     let edge = both!(|k| springs[(FINE_SPRING + k * FINE + INSIDE) / N][INSIDE % N] + by[k]);
     let ends = returned(edge, &both!(|k| c.limit_inside(k)), None);
     for k in 0..2 {
-        for j in 0..N {
-            fine[k][j] += if j <= c.last { by[k] } else { 0.0 };
+        for j in 0..=c.last.min(N - 1) {
+            fine[k][j] += by[k];
         }
         fine[(FINE_SPRING + k * FINE + INSIDE) / N][INSIDE % N] = ends[k];
     }
