@@ -29,8 +29,8 @@ files := lib/libmicroslip.a include/microslip.h include/microslip.f90 $(pcdir)/m
 	$(addprefix $(docdir)/,LICENSE-MIT LICENSE-APACHE THIRD-PARTY.md)
 products := $(addprefix $(tree)/,$(files))
 
-.PHONY: all shared install uninstall demo demo-dependencies audit coverage miri test accuracy bench instructions \
-	figures identification host stress fuzz check parallel header python docs dist recipes release clean help
+.PHONY: all shared install uninstall demo demo-dependencies audit coverage miri test verify bench instructions \
+	figures identification host fuzz check parallel header python docs dist recipes release clean help
 .DELETE_ON_ERROR:
 
 ## all: build dist/, the tree that `install` copies (the default); TARGET=aarch64-unknown-linux-gnu for another processor
@@ -99,7 +99,7 @@ parallel: all
 test:
 	tools/test.sh
 
-## check: all other tests: lints, sanitizers, embedding, fuzzing, Miri, coverage, packages, stress, audit; random tests with a new seed
+## check: all other tests: lints, sanitizers, embedding, fuzzing, Miri, coverage, packages, audit; random tests with a new seed
 check:
 	tools/check.sh
 
@@ -115,10 +115,10 @@ miri:
 audit:
 	tools/audit.sh
 
-## accuracy: every output against multi-precision, an hour of processor time; POINTS=1e6 for less than the 1e7 of each
-accuracy:
-	@tools/dependencies.sh accuracy
-	$(CARGO) run --locked --package accuracy -- \
+## verify: every output against multi-precision, and histories: an hour of processor time; POINTS=1e6 for less than the 1e7 of each
+verify:
+	@tools/dependencies.sh verify
+	$(CARGO) run --locked --package verify -- \
 		--points $(or $(POINTS),1e7) --replay docs/accuracy.csv --regions docs/accuracy.csv --promises docs/promises.csv
 
 ## instructions: count the instructions of each call and check the relations between the counts
@@ -128,7 +128,7 @@ instructions:
 
 ## bench: run time against error of the library and of what one would use instead; QUICK=1 for fewer cases
 bench: all
-	@tools/dependencies.sh bench accuracy
+	@tools/dependencies.sh bench verify
 	$(MAKE) -C benches run PREFIX=../dist QUICK=$(QUICK)
 
 ## figures: compute the figures of the paper and of the validation into docs/, draw them, and check the claims
@@ -146,11 +146,6 @@ identification:
 host: all
 	@tools/dependencies.sh host
 	examples/calculix/run.sh dist
-
-## stress: adversarial histories, for some minutes; ARGUMENTS="--only bank --scale 0.1", MICROSLIP_SEED=2 in the environment
-stress:
-	@tools/dependencies.sh accuracy
-	$(CARGO) run --quiet --locked --package stress -- $(ARGUMENTS)
 
 ## fuzz: fuzz the C interface with TIME= seconds for each of two targets, JOBS= processes at once
 fuzz:

@@ -1,27 +1,34 @@
 /* main.c: run time against error of microslip and of what one would use instead.
  *
  *   bench [--quick] rows DIRECTORY    writes rows.csv, the input of the multi-precision reference
- *   bench [--quick] run DIRECTORY     reads its output truth.csv, measures, and writes bench.csv, tables.md and details.md */
-#include "cases.h"
-#include "report.h"
+ *   bench [--quick] run DIRECTORY     reads its output truth.csv, measures, and writes bench.csv, tables.md and details.csv */
+#include "bench.h"
 
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 static const double shapes[] = { 0.0, 0.3, 0.9, 0.999 }, amplitudes[] = { 0.01, 0.5, 0.95, 3.0 };
-static const double quick_shapes[] = { 0.3, 0.9 }, quick_amplitudes[] = { 0.95 };
-static const int orders[] = { 1, 5, 9 };
 
-static const extent full = { .shapes = 4, .amplitudes = 4, .orders = 3, .shape = shapes, .amplitude = amplitudes,
-    .order = orders, .least_samples = 16, .most_samples = 1024, .most_sliders = 4096, .most_contacts = 1000000 };
-static const extent quick = { .shapes = 2, .amplitudes = 1, .orders = 3, .shape = quick_shapes, .amplitude = quick_amplitudes,
-    .order = orders, .least_samples = 64, .most_samples = 128, .most_sliders = 1024, .most_contacts = 10000 };
+static const extent full = { .shapes = 4, .amplitudes = 4, .shape = shapes, .amplitude = amplitudes, .least_samples = 16,
+    .most_samples = 1024, .most_sliders = 4096, .decades = 5, .grid = 200 };
+static const extent quick = { .shapes = 2, .amplitudes = 1, .shape = shapes + 1, .amplitude = amplitudes + 2, .least_samples = 64,
+    .most_samples = 128, .most_sliders = 1024, .decades = 3, .grid = 20 };
 
-static const struct { const char *name; task *task; double shape; } tasks[] = {
-    { "force", task_force, -1.0 }, { "stiffness", task_stiffness, -1.0 }, { "harmonic force", task_harmonic, -1.0 },
-    { "time step", task_time_step, -1.0 }, { "element", task_element, -1.0 }, { "batch", task_batch, 0.3 }, /* for one shape only */
-    { "two directions", task_two_directions, 0.3 },
+/* A new task is a line here and its set-up. */
+enum { AMPLITUDES = -1, AMPLITUDES_AND_HARMONICS = -2, GRID = -3, DECADES = -4 };
+static const struct { const char *name; set_up *set_up; int cases, one_shape; } tasks[] = {
+    { "force", set_up_force, AMPLITUDES, 0 },
+    { "initialisation", set_up_initialisation, 1, 0 },
+    { "stiffness", set_up_stiffness, AMPLITUDES, 0 },
+    { "stiffness over amplitude", set_up_range, GRID, 0 },
+    { "stiffness near gross slip", set_up_near_slip, 2 * DECADES_TO_SLIP, 0 },
+    { "harmonic force", set_up_harmonic, AMPLITUDES_AND_HARMONICS, 0 },
+    { "time step", set_up_step, AMPLITUDES, 0 },
+    { "element", set_up_element, LINE_MOTIONS, 0 },
+    { "step of an element", set_up_element_step, LINE_MOTIONS, 0 },
+    { "batch", set_up_batch, DECADES, 1 },
+    { "two directions", set_up_plane, 2, 1 },
+    { "step in two directions", set_up_plane_step, PLANE_MOTIONS, 1 },
 };
 
 static FILE *open_file(const char *directory, const char *name, const char *mode)
@@ -36,39 +43,25 @@ static FILE *open_file(const char *directory, const char *name, const char *mode
     return file;
 }
 
-/* Processor, its caches, and the compiler. */
-static const char *machine(void)
-{
-    static char text[512], model[128] = "unknown processor";
-    FILE *info = fopen("/proc/cpuinfo", "r");
-    while (info && fgets(text, sizeof text, info)) {
-        if (sscanf(text, "model name : %127[^\n]", model) == 1) {
-            break;
-        }
-    }
-    if (info) {
-        fclose(info);
-    }
-    int end = snprintf(text, sizeof text, "%s, GCC %s, %s", model, __VERSION__, COMPILER_FLAGS);
-#ifdef _SC_LEVEL1_DCACHE_SIZE
-    end += snprintf(text + end, sizeof text - (size_t)end, "; caches L1 %ld kB, L2 %ld kB, L3 %ld kB",
-                    sysconf(_SC_LEVEL1_DCACHE_SIZE) / 1024, sysconf(_SC_LEVEL2_CACHE_SIZE) / 1024,
-                    sysconf(_SC_LEVEL3_CACHE_SIZE) / 1024);
-#endif
-    snprintf(text + end, sizeof text - (size_t)end, ".\nA contact has %zu bytes, with a state of 8 reversals %zu",
-             sizeof(mslip_contact), sizeof(mslip_contact) + mslip_state_length(8) * sizeof(double));
-    return text;
-}
-
 static void run_tasks(const extent *x)
 {
+    const int numbers[] = { 0, x->amplitudes, 3 * x->amplitudes, x->grid, x->decades };
     for (int i = 0; i < x->shapes; ++i) {
         const size_t mark = memory_mark();
         const test_case c = case_of(x->shape[i]);
-        for (size_t k = 0; k < sizeof tasks / sizeof *tasks; ++k) {
-            if (tasks[k].shape < 0.0 || tasks[k].shape == c.shape) {
-                fprintf(stderr, rounds ? "a/b = %g: %s\n" : "", c.shape, tasks[k].name);
-                tasks[k].task(&c, x);
+        for (size_t t = 0; t < sizeof tasks / sizeof *tasks; ++t) {
+            const int cases = tasks[t].cases < 0 ? numbers[-tasks[t].cases] : tasks[t].cases;
+            for (int k = 0; k < cases && (!tasks[t].one_shape || c.shape == 0.3); ++k) {
+                const size_t first = entry_count, task_mark = memory_mark();
+                tasks[t].set_up(&c, x, k);
+                for (entry *e = entries + first; e < entries + entry_count; ++e) {
+                    e->shape = c.shape;
+                }
+                measure(first);
+                free_to(task_mark);
+            }
+            if (rounds > 0) {
+                fprintf(stderr, "a/b = %g: %s\n", c.shape, tasks[t].name);
             }
         }
         free_to(mark);
@@ -95,18 +88,13 @@ int main(int argc, char **argv)
     rounds = is_quick ? 7 : 15;
     run_tasks(x);
     check_errors();
-
-    FILE *csv = open_file(directory, "bench.csv", "w"), *tables = open_file(directory, "tables.md", "w"),
-         *details = open_file(directory, "details.md", "w");
-    entries_write(csv);
-    write_tables(tables, machine());
-    write_tables(stdout, machine());
-    write_details(details);
-    write_details(stdout);
-    fclose(csv);
-    fclose(tables);
-    fclose(details);
-    free(entries);
-    printf("\nerrors: %d passed, %d failed\n", checks_passed, checks_failed);
+    static const struct { const char *name; void (*write)(FILE *); } files[] = {
+        { "bench.csv", write_entries }, { "tables.md", write_tables }, { "details.csv", write_details } };
+    for (int k = 0; k < 3; ++k) {
+        FILE *file = open_file(directory, files[k].name, "w");
+        files[k].write(file);
+        fclose(file);
+    }
+    printf("errors: %d passed, %d failed\n", checks_passed, checks_failed);
     return checks_failed > 0;
 }

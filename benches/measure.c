@@ -1,13 +1,14 @@
-/* measure.c: times of interleaved methods, as medians over rounds with the 10th and 90th percentile. */
-#include "measure.h"
+/* measure.c: times of interleaved methods, as medians over rounds. */
+#include "bench.h"
 
+#include <assert.h>
 #include <math.h>
-#include <microslip.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 
-entry *entries;
+enum { MOST_ENTRIES = 1 << 14, LOGARITHMS = 1000, MOST_ROUNDS = 15 };
+entry entries[MOST_ENTRIES];
 size_t entry_count;
 int rounds = 15;
 int checks_passed, checks_failed;
@@ -62,37 +63,24 @@ void check_below(const char *what, double value, double bound)
     }
 }
 
-entry *entry_add(const char *task, const char *method, work *run, void *context, double items)
+entry *entry_add(entry e, const void *context, size_t bytes)
 {
-    static size_t capacity;
-    if (entry_count == capacity) {
-        capacity = capacity ? 2 * capacity : 1024;
-        entries = realloc(entries, capacity * sizeof *entries);
-    }
-    entries[entry_count] = (entry) { .task = task, .method = method, .run = run, .context = context, .items = items,
-                                     .parameter = -1.0, .error = -1.0, .sample_error = -1.0 };
+    assert(entry_count < MOST_ENTRIES);
+    e.error = e.sample_error = -1.0;
+    e.motion = e.motion ? e.motion : "";
+    e.context = memcpy(allocate(bytes), context, bytes);
+    sink = e.run(e.context);
+    entries[entry_count] = e;
     return &entries[entry_count++];
 }
 
-enum { LOGARITHMS = 1000 };
-
 static double logarithms(void *context)
 {
-    const double *x = context;
     double sum = 0.0;
     for (int i = 0; i < LOGARITHMS; ++i) {
-        sum += log(x[i]);
+        sum += log(*(const double *)context + i);
     }
     return sum;
-}
-
-entry *entry_add_logarithm(const char *task)
-{
-    static double numbers[LOGARITHMS];
-    for (int i = 0; i < LOGARITHMS; ++i) {
-        numbers[i] = i + 1.0;
-    }
-    return entry_add(task, "logarithm", logarithms, numbers, LOGARITHMS);
 }
 
 static double nanoseconds(void)
@@ -108,26 +96,18 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static double quantile_of(const double *sorted, size_t n, double q)
-{
-    const double position = q * (double)(n - 1);
-    const size_t below = (size_t)position;
-    const double part = position - (double)below;
-    return below + 1 < n ? (1.0 - part) * sorted[below] + part * sorted[below + 1] : sorted[below];
-}
-
 double median_of(double *values, size_t n)
 {
     qsort(values, n, sizeof *values, ascending);
-    return quantile_of(values, n, 0.5);
+    return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
 }
-
-enum { MOST_ROUNDS = 64 };
-typedef struct { int repeats, rounds; double times[MOST_ROUNDS]; } series;
 
 /* Time of one run of an entry, repeated. */
 static double time_of(const entry *e, int repeats)
 {
+    for (int i = 0; i < repeats / 4; ++i) { /* caches and branch predictors */
+        sink = e->run(e->context);
+    }
     const double start = nanoseconds();
     for (int i = 0; i < repeats; ++i) {
         sink = e->run(e->context);
@@ -135,15 +115,17 @@ static double time_of(const entry *e, int repeats)
     return (nanoseconds() - start) / repeats;
 }
 
-void measure(size_t first, double shape, double amplitude, size_t mark)
+typedef struct { int repeats, rounds; double times[MOST_ROUNDS]; } series;
+
+void measure(size_t first)
 {
     /* Long enough for the clock, short enough for many rounds. */
-    const double batch = 40e3, slow = 2e6;
-    const size_t n = entry_count - first;
-    series *all = calloc(n + 1, sizeof *all);
+    const double batch = 40e3, slow = 2e6, one = 1.0;
+    entry_add((entry) { .run = logarithms, .items = LOGARITHMS }, &one, sizeof one);
+    const size_t n = entry_count-- - first;
+    series *all = calloc(n, sizeof *all);
     for (size_t i = 0; i < n && rounds > 0; ++i) {
-        sink = entries[first + i].run(entries[first + i].context); /* caches and branch predictors */
-        const double once = time_of(&entries[first + i], 1);
+        const double once = fmin(time_of(&entries[first + i], 1), time_of(&entries[first + i], 1));
         all[i].repeats = once < batch ? (int)(batch / (once + 20.0)) + 1 : 1;
         all[i].rounds = once < slow ? rounds : once < 10.0 * slow ? (rounds + 2) / 3 : 1;
         all[i].times[0] = once;
@@ -155,41 +137,10 @@ void measure(size_t first, double shape, double amplitude, size_t mark)
             }
         }
     }
-    for (size_t i = 0; i < n; ++i) {
+    for (size_t i = n; i-- > 0 && rounds > 0;) { /* the logarithm first */
         entry *e = &entries[first + i];
-        const size_t m = all[i].rounds > 0 ? (size_t)all[i].rounds : 1;
-        e->shape = shape;
-        e->amplitude = amplitude;
-        e->median = median_of(all[i].times, m) / e->items;
-        e->low = quantile_of(all[i].times, m, 0.1) / e->items;
-        e->high = quantile_of(all[i].times, m, 0.9) / e->items;
+        e->time = median_of(all[i].times, (size_t)all[i].rounds) / e->items;
+        e->logarithms = e->time / entries[first + n - 1].time;
     }
     free(all);
-    free_to(mark);
-}
-
-void entries_write(FILE *file)
-{
-    fputs("task,shape,amplitude,harmonics,samples,jacobian,method,parameter,error,error_same_samples,median_ns,p10_ns,p90_ns\n",
-          file);
-    for (const entry *e = entries; e < entries + entry_count; ++e) {
-        fprintf(file, "%s,%g,%g,%d,%d,%d,%s", e->task, e->shape, e->amplitude, e->harmonics, e->samples, e->jacobian, e->method);
-        const double numbers[] = { e->parameter, e->error, e->sample_error, e->median, e->low, e->high };
-        for (size_t k = 0; k < sizeof numbers / sizeof *numbers; ++k) {
-            fprintf(file, numbers[k] >= 0.0 ? ",%.4g" : ",", numbers[k]);
-        }
-        fputc('\n', file);
-    }
-}
-
-double first_harmonic_error(const double *force, const double *exact, int components, int coefficients)
-{
-    double difference = 0.0, size = 0.0;
-    for (int k = 0; k < components; ++k) {
-        for (int i = k * coefficients + 1; i <= k * coefficients + 2; ++i) {
-            difference = hypot(difference, force[i] - exact[i]);
-            size = hypot(size, exact[i]);
-        }
-    }
-    return difference / size;
 }

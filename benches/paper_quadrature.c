@@ -1,8 +1,8 @@
 /* paper_quadrature.c: Eq. 10 with the corrected tractions of Eq. 17 and 22 by quadrature, and its inverse.
  *
- * The unknown of the root finding is the stick zone, so that Eq. 1 is solved once per contact only; the slope is the tangent
- * compliance of Eq. 8. Both make the paper's method faster than as printed. */
-#include "paper_quadrature.h"
+ * The unknown of the root finding is the stick zone, so that Eq. 1 need not be solved; the slope is the tangent compliance of
+ * Eq. 8. Both make the paper's method faster than as printed. */
+#include "bench.h"
 
 #include <math.h>
 
@@ -10,11 +10,6 @@
 static double scaled_load(double flat, double w)
 {
     return 2.0 * (flat * flat + w * w) * atan2(w, flat) - 2.0 * flat * w;
-}
-
-static double scaled_load_slope(double flat, double w)
-{
-    return 4.0 * w * atan2(w, flat);
 }
 
 /* Pressure of a flat with rounded edges, half-width c, load per length P: Eq. 17, corrected. */
@@ -43,7 +38,7 @@ static double pressure_at(const pressure *p, double x)
 }
 
 /* Eq. 22: the shear traction over mu is a pressure minus that of the stick zone. */
-typedef struct { pressure contact, stick; double half_width, load; int sticks; } traction;
+typedef struct { pressure contact, stick; double half_width; int sticks; } traction;
 
 /* -(q/mu) ln(x/b) at x = b sin(angle), times dx/d(angle). */
 static double integrand(const traction *q, double angle)
@@ -74,7 +69,7 @@ static double force_at(const paper *p, double w)
 static double displacement_at(const paper *p, double w)
 {
     const double load = p->load * scaled_load(p->flat, w) / scaled_load(p->flat, p->w);
-    const traction q = { .contact = pressure_of(p->flat, p->w, p->load), .half_width = p->half_width, .load = p->load,
+    const traction q = { .contact = pressure_of(p->flat, p->w, p->load), .half_width = p->half_width,
                          .sticks = w > 0.0, .stick = w > 0.0 ? pressure_of(p->flat, w, load) : (pressure) { 0 } };
     /* The tractions have kinks at the edges of the flat and of the stick zone. */
     const double edges[4] = { 0.0, asin(p->flat / p->half_width), asin(fmin(1.0, hypot(p->flat, w) / p->half_width)),
@@ -97,28 +92,18 @@ static double stiffness_at(const paper *p, double w)
 /* d(displacement)/dw <= 0. */
 static double slope_at(const paper *p, double w)
 {
-    return -p->slip_force * scaled_load_slope(p->flat, w) / scaled_load(p->flat, p->w) / stiffness_at(p, w);
+    return -p->slip_force * 4.0 * w * atan2(w, p->flat) / scaled_load(p->flat, p->w) / stiffness_at(p, w);
 }
 
-paper paper_of(const mslip_parameters *p, int nodes)
+paper paper_of(const mslip_parameters *p, double half_width, int nodes)
 {
     const double nu = p->material[0].poisson_ratio;
     paper paper = { .flat = p->flat_half_width, .length = p->length, .friction = p->friction_coefficient,
                     .load = p->normal_force / p->length, .modulus = 0.5 * p->material[0].young_modulus / (1.0 - nu * nu),
                     .poisson = nu / (1.0 - nu), .slip_force = p->friction_coefficient * p->normal_force,
                     .nodes = nodes };
-    /* Eq. 1 by Newton's method from above: the load is convex in w. */
-    const double load = 4.0 * p->edge_radius * paper.load / paper.modulus;
-    double step;
-    paper.w = sqrt(load / PI);
-    while (scaled_load(paper.flat, paper.w) < load) {
-        paper.w *= 2.0;
-    }
-    do {
-        step = (scaled_load(paper.flat, paper.w) - load) / scaled_load_slope(paper.flat, paper.w);
-        paper.w -= step;
-    } while (fabs(step) > 1e-15 * paper.w);
-    paper.half_width = hypot(paper.flat, paper.w);
+    paper.half_width = half_width;
+    paper.w = sqrt(half_width * half_width - paper.flat * paper.flat);
     paper.slip_displacement = displacement_at(&paper, 0.0);
     return paper;
 }

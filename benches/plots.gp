@@ -21,8 +21,7 @@ set key at screen 0.53, screen 0.11 center top maxrows 2 Left reverse samplen 2 
 # Error, and median time in ns, of one method; errors of 0 are drawn at 1e-17.
 rows(task, shape, harmonics, jacobian, method) = sprintf( \
   "< awk -F, -v OFS=, '$1 == \"%s\" && $2 == %g && $3 == 0.95 && $4 == %d && $6 == %d && $7 == \"%s\" { \
-  print ($9 > 1e-17 ? $9 : 1e-17), $11 }' %s", \
-  task, shape, harmonics, jacobian, method, from)
+  print ($9 > 1e-17 ? $9 : 1e-17), $11 }' %s", task, shape, harmonics, jacobian, method, from)
 shape_title(shape) = sprintf('a/b = %g%s', shape, shape == 0 ? ' (cylinder)' : '')
 
 do for [name in 'force stiffness'] {
@@ -47,7 +46,7 @@ set terminal svg size 1280, 540 dynamic background rgb 'white' font 'Helvetica,1
 set output sprintf('| python3 ../tools/svg.py > %s/harmonic.svg', to)
 set xlabel 'error of the first harmonic, relative'
 set ylabel 'time of force and Jacobian (ns)'
-set yrange [100:1e6]
+set yrange [100:1e8]
 set multiplot layout 1, 3 margins 0.07, 0.985, 0.24, 0.925 spacing 0.065, 0
 do for [panel = 1:3] {
   h = 4*panel - 3
@@ -56,6 +55,6 @@ do for [panel = 1:3] {
   plot of('microslip')              with linespoints ls 1 title panel == 1 ? 'microslip, 16 to 1024 samples' : '', \
        of('microslip event-driven') with linespoints ls 2 title panel == 1 ? 'microslip, event-driven' : '', \
        of('sliders')                with linespoints ls 4 title panel == 1 ? '4 to 4096 sliders, 128 samples' : '', \
-       of('spring-slider by reversals') with linespoints ls 5 title panel == 1 ? 'one spring-slider, 16 to 1024 samples' : ''
+       of('spring-slider') with linespoints ls 5 title panel == 1 ? 'one spring-slider, 16 to 1024 samples' : ''
 }
 unset multiplot

@@ -1,17 +1,17 @@
-/* sliders.c: parallel spring-sliders on the initial loading curve, in harmonic motion and in a time step.
+/* sliders.c: spring-sliders on the initial loading curve, in harmonic motion and in a time step.
  *
- * Alternating frequency/time: a slider that has last slipped at sample m has the derivative k (row_n - row_m) at sample n, with
- * row_n = [1, cos t_n, sin t_n, ...]. jenkins_aft steps through every sample of two periods, as solvers do.
+ * Alternating frequency/time steps through every sample of two periods, as solvers do; the second one counts. A slider j with a
+ * limit that may vary, in one direction or in the plane by radial return:
  *
- * sliders_aft steps through reversals only. Between two of them a slider first sticks and then slips; the sample at which it
- * begins to slip is found by bisection, and sums over samples come from prefix sums of cos kt and sin kt up to k = 2H, since
- * products of two rows are sums of such. */
-#include "sliders.h"
-#include "measure.h"
-#include "paper_quadrature.h"
+ *   P = T_{n-1} + k_j (u_n - u_{n-1}),   T_n = P if |P| <= mu_j N_n, otherwise mu_j N_n P / |P|,   N_n = max(0, k_n w_n)
+ *
+ * The derivatives of T with respect to all coefficients of u, v, w are advanced with it. */
+#include "bench.h"
 
 #include <math.h>
 #include <string.h>
+
+enum { ROW = 20, COLUMNS = 40 }; /* 2H + 1 padded to a multiple of 4, of one and of all displacements */
 
 static double sum_of(const double *sum)
 {
@@ -21,34 +21,25 @@ static double sum_of(const double *sum)
 sliders sliders_of(size_t n, const double *stiffness, const double *slip)
 {
     const size_t padded = (n + LANES - 1) / LANES * LANES;
-    const sliders s = { n, padded, allocate(padded * sizeof(double)), allocate(padded * sizeof(double)) };
+    const sliders s = { n, padded, doubles(padded), doubles(padded) };
     memcpy(s.stiffness, stiffness, n * sizeof(double));
     memcpy(s.slip, slip, n * sizeof(double));
     return s;
 }
 
-sliders sliders_fitted(const mslip_contact *contact, size_t n)
+sliders sliders_fitted(const mslip_contact *contact, size_t n, double amplitude)
 {
-    double error, *stiffness = allocate(n * sizeof(double)), *slip = allocate(n * sizeof(double));
-    if (n == 1) {
+    double error, *stiffness = doubles(n), *slip = doubles(n);
+    if (n > 1) {
+        require(mslip_iwan_equivalent(contact, n, stiffness, slip, &error));
+    } else if (amplitude == 0.0 || mslip_jenkins_equivalent(contact, amplitude, stiffness, slip) != MSLIP_OK) {
         *stiffness = contact->initial_stiffness;
         *slip = contact->slip_force;
-    } else {
-        require(mslip_iwan_equivalent(contact, n, stiffness, slip, &error));
     }
     return sliders_of(n, stiffness, slip);
 }
 
-sliders jenkins_fitted(const mslip_contact *contact, double amplitude)
-{
-    double stiffness, slip;
-    if (mslip_jenkins_equivalent(contact, amplitude, &stiffness, &slip) != MSLIP_OK) {
-        return sliders_fitted(contact, 1);
-    }
-    return sliders_of(1, &stiffness, &slip);
-}
-
-/* Two passes: the sums of force and stiffness together would not fit into the registers. */
+/* Two passes, so that both are vectorised. */
 void sliders_curve(const void *context, size_t n, const double *displacement, double *force, double *stiffness)
 {
     const sliders *s = context;
@@ -93,12 +84,12 @@ void sliders_stiffness(const void *context, double amplitude, double result[4])
     result[3] = 4.0 * d_imaginary / (PI * amplitude);
 }
 
-double sliders_step(const sliders *s, double *restrict forces, double du, double *stiffness)
+double sliders_step(const sliders *s, double load, double *restrict forces, double du, double *stiffness)
 {
     double t[LANES] = { 0 }, k[LANES] = { 0 };
     for (size_t j = 0; j < s->padded; j += LANES) {
         for (int l = 0; l < LANES; ++l) {
-            const double slip = s->slip[j + l], trial = forces[j + l] + s->stiffness[j + l] * du;
+            const double slip = load * s->slip[j + l], trial = forces[j + l] + s->stiffness[j + l] * du;
             double f = trial < slip ? trial : slip;
             f = f > -slip ? f : -slip;
             forces[j + l] = f;
@@ -107,7 +98,7 @@ double sliders_step(const sliders *s, double *restrict forces, double du, double
     }
     for (size_t j = 0; j < s->padded; j += LANES) {
         for (int l = 0; l < LANES; ++l) {
-            k[l] += fabs(forces[j + l]) < s->slip[j + l] ? s->stiffness[j + l] : 0.0;
+            k[l] += fabs(forces[j + l]) < load * s->slip[j + l] ? s->stiffness[j + l] : 0.0;
         }
     }
     *stiffness = sum_of(k);
@@ -115,276 +106,185 @@ double sliders_step(const sliders *s, double *restrict forces, double du, double
 }
 
 struct aft {
-    int harmonics, samples, coefficients;
-    int stride;       /* of a row, a multiple of 4, padded with 0 */
-    int width;        /* of a prefix sum, 4H + 1 */
-    double *rows;
-    double *prefix;   /* sums over up to two periods of [1, cos t, ..., sin 2Ht] */
-    double *u, *f;    /* displacements of two periods; forces of one */
-    double *product;  /* the Jacobian before scaling, stride x stride */
-    double *anchored; /* per sample: sums over sliders that have last slipped there */
-    int *reversals;
+    sliders sliders;
+    double normal_stiffness;
+    int directions, harmonics, samples, stride;
+    double *rows;             /* 1, cos t, sin t, ..., padded with 0 */
+    double *product;          /* the Jacobian before scaling, rows padded to the stride */
+    double *force[2], *part;  /* of each slider, and of its trial force that friction bears */
+    double (*derivative)[2][COLUMNS];
 };
 
-aft *aft_of(int harmonics, int samples)
+aft *aft_of(int directions, double normal_stiffness, int harmonics, int samples, const sliders *s)
 {
     aft *a = allocate(sizeof *a);
-    *a = (aft) { .harmonics = harmonics, .samples = samples, .coefficients = 2 * harmonics + 1,
-                 .stride = (2 * harmonics + 4) / 4 * 4, .width = 4 * harmonics + 1 };
-    const size_t n = (size_t)samples, stride = (size_t)a->stride, width = (size_t)a->width;
-    a->rows = allocate(n * stride * sizeof(double));
-    a->prefix = allocate((2 * n + 1) * width * sizeof(double));
-    a->u = allocate(2 * n * sizeof(double));
-    a->f = allocate(n * sizeof(double));
-    a->product = allocate(stride * stride * sizeof(double));
-    a->anchored = allocate(n * stride * sizeof(double));
-    a->reversals = allocate((n + 1) * sizeof *a->reversals);
-    for (int i = 0; i < 2 * samples; ++i) {
-        double *before = a->prefix + (size_t)i * width, *after = before + width;
-        for (int k = 0; k < a->width; ++k) {
-            const int harmonic = (k + 1) / 2;
-            const double t = 2.0 * PI * ((double)(harmonic * i % samples) / samples);
-            const double value = k && k % 2 == 0 ? sin(t) : cos(t);
-            after[k] = before[k] + value;
-            if (i < samples && k < a->coefficients) {
-                a->rows[i * a->stride + k] = value;
-            }
+    *a = (aft) { .sliders = *s, .normal_stiffness = normal_stiffness, .directions = directions, .harmonics = harmonics,
+                 .samples = samples, .stride = (2 * harmonics + 4) / 4 * 4, .product = doubles(3 * ROW * COLUMNS),
+                 .part = doubles(s->padded), .force = { doubles(s->padded), doubles(s->padded) }, .derivative = allocate(s->n * sizeof *a->derivative) };
+    a->rows = doubles((size_t)(samples * a->stride));
+    for (int i = 0; i < samples; ++i) {
+        double *row = a->rows + i * a->stride;
+        row[0] = 1.0;
+        for (int k = 1; k <= harmonics; ++k) {
+            row[2 * k - 1] = cos(2.0 * PI * (k * i % samples) / samples);
+            row[2 * k] = sin(2.0 * PI * (k * i % samples) / samples);
         }
     }
     return a;
 }
 
-static void synthesize(aft *a, const double *c)
+static void step_in_plane(aft *a, double load, const double motion[2], double total[2])
 {
-    for (int n = 0; n < a->samples; ++n) {
-        const double *row = a->rows + n * a->stride;
-        double u = 0.0;
-        for (int k = 0; k < a->coefficients; ++k) {
-            u += row[k] * c[k];
-        }
-        a->u[n] = u;
+    total[0] = total[1] = 0.0;
+    for (size_t s = 0; s < a->sliders.n; ++s) {
+        const double k = a->sliders.stiffness[s], limit = load * a->sliders.slip[s];
+        const double x = a->force[0][s] + k * motion[0], y = a->force[1][s] + k * motion[1], size = sqrt(x * x + y * y);
+        const double part = size <= limit ? 1.0 : limit / size;
+        a->part[s] = part;
+        total[0] += a->force[0][s] = part * x;
+        total[1] += a->force[1][s] = part * y;
     }
 }
 
-static void transform(const aft *a, double *force)
+/* Derivatives of the force of a slider, from the changes of u and v and from the derivative of the load, padded to the stride. */
+static inline __attribute__((always_inline)) void differentiate(aft *a, size_t s, double load, const double *change,
+                                                                const double *load_change, int directions, int varies, int stride)
 {
-    double sum[64] = { 0 };
-    for (int n = 0; n < a->samples; ++n) {
-        const double *row = a->rows + n * a->stride;
-        for (int k = 0; k < a->stride; ++k) {
-            sum[k] += row[k] * a->f[n];
+    double *x = a->derivative[s][0], *y = a->derivative[s][1];
+    const double k = a->sliders.stiffness[s], slip = a->sliders.slip[s], fx = a->force[0][s], fy = a->force[1][s];
+    const int sticks = directions == 1 ? fabs(fx) < load * slip : a->part[s] == 1.0;
+    if (directions == 1 && !sticks) {
+        const double sign = fx > 0.0 ? slip : -slip;
+        for (int j = 0; j < stride; ++j) {
+            x[j] = 0.0;
         }
-    }
-    for (int k = 0; k < a->coefficients; ++k) {
-        force[k] = (k ? 2.0 : 1.0) / a->samples * sum[k];
-    }
-}
-
-/* product += row (x) d, columns of the Jacobian along d. */
-static void add_product(const aft *a, const double *row, const double *d)
-{
-    for (int j = 0; j < a->coefficients; ++j) {
-        double *column = a->product + j * a->stride;
-        for (int i = 0; i < a->stride; ++i) {
-            column[i] += row[i] * d[j];
+        for (int j = 0; varies && j < stride; ++j) {
+            x[stride + j] = sign * load_change[j];
         }
-    }
-}
-
-static void write_jacobian(const aft *a, double *jacobian)
-{
-    for (int j = 0; j < a->coefficients; ++j) {
-        for (int i = 0; i < a->coefficients; ++i) {
-            jacobian[i + j * a->coefficients] = (i ? 2.0 : 1.0) / a->samples * a->product[i + j * a->stride];
-        }
-    }
-}
-
-static double clamped(double trial, double slip)
-{
-    const double f = trial < slip ? trial : slip;
-    return f > -slip ? f : -slip;
-}
-
-void jenkins_aft(aft *a, const sliders *one, const double *c, double *force, double *jacobian)
-{
-    const double k = *one->stiffness, slip = *one->slip;
-    synthesize(a, c);
-    /* The sample at which it slipped last; -1 if it never did. */
-    double z = 0.0, before = 0.0;
-    int last = -1;
-    for (int n = 0; n < a->samples; ++n) {
-        const double trial = z + k * (a->u[n] - before);
-        before = a->u[n];
-        z = clamped(trial, slip);
-        last = z == trial ? last : n;
-    }
-    if (!jacobian) {
-        for (int n = 0; n < a->samples; ++n) {
-            z = clamped(z + k * (a->u[n] - before), slip);
-            before = a->u[n];
-            a->f[n] = z;
-        }
-        transform(a, force);
         return;
     }
-    static const double zero[64] = { 0 };
-    double d[64];
-    memset(a->product, 0, sizeof(double) * (size_t)(a->stride * a->stride));
-    for (int n = 0; n < a->samples; ++n) {
-        const double trial = z + k * (a->u[n] - before);
-        before = a->u[n];
-        z = clamped(trial, slip);
-        a->f[n] = z;
-        if (z == trial) {
-            const double *row = a->rows + n * a->stride, *anchor = last < 0 ? zero : a->rows + last * a->stride;
-            for (int j = 0; j < a->stride; ++j) {
-                d[j] = k * (row[j] - anchor[j]);
-            }
-            add_product(a, row, d);
-        } else {
-            last = n;
-        }
+    for (int j = 0; j < stride; ++j) {
+        x[j] += k * change[j];
     }
-    transform(a, force);
-    write_jacobian(a, jacobian);
+    for (int j = 0; directions == 2 && j < stride; ++j) {
+        y[stride + j] += k * change[j];
+    }
+    if (sticks) {
+        return;
+    }
+    const double size = sqrt(fx * fx + fy * fy), part = a->part[s];
+    const double e[2] = { size > 0.0 ? fx / size : 0.0, size > 0.0 ? fy / size : 0.0 };
+    for (int j = 0; j < 3 * stride; ++j) {
+        const double across = part * (e[0] * y[j] - e[1] * x[j]);
+        x[j] = -e[1] * across;
+        y[j] = e[0] * across;
+    }
+    for (int j = 0; varies && j < stride; ++j) {
+        x[2 * stride + j] += e[0] * slip * load_change[j];
+        y[2 * stride + j] += e[1] * slip * load_change[j];
+    }
 }
 
-/* Samples of the period after which the motion reverses. */
-static int find_reversals(aft *a)
+/* The Jacobian: product += row (x) derivative. */
+static inline void add_product(double *restrict product, const double *restrict row, const double *restrict derivative, int columns,
+                               int stride)
 {
-    int reversals = 0, direction = 0, first = 0;
-    for (int n = 0; n < a->samples; ++n) {
-        const double du = a->u[n + 1] - a->u[n];
-        const int now = (du > 0.0) - (du < 0.0);
-        if (now && direction && now != direction) {
-            a->reversals[reversals++] = n;
-        }
-        if (now) {
-            first = first ? first : now;
-            direction = now;
-        }
-    }
-    /* Across the end of the period. */
-    if (reversals && direction != first) {
-        a->reversals[reversals++] = a->samples;
-    }
-    return reversals;
-}
-
-/* Contributions of the sliders: k times sums over segments of stick, and constants times sums of rows. */
-typedef struct {
-    double stick[128]; /* k sums of cos, sin up to 2H */
-    double rows[64];   /* constant parts of the force times sums of rows */
-} sums;
-
-static void add_slider(aft *a, int reversals, double k, double slip, sums *sums, int with_jacobian)
-{
-    const double *u = a->u;
-    const int period = a->samples;
-    /* The first period, from the unloaded state. */
-    int at = 0, anchor = -1;
-    double trial = k * u[0], z = clamped(trial, slip);
-    anchor = z == trial ? anchor : 0;
-    for (int i = 0; i < reversals; ++i) {
-        trial = z + k * (u[a->reversals[i]] - u[at]);
-        at = a->reversals[i];
-        z = clamped(trial, slip);
-        anchor = z == trial ? anchor : at % period;
-    }
-    /* The second: from the last reversal to itself. */
-    int from = at - period;
-    for (int i = 0; i < reversals; ++i) {
-        const int to = a->reversals[i], whole = from < 0 ? period : 0; /* indices start at 0 */
-        const int begin = from + whole, end = to + whole;
-        trial = z + k * (u[end] - u[begin]);
-        const double limit = clamped(trial, slip);
-        const int slips = limit != trial;
-        int last_stick = end;
-        if (slips) {
-            /* The last sample that sticks. */
-            int low = begin, high = end;
-            while (high - low > 1) {
-                const int middle = low + (high - low) / 2;
-                const double there = z + k * (u[middle] - u[begin]);
-                if (clamped(there, slip) == there) {
-                    low = middle;
-                } else {
-                    high = middle;
-                }
-            }
-            last_stick = low;
-        }
-        const double *p0 = a->prefix + (begin + 1) * a->width, *p1 = a->prefix + (last_stick + 1) * a->width;
-        const double *p2 = a->prefix + (end + 1) * a->width, offset = z - k * u[begin];
-        for (int j = 0; j < a->width; ++j) {
-            sums->stick[j] += k * (p1[j] - p0[j]);
-        }
-        for (int j = 0; j < a->coefficients; ++j) {
-            sums->rows[j] += offset * (p1[j] - p0[j]) + limit * (p2[j] - p1[j]);
-        }
-        if (with_jacobian && anchor >= 0) {
-            double *anchored = a->anchored + anchor * a->stride;
-            for (int j = 0; j < a->coefficients; ++j) {
-                anchored[j] += k * (p1[j] - p0[j]);
+    for (int j = 0; j < columns; ++j) {
+        const double factor = derivative[j];
+        double *restrict column = product + j * stride;
+        for (int k = 0; factor != 0.0 && k < stride; k += 4) {
+            for (int l = k; l < k + 4; ++l) {
+                column[l] += row[l] * factor;
             }
         }
-        z = limit;
-        anchor = slips ? to % period : anchor;
-        from = to;
     }
 }
 
-/* Sum over samples of row (x) row, from the sums of cos and sin: products of circular functions are sums of them. */
-static double product_of(const double *p, int i, int j)
+/* The number of directions and whether the load varies are constants of each caller. */
+static inline __attribute__((always_inline)) void harmonic(aft *a, const double *d, double *force, double *jacobian, int directions,
+                                                           int varies)
 {
-    const int a = (i + 1) / 2, b = (j + 1) / 2, above = a + b, below = a > b ? a - b : b - a;
-    const int i_sine = i && i % 2 == 0, j_sine = j && j % 2 == 0;
-    const double cosine_above = p[above ? 2 * above - 1 : 0], cosine_below = p[below ? 2 * below - 1 : 0];
-    const double sine_above = above ? p[2 * above] : 0.0, sine_below = below ? p[2 * below] : 0.0;
-    if (i_sine && j_sine) {
-        return 0.5 * (cosine_below - cosine_above);
-    }
-    if (i_sine || j_sine) {
-        /* sin a cos b */
-        const int sine_is_larger = i_sine ? a > b : b > a;
-        return 0.5 * (sine_above + (sine_is_larger ? sine_below : -sine_below));
-    }
-    return 0.5 * (cosine_below + cosine_above);
-}
-
-void sliders_aft(aft *a, const sliders *s, const double *c, double *force, double *jacobian)
-{
-    const int m = a->coefficients;
-    sums sums = { { 0 }, { 0 } };
-    synthesize(a, c);
-    memcpy(a->u + a->samples, a->u, (size_t)a->samples * sizeof(double));
-    const int reversals = find_reversals(a);
-    for (size_t i = 0; i < s->n; ++i) {
-        add_slider(a, reversals, s->stiffness[i], s->slip[i], &sums, jacobian != NULL);
-    }
-    for (int i = 0; i < m; ++i) {
-        double sum = sums.rows[i];
-        for (int j = 0; j < m; ++j) {
-            const double product = product_of(sums.stick, i, j);
-            sum += product * c[j];
-            a->product[i + j * a->stride] = product;
-        }
-        force[i] = (i ? 2.0 : 1.0) / a->samples * sum;
-    }
+    const int c = 2 * a->harmonics + 1, stride = a->stride, blocks = directions + varies, columns = blocks * stride, n = a->samples;
+    const size_t sliders = a->sliders.n;
+    double before[2] = { 0.0 }, zeros[ROW] = { 0.0 }, sums[3][ROW] = { { 0.0 } }, change[ROW], load_change[ROW], sum[2][COLUMNS];
+    double *products[3] = { a->product, a->product + columns * stride, a->product + 2 * columns * stride };
+    const double *row_before = zeros;
+    memset(a->force[0], 0, a->sliders.padded * sizeof(double));
+    memset(a->force[1], 0, a->sliders.padded * sizeof(double));
     if (jacobian) {
-        /* Sliders that slip only on the way to sample 0 are anchored there. */
-        for (int t = -1; t < reversals; ++t) {
-            const int anchor = t < 0 ? 0 : a->reversals[t] % a->samples;
-            double *anchored = a->anchored + anchor * a->stride;
-            const double *row = a->rows + anchor * a->stride;
-            for (int j = 0; j < m; ++j) {
-                for (int i = 0; i < m; ++i) {
-                    a->product[i + j * a->stride] -= anchored[i] * row[j];
+        memset(a->derivative, 0, sliders * sizeof *a->derivative);
+        memset(a->product, 0, (size_t)(blocks * columns * stride) * sizeof(double));
+    }
+    for (int i = 0; i < 2 * n; ++i) {
+        const double *row = a->rows + (i < n ? i : i - n) * stride;
+        double now[3] = { 0.0 }, motion[2], total[3], tangent;
+        for (int b = 0; b < blocks; ++b) {
+            for (int j = 0; j < c; ++j) {
+                now[b] += row[j] * d[b * c + j];
+            }
+        }
+        for (int b = 0; b < directions; ++b) {
+            motion[b] = now[b] - before[b];
+            before[b] = now[b];
+        }
+        const double load = !varies ? 1.0 : now[directions] > 0.0 ? a->normal_stiffness * now[directions] : 0.0;
+        total[directions] = load;
+        if (directions == 2) {
+            step_in_plane(a, load, motion, total);
+        } else if (sliders == 1) {
+            total[0] = jenkins_step(*a->sliders.stiffness, load * *a->sliders.slip, a->force[0], motion[0], &tangent);
+        } else {
+            total[0] = sliders_step(&a->sliders, load, a->force[0], motion[0], &tangent);
+        }
+        if (jacobian) {
+            for (int j = 0; j < stride; ++j) {
+                change[j] = row[j] - row_before[j];
+                load_change[j] = load > 0.0 ? a->normal_stiffness * row[j] : 0.0;
+            }
+            for (size_t s = 0; s < sliders; ++s) {
+                differentiate(a, s, load, change, load_change, directions, varies, stride);
+            }
+        }
+        row_before = row;
+        if (i < n) {
+            continue;
+        }
+        for (int b = 0; b < blocks; ++b) {
+            for (int k = 0; k < stride; ++k) {
+                sums[b][k] += row[k] * total[b];
+            }
+        }
+        for (int b = 0; b < directions && jacobian; ++b) {
+            for (int j = 0; j < columns && sliders > 1; ++j) {
+                sum[b][j] = 0.0;
+            }
+            for (size_t s = 0; s < sliders && sliders > 1; ++s) {
+                for (int j = 0; j < columns; ++j) {
+                    sum[b][j] += a->derivative[s][b][j];
                 }
             }
-            memset(anchored, 0, sizeof(double) * (size_t)a->stride);
+            add_product(products[b], row, sliders > 1 ? sum[b] : a->derivative[0][b], columns, stride);
         }
-        write_jacobian(a, jacobian);
+        if (jacobian && varies && load > 0.0) {
+            add_product(products[directions] + directions * stride * stride, row, load_change, stride, stride);
+        }
+    }
+    for (int r = 0; r < blocks * c; ++r) {
+        const double weight = (r % c ? 2.0 : 1.0) / n;
+        force[r] = weight * sums[r / c][r % c];
+        for (int j = 0; jacobian && j < blocks * c; ++j) {
+            jacobian[r + j * blocks * c] = weight * products[r / c][(j / c * stride + j % c) * stride + r % c];
+        }
+    }
+}
+
+void sliders_harmonic(aft *a, const double *displacement, double *force, double *jacobian)
+{
+    if (a->directions == 2) {
+        harmonic(a, displacement, force, jacobian, 2, 1);
+    } else if (a->normal_stiffness > 0.0) {
+        harmonic(a, displacement, force, jacobian, 1, 1);
+    } else {
+        harmonic(a, displacement, force, jacobian, 1, 0);
     }
 }

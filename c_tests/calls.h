@@ -1,5 +1,4 @@
-/* calls.h: contacts and elements, memory that ends at a protected page, and a table of every function that takes one of them with a
-   valid call of each, of which the drivers invalidate one argument at a time. */
+/* calls.h: contacts and elements, and a table of every function that takes one of them and has outputs, with a valid call of each. */
 #ifndef CALLS_H
 #define CALLS_H
 
@@ -10,10 +9,6 @@
 #include <stddef.h>
 #include <stdint.h>
 #include <stdlib.h>
-#ifdef __unix__
-#include <sys/mman.h>
-#include <unistd.h>
-#endif
 
 #define LENGTH(array) (sizeof(array) / sizeof *(array))
 
@@ -115,77 +110,18 @@ static inline int same_bits(const double *p, const double *q, size_t n)
     return memcmp(p, q, n * sizeof *p) == 0;
 }
 
-static inline double from_bits(uint64_t bits)
-{
-    double value;
-    memcpy(&value, &bits, sizeof value);
-    return value;
-}
-
-/* NaN, quiet and signalling, of either sign, and infinities, as bits: an assignment of a double could trap. */
-enum { NON_FINITE = 6 };
-static const uint64_t non_finite[NON_FINITE] = {
-    0x7ff8000000000000, 0xfff8000000000000, 0x7ff0000000000001, 0xfff4000000000000, 0x7ff0000000000000, 0xfff0000000000000,
-};
-
-/* Floating-point exceptions that an application may trap; cleared. */
-static inline int raised(void)
-{
-    int flags = fetestexcept(FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW);
-    feclearexcept(FE_ALL_EXCEPT);
-    return flags;
-}
-
-/* A buffer that ends at a protected page. */
-enum { REGIONS = 14 };
-typedef struct {
-    unsigned char *start;
-    size_t bytes;
-} region;
-static region regions[REGIONS];
-static int regions_made;
-
-static inline region *make_region(size_t bytes)
-{
-    region *r = &regions[regions_made++];
-#ifdef __unix__
-    size_t page = (size_t)sysconf(_SC_PAGESIZE);
-    r->bytes = (bytes + page - 1) / page * page;
-    r->start = mmap(NULL, r->bytes + page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    if (r->start == MAP_FAILED || mprotect(r->start + r->bytes, page, PROT_NONE) != 0) {
-        perror("mmap");
-        exit(2);
-    }
-#else
-    r->bytes = bytes;
-    r->start = malloc(bytes);
-#endif
-    if (regions_made > REGIONS || r->start == NULL) {
-        fputs("out of memory\n", stderr);
-        exit(2);
-    }
-    memset(r->start, 0x5a, r->bytes);
-    return r;
-}
-
-/* The last bytes of a region. */
-static inline void *last(const region *r, size_t bytes)
-{
-    return r->start + r->bytes - bytes;
-}
-
 enum { ITEMS = 5, HARMONICS = 2, SAMPLES = 16, PERIODS = 2 };
-enum { COEFFICIENTS = 2 * HARMONICS + 1, SQUARE = COEFFICIENTS * COEFFICIENTS };
+enum { COEFFICIENTS = 2 * HARMONICS + 1 };
 /* The largest numbers of components of a displacement, and of coefficients. */
-enum { COMPONENTS = 3, TANGENT = COMPONENTS * COMPONENTS, ALL_COEFFICIENTS = COMPONENTS * COEFFICIENTS };
+enum { COMPONENTS = 3, ALL_COEFFICIENTS = COMPONENTS * COEFFICIENTS };
 enum { ELEMENT_SQUARE = ALL_COEFFICIENTS * ALL_COEFFICIENTS };
-/* The state of a contact, which is also long enough for that of an element, and the reversals or pieces in use. */
-enum { REVERSALS = 620, STATE = 5 + 3 * REVERSALS, USED = 3, PIECES = 463, USED_PIECES = 5 };
+/* The length of each state, and the reversals or pieces in use. */
+enum { STATE = 1865, USED = 3, USED_PIECES = 5 };
 
 #include "functions.h"
 
 /* The kinds of a function's arguments, by which the drivers distinguish functions. */
-enum { TAKES_COUNT = 1 << ARG_COUNT, TAKES_STATE = 1 << ARG_STATE, TAKES_WORKSPACE = 1 << ARG_WORKSPACE,
+enum { TAKES_STATE = 1 << ARG_STATE, TAKES_WORKSPACE = 1 << ARG_WORKSPACE,
        TAKES_TABLE = 1 << ARG_TABLE, IS_BATCH = 1 << ARG_INDEX, IS_ELEMENT = 1 << 30, IS_IWAN = 1 << 29 };
 
 static arguments call;
@@ -211,10 +147,9 @@ typedef struct {
     size_t out[OUTPUTS]; /* lengths of the outputs */
 } function;
 
-/* First the functions with a contact or an element and outputs, then those that initialise or check memory; each with every rule of
-   a workspace or every variant of an element. */
+/* Each with every rule of a workspace or every variant of an element. */
 static function functions[128];
-static int FUNCTIONS, ALL_FUNCTIONS;
+static int FUNCTIONS;
 
 static inline size_t extent_of(const char *extents, size_t components)
 {
@@ -243,7 +178,7 @@ static inline void add_function(function f, int rule)
             f.out[0] = STATE * (f.takes & IS_BATCH ? ITEMS : 1);
         }
     }
-    functions[ALL_FUNCTIONS++] = f;
+    functions[FUNCTIONS++] = f;
 }
 
 static inline void make_functions(void)
@@ -252,42 +187,19 @@ static inline void make_functions(void)
 #define FUNCTION(id, most, ...) { .name = "mslip_" #id, .call = call_##id, .directions = most, .argument = { __VA_ARGS__ } },
 #include "functions.h"
     };
-    for (int others = 0; others < 2; ++others) {
-        for (size_t i = 0; i < LENGTH(described); ++i) {
-            function f = described[i];
-            f.takes = strstr(f.name, "element") || strstr(f.name, "normal_") ? IS_ELEMENT : strstr(f.name, "iwan") ? IS_IWAN : 0;
-            for (const argument *a = f.argument; a->name != NULL; ++a) {
-                f.takes |= 1u << a->kind;
-            }
-            const int is_other = !(f.takes & (1 << ARG_CONTACT | 1 << ARG_ELEMENT)) || !(f.takes & 1 << ARG_OUTPUT);
-            const int has_rule = (f.takes & TAKES_WORKSPACE) || strstr(f.name, "workspace");
-            const int rules = f.takes & IS_ELEMENT ? f.directions * 2 : has_rule ? 2 : 1;
-            for (int rule = 0; is_other == others && rule < rules; ++rule) {
+    for (size_t i = 0; i < LENGTH(described); ++i) {
+        function f = described[i];
+        f.takes = strstr(f.name, "element") || strstr(f.name, "normal_") ? IS_ELEMENT : strstr(f.name, "iwan") ? IS_IWAN : 0;
+        for (const argument *a = f.argument; a->name != NULL; ++a) {
+            f.takes |= 1u << a->kind;
+        }
+        if ((f.takes & (1 << ARG_CONTACT | 1 << ARG_ELEMENT)) && (f.takes & 1 << ARG_OUTPUT)) {
+            const int rules = f.takes & IS_ELEMENT ? f.directions * 2 : f.takes & TAKES_WORKSPACE ? 2 : 1;
+            for (int rule = 0; rule < rules; ++rule) {
                 add_function(f, rule);
             }
         }
-        FUNCTIONS = others ? FUNCTIONS : ALL_FUNCTIONS;
     }
-}
-
-static inline const function *find(const char *name, int rule)
-{
-    for (int i = 0; i < ALL_FUNCTIONS; ++i) {
-        if (strcmp(functions[i].name, name) == 0 && functions[i].rule == rule) {
-            return &functions[i];
-        }
-    }
-    fprintf(stderr, "no function %s\n", name);
-    exit(2);
-}
-
-static inline const argument *argument_of(const function *f, int kind)
-{
-    const argument *a = f->argument;
-    while (a->name != NULL && a->kind != kind) {
-        ++a;
-    }
-    return a;
 }
 
 static inline size_t items_of(const function *f)
@@ -306,68 +218,40 @@ static inline size_t components_of(const function *f)
     return (size_t)directions_for(f) + 1;
 }
 
-static region *contact_region, *element_region, *index_region, *active_region, *input_region, *state_region, *workspace_region;
-static region *table_region, *out_regions[OUTPUTS];
+/* Memory of the arguments of a call, also for the longest workspace. */
+static mslip_contact contact_memory[ITEMS];
+static mslip_element element_memory[ITEMS];
+static int32_t index_memory[ITEMS], active_memory[ITEMS];
+static double input_memory[ITEMS * ALL_COEFFICIENTS], state_memory[ITEMS * STATE], workspace_memory[1 << 14];
+static double table_memory[1 << 10], out_memory[OUTPUTS][ITEMS * (STATE + ELEMENT_SQUARE)];
 
-/* The workspace of a function: an element has uniform sampling only. */
-static inline size_t workspace_length_of(const function *f, size_t harmonics, size_t samples)
-{
-    return f->takes & IS_ELEMENT ? mslip_element_workspace_length(directions_for(f), harmonics, samples, MSLIP_UNIFORM_SAMPLING)
-                                 : mslip_harmonic_workspace_length(harmonics, samples, f->rule);
-}
-
-static inline void init_workspace(const function *f, size_t harmonics, size_t samples, size_t length, double *workspace)
-{
-    CHECK((f->takes & IS_ELEMENT
-               ? mslip_element_workspace_init(directions_for(f), harmonics, samples, MSLIP_UNIFORM_SAMPLING, PERIODS, length,
-                                              workspace)
-               : mslip_harmonic_workspace_init(harmonics, samples, f->rule, length, workspace)) == MSLIP_OK);
-}
-
-/* The length of the workspace that the calls of the table have; 0 if the function takes none. */
+/* The length of a function's workspace; 0 if it takes none. An element has uniform sampling only. */
 static inline size_t workspace_length(const function *f)
 {
-    return strstr(f->name, "workspace") || (f->takes & TAKES_WORKSPACE) ? workspace_length_of(f, HARMONICS, SAMPLES) : 0;
+    return !(f->takes & TAKES_WORKSPACE) ? 0
+        : f->takes & IS_ELEMENT
+        ? mslip_element_workspace_length(directions_for(f), HARMONICS, SAMPLES, MSLIP_UNIFORM_SAMPLING)
+        : mslip_harmonic_workspace_length(HARMONICS, SAMPLES, f->rule);
 }
 
-static inline void make_regions(void)
+static inline void init_workspace(const function *f)
 {
-    size_t longest = STATE;
-    make_functions();
-    for (int i = 0; i < ALL_FUNCTIONS; ++i) {
-        const size_t length = workspace_length(&functions[i]);
-        longest = length > longest ? length : longest;
-    }
-    contact_region = make_region(ITEMS * sizeof(mslip_contact));
-    element_region = make_region(ITEMS * sizeof(mslip_element));
-    index_region = make_region(ITEMS * sizeof(int32_t));
-    active_region = make_region(ITEMS * sizeof(int32_t));
-    input_region = make_region(ITEMS * ALL_COEFFICIENTS * sizeof(double));
-    state_region = make_region(ITEMS * STATE * sizeof(double));
-    workspace_region = make_region(longest * sizeof(double));
-    table_region = make_region(mslip_stiffness_table_length() * sizeof(double));
-    for (int i = 0; i < OUTPUTS; ++i) {
-        out_regions[i] = make_region(ITEMS * (STATE + ELEMENT_SQUARE) * sizeof(double));
-    }
+    CHECK((f->takes & IS_ELEMENT ? mslip_element_workspace_init(directions_for(f), HARMONICS, SAMPLES, MSLIP_UNIFORM_SAMPLING,
+                                                                PERIODS, call.workspace_length, call.workspace)
+                                 : mslip_harmonic_workspace_init(HARMONICS, SAMPLES, f->rule, call.workspace_length,
+                                                                 call.workspace)) == MSLIP_OK);
 }
 
 /* The inputs, to be modified by tests. */
 #define CONTACTS ((mslip_contact *)(size_t)call.contacts)
 #define ELEMENTS ((mslip_element *)(size_t)call.elements)
-#define INDICES ((int32_t *)(size_t)call.index)
-#define ACTIVE ((int32_t *)(size_t)call.active)
 #define INPUT ((double *)(size_t)call.input)
 #define STATES ((double *)(size_t)call.state)
 
-/* The contact or the element of item i, its size, and the status of an invalid one. */
+/* The contact or the element of item i. */
 static inline void *law_at(const function *f, size_t i)
 {
     return f->takes & IS_ELEMENT ? (void *)&ELEMENTS[i] : (void *)&CONTACTS[i];
-}
-
-static inline size_t law_size(const function *f)
-{
-    return f->takes & IS_ELEMENT ? sizeof(mslip_element) : sizeof(mslip_contact);
 }
 
 static inline void set_law(const function *f, size_t i, int kind)
@@ -387,39 +271,6 @@ static inline int kind_of_input(const function *f, size_t i)
     const size_t m = components_of(f);
     const int is_normal = (f->takes & IS_ELEMENT) && f->kind == DISPLACEMENT && i / share % m == m - 1;
     return !is_normal ? f->kind : normal_input_of(f->rule) == MSLIP_INPUT_APPROACH ? normal : normal + 1;
-}
-
-/* The status of input i if it is not finite. */
-static inline int32_t status_of_input(const function *f, size_t i)
-{
-    return kind_of_input(f, i) == NORMAL_FORCE ? MSLIP_BAD_NORMAL_FORCE : argument_of(f, ARG_INPUT)->status;
-}
-
-/* Lengths of the shortest state, and of one for the reversals or pieces in use. */
-static inline size_t least_state(const function *f)
-{
-    return f->takes & IS_ELEMENT ? mslip_element_state_length(directions_for(f), 0) : mslip_state_length(0);
-}
-
-/* Doubles of a state that a step writes: all, for an element those in use, with one direction 8 and 4 for each knot, whose number
-   is in the tag. */
-static inline size_t written_state(const function *f, const double *state)
-{
-    uint64_t tag;
-    memcpy(&tag, state, sizeof tag);
-    if ((f->takes & IS_ELEMENT) && directions_for(f) == 2) {
-        return least_state(f);
-    }
-    return f->takes & IS_ELEMENT ? 8 + 4 * (size_t)(tag & 0xff) : STATE;
-}
-
-static inline int same_states(const function *f, const double *states, const double *others)
-{
-    int same = 1;
-    for (size_t i = 0; i < f->out[0]; i += STATE) {
-        same &= same_bits(states + i, others + i, written_state(f, states + i));
-    }
-    return same;
 }
 
 /* A decaying vibration: each displacement adds a reversal. */
@@ -458,33 +309,11 @@ static inline void fill_states(const function *f)
     }
 }
 
-/* The state of a contact or element of the list, as filled for the first call. */
-static inline const double *state_of(const function *f, int kind)
-{
-    static double states[VARIANTS + 1][KINDS][STATE];
-    static int is_filled[VARIANTS + 1][KINDS];
-    const int variant = f->takes & IS_ELEMENT ? f->rule : VARIANTS;
-    if (!is_filled[variant][kind]) {
-        const mslip_contact contact = contact_of(kind);
-        memset(states[variant][kind], 0x5a, sizeof states[variant][kind]);
-        fill_state(f, f->takes & IS_ELEMENT ? (const void *)element_of(kind, variant) : &contact, states[variant][kind]);
-        is_filled[variant][kind] = 1;
-    }
-    return states[variant][kind];
-}
-
 /* Initialises the table of the shape of the contact. */
 static inline void fill_table(const function *f)
 {
     if (f->takes & TAKES_TABLE) {
         CHECK(mslip_stiffness_table_init(call.contacts, mslip_stiffness_table_length(), call.table) == MSLIP_OK);
-    }
-}
-
-static inline void fill_outputs(void)
-{
-    for (int i = 0; i < OUTPUTS; ++i) {
-        memset(out_regions[i]->start, 0xff, out_regions[i]->bytes); /* NaN */
     }
 }
 
@@ -504,101 +333,40 @@ static inline double valid_value(int kind, size_t i, double slip_force)
     }
 }
 
-/* The kind of the first contact or element of each call. */
-static int first_kind;
-
-/* Memory for an argument, just before a protected page. */
-static inline void set_pointer(const argument *a, region *r, size_t bytes)
-{
-    void *const memory = last(r, bytes);
-    memcpy((char *)&call + a->field, &memory, sizeof memory);
-}
-
-static inline void set_up_argument(const function *f, const argument *a)
-{
-    const size_t items = items_of(f);
-    const double slip_force = (f->takes & IS_ELEMENT) ? 0.0 : contact_of(first_kind % 3).slip_force;
-    const mslip_parameters p = flat_parameters();
-    const mslip_elliptic_parameters e = elliptic_parameters();
-    switch (a->kind) {
-        case ARG_CONTACT:
-        case ARG_ELEMENT:
-            set_pointer(a, a->kind == ARG_ELEMENT ? element_region : contact_region, items * law_size(f));
-            for (size_t i = 0; i < items; ++i) {
-                set_law(f, i, (first_kind + (int)i) % 3);
-            }
-            break;
-        case ARG_PARAMETERS:
-        case ARG_ELLIPTIC_PARAMETERS: {
-            const size_t bytes = a->kind == ARG_PARAMETERS ? sizeof p : sizeof e;
-            set_pointer(a, input_region, bytes);
-            memcpy(last(input_region, bytes), a->kind == ARG_PARAMETERS ? (const void *)&p : &e, bytes);
-            break;
-        }
-        case ARG_NEW_CONTACT: set_pointer(a, contact_region, sizeof(mslip_contact)); break;
-        case ARG_NEW_ELEMENT: set_pointer(a, element_region, sizeof(mslip_element)); break;
-        case ARG_INDEX:
-        case ARG_ACTIVE:
-            set_pointer(a, a->kind == ARG_INDEX ? index_region : active_region, items * sizeof(int32_t));
-            for (size_t i = 0; i < items; ++i) {
-                *(a->kind == ARG_INDEX ? &INDICES[i] : &ACTIVE[i]) = a->kind == ARG_INDEX ? (int32_t)i : 1;
-            }
-            break;
-        case ARG_STATE:
-            set_pointer(a, state_region, items * STATE * sizeof(double));
-            for (size_t i = 0; i < items; ++i) {
-                memcpy(STATES + i * STATE, state_of(f, (first_kind + (int)i) % 3), STATE * sizeof(double));
-            }
-            break;
-        case ARG_WORKSPACE:
-            set_pointer(a, workspace_region, workspace_length(f) * sizeof(double));
-            init_workspace(f, HARMONICS, SAMPLES, workspace_length(f), call.workspace);
-            break;
-        case ARG_TABLE:
-            set_pointer(a, table_region, call.table_length * sizeof(double));
-            fill_table(f);
-            break;
-        case ARG_BUFFER:
-            set_pointer(a, strstr(f->name, "table") ? table_region : workspace_region,
-                        (strstr(f->name, "table") ? call.table_length : strstr(f->name, "state") ? STATE : workspace_length(f))
-                            * sizeof(double));
-            break;
-        case ARG_VALUE: call.scalar = valid_value(f->scalar, 3, slip_force); break;
-        case ARG_INPUT:
-            set_pointer(a, input_region, f->inputs * sizeof(double));
-            for (size_t i = 0; i < f->inputs; ++i) {
-                INPUT[i] = valid_value(kind_of_input(f, i), i, slip_force);
-            }
-            break;
-        case ARG_NEW_STATE: set_pointer(a, out_regions[0], f->out[0] * sizeof(double)); break;
-        case ARG_OUTPUT: {
-            const size_t k = (a->field - offsetof(arguments, out)) / sizeof(double *);
-            set_pointer(a, out_regions[k], f->out[k] * sizeof(double));
-            break;
-        }
-        case ARG_FOUND_CHOICE: set_pointer(a, out_regions[*a->name == 'd'], sizeof(int32_t)); break;
-        case ARG_FOUND_SIZE: set_pointer(a, out_regions[*a->name == 'p' ? 4 : 2 + (*a->name == 'h')], sizeof(size_t)); break;
-        default: break;
-    }
-}
-
 /* Valid arguments. Items have contacts or elements of three kinds by turns. */
 static inline void set_up(const function *f)
 {
-    const int is_element = (f->takes & IS_ELEMENT) != 0;
     memset(&call, 0, sizeof call);
+    call.contacts = contact_memory;
+    call.elements = element_memory;
+    call.index = index_memory;
+    call.active = active_memory;
+    call.input = input_memory;
+    call.state = state_memory;
+    call.workspace = workspace_memory;
+    call.table = table_memory;
     call.n = call.n_contacts = ITEMS;
     call.state_length = STATE;
     call.workspace_length = workspace_length(f);
     call.table_length = mslip_stiffness_table_length();
-    call.harmonics = HARMONICS;
-    call.samples = SAMPLES;
-    call.periods = PERIODS;
-    call.directions = is_element ? directions_for(f) : 0;
-    call.normal_input = normal_input_of(f->rule);
-    call.rule = is_element ? MSLIP_UNIFORM_SAMPLING : f->rule;
-    for (const argument *a = f->argument; a->name != NULL; ++a) {
-        set_up_argument(f, a);
+    CHECK(call.workspace_length <= LENGTH(workspace_memory) && call.table_length <= LENGTH(table_memory));
+    for (int i = 0; i < ITEMS; ++i) {
+        index_memory[i] = i;
+        active_memory[i] = 1;
+        set_law(f, (size_t)i, i % 3);
+    }
+    for (int i = 0; i < OUTPUTS; ++i) {
+        call.out[i] = out_memory[i];
+    }
+    fill_states(f);
+    fill_table(f);
+    if (f->takes & TAKES_WORKSPACE) {
+        init_workspace(f);
+    }
+    const double slip_force = f->takes & IS_ELEMENT ? 0.0 : CONTACTS->slip_force;
+    call.scalar = valid_value(f->scalar, 3, slip_force);
+    for (size_t i = 0; i < f->inputs; ++i) {
+        INPUT[i] = valid_value(kind_of_input(f, i), i, slip_force);
     }
 }
 

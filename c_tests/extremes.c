@@ -6,6 +6,7 @@
 #include "calls.h"
 
 #include <pthread.h>
+#include <sys/mman.h>
 
 /* --- Random numbers --- */
 
@@ -159,6 +160,19 @@ static void draw_layer(void)
     line.layer = ellipse.layer = layer;
 }
 
+/* A cylinder whose initial compliance is a rounding of 2L/b: upward, that of an interior stick zone comes out as 0. */
+static void set_smallest_compliance(void)
+{
+    line.flat_half_width = 0.0;
+    line.edge_radius = 0x1.a45ab24969372p-4;
+    line.length = 0x1.defb5cf5285e8p-13;
+    line.normal_force = 0x1.089908bc07ccfp+5;
+    line.friction_coefficient = 0x1.470fb4015aec3p-1;
+    line.displacement_reference = MSLIP_CENTRE_POINT;
+    line.material[0] = (mslip_material){ 0x1.350a122719055p+37, 0.0 };
+    line.material[1] = (mslip_material){ 2e11, 0.0 };
+}
+
 static void draw_parameters(void)
 {
     /* Around usual values. */
@@ -182,7 +196,13 @@ static void draw_parameters(void)
     if (!is_elliptic && line.normal_force > 0.0 && one_in(2)) {
         shorten((int32_t)(bits() % 3));
     }
-    if (one_in(4)) draw_layer();
+    if (draw % 100 < 4) {
+        is_elliptic = 0;
+        rounding = (int)(draw % 4);
+        set_smallest_compliance();
+    } else if (one_in(4)) {
+        draw_layer();
+    }
 }
 
 /* The largest approach or force that is allowed, at least `from`. */
@@ -291,7 +311,7 @@ static void make_calls(int which)
         }
         call.scalar = has_scalar ? value_of(&(function){ .scalar = f->scalar }, element, 0) : 0.0;
         for (int i = 0; i < OUTPUTS; ++i) {
-            call.out[i] = f->out[i] > 0 && !one_in(6) ? last(out_regions[i], f->out[i] * sizeof(double)) : NULL;
+            call.out[i] = f->out[i] > 0 && !one_in(6) ? out_memory[i] : NULL;
         }
         accepted_calls[which] += MAKE(f->name, directions, f->call()) == MSLIP_OK;
         if (status != MSLIP_OK || !(f->takes & TAKES_STATE) || call.out[0] == NULL) {
@@ -370,7 +390,7 @@ int main(int argc, char **argv)
     const int next = argc > 1 && strcmp(argv[1], "--trap") == 0 ? 2 : 1;
     first_draw = argc > next ? strtoull(argv[next], NULL, 10) : first_draw;
     draws = argc > next + 1 ? strtoull(argv[next + 1], NULL, 10) : draws;
-    make_regions();
+    make_functions();
     pthread_attr_t attributes;
     pthread_t thread;
     stack = (uint64_t *)mmap(NULL, STACK, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);

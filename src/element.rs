@@ -167,7 +167,7 @@ impl Element {
         // The load at b = 2L.
         in_range(&[length, length, length, composite_modulus], &[parameters.edge_radius])?;
         self.init(&flat, &common, directions, input)?;
-        (self.composite_modulus, self.flat, self.ellipse) = (composite_modulus, flat, EMPTY.ellipse);
+        (self.composite_modulus, self.flat, self.ellipse) = (composite_modulus, flat, NO_ELLIPSE);
         Ok(())
     }
 
@@ -191,7 +191,7 @@ impl Element {
         }
         self.init(&ellipse, &common, directions, input)?;
         self.tag |= ELLIPTIC;
-        (self.composite_modulus, self.flat, self.ellipse) = (composite_modulus, EMPTY.flat, ellipse);
+        (self.composite_modulus, self.flat, self.ellipse) = (composite_modulus, NO_FLAT, ellipse);
         Ok(())
     }
 
@@ -346,67 +346,41 @@ impl Element {
         if self.tag & TWO_DIRECTIONS == 0 { Directions::One } else { Directions::Two }
     }
 
-    /// Values and slopes of quantities as functions of an argument, from their tables or, outside, from the shape.
+    /// Values and, if requested, slopes of a quantity as a function of an argument, from its table or, outside, from the shape.
     #[inline(always)]
-    fn functions<const SLOPES: bool, const K: usize, const L: usize>(
+    fn function<const SLOPES: bool, const L: usize>(
         &self,
-        tables: [&Table; K],
-        quantities: [Quantity; K],
-        argument: Quantity,
+        table: Option<&Table>,
+        [quantity, argument]: [Quantity; 2],
         x: &[f64; L],
-    ) -> [([f64; L], [f64; L]); K] {
-        let mut found = [([0.0; L], [0.0; L]); K];
-        for (found, table) in found.iter_mut().zip(tables) {
-            let Some(values) = table.at::<SLOPES, L>(x) else {
-                return self.one_by_one(tables, quantities, argument, x);
-            };
-            *found = values;
-        }
-        found
-    }
-
-    #[inline(never)]
-    fn one_by_one<const K: usize, const L: usize>(
-        &self,
-        tables: [&Table; K],
-        quantities: [Quantity; K],
-        argument: Quantity,
-        x: &[f64; L],
-    ) -> [([f64; L], [f64; L]); K] {
-        let mut found = [([0.0; L], [0.0; L]); K];
-        for (lane, &x) in x.iter().enumerate() {
-            let outside = if tables.iter().all(|table| table.position(x).is_some()) {
-                None
-            } else {
-                Some(self.outside(quantities, argument, x))
-            };
-            for k in 0..K {
-                (found[k].0[lane], found[k].1[lane]) = match &outside {
-                    Some(values) => values[k],
-                    None => tables[k].one_at(x),
-                };
+    ) -> ([f64; L], [f64; L]) {
+        table.and_then(|table| table.at::<SLOPES, L>(x)).unwrap_or_else(|| {
+            let (mut values, mut slopes) = ([0.0; L], [0.0; L]);
+            for ((value, slope), &x) in values.iter_mut().zip(&mut slopes).zip(x) {
+                (*value, *slope) = self.one(table, [quantity, argument], x);
             }
-        }
-        found
+            (values, slopes)
+        })
     }
 
-    /// Quantities as functions of an argument >= 0, from the shape. Below the smallest size all are proportional to each other.
     #[inline(never)]
-    fn outside<const K: usize>(&self, quantities: [Quantity; K], argument: Quantity, x: f64) -> [(f64, f64); K] {
+    fn one(&self, table: Option<&Table>, [quantity, argument]: [Quantity; 2], x: f64) -> (f64, f64) {
+        table.and_then(|table| table.one_at(x)).unwrap_or_else(|| self.outside([quantity, argument], x))
+    }
+
+    /// A quantity as a function of an argument >= 0, from the shape. Below the smallest size all are proportional to each other.
+    fn outside(&self, [quantity, argument]: [Quantity; 2], x: f64) -> (f64, f64) {
         let shape = self.shape();
         if x > 0.0 && x < self.smallest(argument) {
-            return quantities.map(|quantity| {
-                let slope = self.smallest(quantity) / self.smallest(argument);
-                (slope * x, slope)
-            });
+            let slope = self.smallest(quantity) / self.smallest(argument);
+            return (slope * x, slope);
         }
         if x <= 0.0 && shape.half_width(0.0) <= 0.0 {
             // A point is infinitely compliant.
-            return [(0.0, if argument == Quantity::Load { f64::INFINITY } else { 0.0 }); K];
+            return (0.0, if argument == Quantity::Load { f64::INFINITY } else { 0.0 });
         }
         let w = if x > 0.0 { shape.size_at(argument, x) } else { 0.0 };
-        quantities
-            .map(|quantity| (shape.value(quantity, w), shape.compliance(quantity, w) / shape.compliance(argument, w)))
+        (shape.value(quantity, w), shape.compliance(quantity, w) / shape.compliance(argument, w))
     }
 
     /// N, U or S of the smallest size that is distinguished.
@@ -422,8 +396,8 @@ impl Element {
     /// The normal force at approaches \[m\] that [`Element::check_approach`] accepts; 0 for an approach <= 0, an open contact.
     #[inline(always)]
     pub(crate) fn normal_forces<const L: usize>(&self, approach: &[f64; L]) -> [NormalPoint; L] {
-        let table = if self.by_approach() { &self.of_input } else { &Table::EMPTY };
-        let [(value, slope)] = self.functions::<true, 1, L>([table], [Quantity::Load], Quantity::Approach, approach);
+        let table = self.by_approach().then_some(&self.of_input);
+        let (value, slope) = self.function::<true, L>(table, [Quantity::Load, Quantity::Approach], approach);
         from_fn(|k| NormalPoint { value: value[k], slope: if approach[k] > 0.0 { slope[k] } else { 0.0 } })
     }
 
@@ -439,9 +413,8 @@ impl Element {
     #[must_use]
     #[inline(always)]
     pub fn approach_under(&self, normal_force: f64) -> NormalPoint {
-        let table = if self.by_approach() { &Table::EMPTY } else { &self.of_input };
-        let [([value], [slope])] =
-            self.functions::<true, 1, 1>([table], [Quantity::Approach], Quantity::Load, &[normal_force]);
+        let table = (!self.by_approach()).then_some(&self.of_input);
+        let (value, slope) = self.one(table, [Quantity::Approach, Quantity::Load], normal_force);
         NormalPoint { value, slope }
     }
 
@@ -493,7 +466,7 @@ impl Element {
 
     /// S in a direction and its derivative by the normal force, from the shape.
     fn tangential_shift(&self, direction: usize, load: f64) -> NormalPoint {
-        let [(shift, shift_slope)] = self.outside([Quantity::Shift], Quantity::Load, load);
+        let (shift, shift_slope) = self.outside([Quantity::Shift, Quantity::Load], load);
         if direction == 0 {
             return NormalPoint { value: shift, slope: shift_slope };
         }
@@ -512,8 +485,7 @@ impl Element {
     /// The tangential shift S \[m\] under a normal force \[N\]; 0 if that is 0.
     #[must_use]
     pub fn shift_under(&self, load: f64) -> f64 {
-        let [(shift, _)] = self.outside([Quantity::Shift], Quantity::Load, load);
-        shift
+        self.outside([Quantity::Shift, Quantity::Load], load).0
     }
 
     /// The normal force \[N\] at a tangential shift \[m\].
@@ -613,30 +585,26 @@ impl Element {
 
     #[inline(always)]
     fn closed<const SLOPES: bool, const L: usize>(&self, input: &[f64; L]) -> [[f64; L]; 4] {
-        let [per_approach, per_load] = self.shift_per;
+        let ([per_approach, per_load], table) = (self.shift_per, Some(&self.of_input));
         if per_approach > 0.0 {
             // A sum is faster than a second table.
-            let [(load, slope)] =
-                self.functions::<SLOPES, 1, L>([&self.of_input], [Quantity::Load], Quantity::Approach, input);
+            let (load, slope) = self.function::<SLOPES, L>(table, [Quantity::Load, Quantity::Approach], input);
             let shift = from_fn(|k| per_approach * input[k] + per_load * load[k]);
             return [load, shift, slope, slope.map(|slope| per_approach + per_load * slope)];
         }
-        if self.by_approach() {
-            let (tables, quantities) = ([&self.of_input, &self.shift], [Quantity::Load, Quantity::Shift]);
-            let [(load, load_slope), (shift, shift_slope)] =
-                self.functions::<SLOPES, 2, L>(tables, quantities, Quantity::Approach, input);
-            return [load, shift, load_slope, shift_slope];
+        let argument = if self.by_approach() { Quantity::Approach } else { Quantity::Load };
+        let (shift, shift_slope) = self.function::<SLOPES, L>(Some(&self.shift), [Quantity::Shift, argument], input);
+        if argument == Quantity::Load {
+            return [*input, shift, [1.0; L], shift_slope];
         }
-        let [(shift, slope)] = self.functions::<SLOPES, 1, L>([&self.shift], [Quantity::Shift], Quantity::Load, input);
-        [*input, shift, [1.0; L], slope]
+        let (load, load_slope) = self.function::<SLOPES, L>(table, [Quantity::Load, argument], input);
+        [load, shift, load_slope, shift_slope]
     }
 
     /// N and, if requested, 1/K_t at shifts S >= 0.
     #[inline(always)]
     pub(crate) fn loads_at<const SLOPES: bool, const L: usize>(&self, shift: &[f64; L]) -> ([f64; L], [f64; L]) {
-        let table = [&self.load_of_shift];
-        let [load] = self.functions::<SLOPES, 1, L>(table, [Quantity::Load], Quantity::Shift, shift);
-        load
+        self.function::<SLOPES, L>(Some(&self.load_of_shift), [Quantity::Load, Quantity::Shift], shift)
     }
 
     /// N and 1/K_t at a shift S >= 0.
@@ -695,6 +663,9 @@ const fn tag_of(directions: Directions) -> u64 {
     }
 }
 
+const NO_FLAT: Layered<RoundedFlat> = Layered { shape: RoundedFlat::EMPTY, layer: Layer::NONE };
+const NO_ELLIPSE: Layered<HertzEllipse> = Layered { shape: HertzEllipse::EMPTY, layer: Layer::NONE };
+
 /// An element without tables.
 const EMPTY: Element = Element {
     composite_modulus: 0.0,
@@ -714,8 +685,8 @@ const EMPTY: Element = Element {
     largest_shift: 0.0,
     smallest_input: 0.0,
     smallest: [0.0; 3],
-    flat: Layered { shape: RoundedFlat::EMPTY, layer: Layer::NONE },
-    ellipse: Layered { shape: HertzEllipse::EMPTY, layer: Layer::NONE },
+    flat: NO_FLAT,
+    ellipse: NO_ELLIPSE,
     of_input: Table::EMPTY,
     shift: Table::EMPTY,
     shift_per: [0.0; 2],

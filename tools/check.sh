@@ -1,5 +1,5 @@
 #!/bin/sh
-# check.sh: what `make test` leaves out: lints, sanitizers, applications of every kind, fuzzing, Miri, coverage, packages, long histories, audit.
+# check.sh: what `make test` leaves out: lints, sanitizers, applications of every kind, fuzzing, Miri, coverage, packages, audit.
 set -eu
 cd "$(dirname "$0")/.."
 : "${MICROSLIP_SEED:=$(date +%s)}"
@@ -24,8 +24,7 @@ rust() {
     step 'lints: shell' sh -c 'git ls-files "*.sh" | xargs shellcheck .ci/run'
     step 'coverage: 98 % of the lines of src/' tools/coverage.sh
     step 'Miri' tools/miri.sh
-    step 'accuracy, 1e5 points' "$CARGO" run --quiet --locked --package accuracy -- --points 1e5
-    step 'stress: adversarial histories' "$CARGO" run --quiet --locked --package stress -- --scale 0.01
+    step 'accuracy and adversarial histories, 1e5 points' "$CARGO" run --quiet --locked --package verify -- --points 1e5
     step 'verdicts of 40 fits of each kind' env MICROSLIP_FITS=40 \
         "$CARGO" test --locked --package microslip-fit --test wrong_models -- plateau microslip
     step 'two directions: Jacobians of 4,000 random motions' \

@@ -7,13 +7,13 @@
 set -eu
 
 table='
-gcc             demo test check bench figures host fuzz docs accuracy python : command gcc
+gcc             demo test check bench figures host fuzz docs verify python   : command gcc
 gfortran        demo test check host parallel                         : command gfortran
 liblapack-dev   demo test check host parallel                         : library lapack
 libblas-dev     demo test check host parallel                         : library blas
 gnuplot-nox     demo check bench figures host                         : command gnuplot
-libgmp-dev      test check bench figures accuracy                     : header gmp.h
-libmpfr-dev     test check bench figures accuracy                     : header mpfr.h
+libgmp-dev      test check bench figures verify                       : header gmp.h
+libmpfr-dev     test check bench figures verify                       : header mpfr.h
 pkg-config      test check                                            : command pkg-config
 g++             test check fuzz                                       : command g++
 shellcheck      check                                                 : command shellcheck

@@ -28,12 +28,7 @@ const RELATIONS: &[(&str, f64, &str, &str)] = &[
     ("path_gross_slip", 0.5, "path", "in gross slip no interpolant is evaluated"),
     ("harmonics_gross_slip", 0.7, "harmonics", "in gross slip no derivatives are summed; the transforms remain"),
     ("harmonics_open", 0.08, "harmonics", "an open contact has no force"),
-    (
-        "harmonics_odd",
-        0.85,
-        "harmonics",
-        "half a period of a half-wave symmetric motion is computed; the transforms remain",
-    ),
+    ("harmonics_odd", 0.85, "harmonics", "half a period of a symmetric motion is computed; the transforms remain"),
     ("batch_stiffness_inactive", 0.05, "batch_stiffness", "inactive items are skipped"),
     ("batch_update_inactive", 0.05, "batch_update", "inactive items are skipped"),
     ("batch_harmonics_inactive", 0.05, "batch_harmonics", "inactive items are skipped"),
@@ -91,19 +86,8 @@ fn outputs<const K: usize>(requested: usize) -> [*mut f64; K] {
     std::array::from_fn(|k| if k < requested { vec![0.0; POINTS * 4 * N * N].leak().as_mut_ptr() } else { null_mut() })
 }
 
-fn contact(normal_force: f64) -> mslip_contact {
-    contact_with(normal_force, NONE)
-}
-
-fn contact_with(normal_force: f64, stiffening: f64) -> mslip_contact {
-    let layer = |compliance| Layer {
-        normal_compliance: compliance,
-        tangential_compliance: compliance,
-        stiffening_load: stiffening * normal_force,
-        reference_load: 0.0,
-    };
-    let parameters = Parameters {
-        layer: if stiffening > 0.0 { layer(1.0 / contact(normal_force).initial_stiffness) } else { Layer::none() },
+fn parameters(normal_force: f64) -> Parameters {
+    Parameters {
         flat_half_width: 3e-4,
         edge_radius: 2e-3,
         length: 2e-2,
@@ -112,7 +96,25 @@ fn contact_with(normal_force: f64, stiffening: f64) -> mslip_contact {
         material: [Material { young_modulus: 2e11, poisson_ratio: 0.3 }; 2],
         displacement_reference: microslip::parameters::CENTRE_POINT,
         ..Parameters::default()
-    };
+    }
+}
+
+fn contact(normal_force: f64) -> mslip_contact {
+    contact_with(normal_force, NONE)
+}
+
+fn contact_with(normal_force: f64, stiffening: f64) -> mslip_contact {
+    let mut parameters = parameters(normal_force);
+    if stiffening > 0.0 {
+        let compliance = 1.0 / contact(normal_force).initial_stiffness;
+        let stiffening_load = stiffening * normal_force;
+        parameters.layer = Layer {
+            normal_compliance: compliance,
+            tangential_compliance: compliance,
+            stiffening_load,
+            reference_load: 0.0,
+        };
+    }
     let mut contact = MaybeUninit::uninit();
     // SAFETY: valid pointers; the contact is initialised if the status is MSLIP_OK.
     unsafe {
@@ -138,30 +140,16 @@ fn stiffness(layer: f64, imaginary_alone: bool) -> Call {
 }
 
 /// One amplitude, a fraction of that of gross slip.
-fn plain(fraction: f64) -> Call {
-    let c = contact(200.0);
-    let amplitude = array(|_| c.slip_displacement * fraction);
-    let [real, imaginary, d_real, d_imaginary] = outputs(4);
-    prepared(move || unsafe { mslip_complex_stiffness(&c, 1, amplitude, real, imaginary, d_real, d_imaginary) })
-}
-
-fn tabulated(fraction: f64) -> Call {
+fn at(fraction: f64, tabulated: bool) -> Call {
     let c = contact(200.0);
     let length = mslip_stiffness_table_length();
-    let table = vec![0.0; length].leak().as_mut_ptr();
-    let amplitude = array(|_| c.slip_displacement * fraction);
-    let [real, imaginary, d_real, d_imaginary] = outputs(4);
+    let (table, u) = (vec![0.0; length].leak().as_mut_ptr(), array(|_| c.slip_displacement * fraction));
+    let [p, q, r, s] = outputs(4);
     unsafe { assert_eq!(mslip_stiffness_table_init(&c, length, table), MSLIP_OK) };
-    prepared(move || unsafe {
-        mslip_complex_stiffness_tabulated(&c, table, 1, amplitude, real, imaginary, d_real, d_imaginary)
-    })
-}
-
-fn table() -> Call {
-    let c = contact(200.0);
-    let length = mslip_stiffness_table_length();
-    let table = vec![0.0; length].leak().as_mut_ptr();
-    prepared(move || unsafe { mslip_stiffness_table_init(&c, length, table) })
+    if tabulated {
+        return prepared(move || unsafe { mslip_complex_stiffness_tabulated(&c, table, 1, u, p, q, r, s) });
+    }
+    prepared(move || unsafe { mslip_complex_stiffness(&c, 1, u, p, q, r, s) })
 }
 
 fn update(requested: usize) -> Call {
@@ -258,20 +246,10 @@ fn batch_harmonics(b: Batch) -> Call {
 const ELEMENT_STATE: usize = 8 + 4 * 17; // 16 pieces
 
 fn element() -> &'static mslip_element {
-    let parameters = Parameters {
-        flat_half_width: 3e-4,
-        edge_radius: 2e-3,
-        length: 2e-2,
-        normal_force: 200.0,
-        friction_coefficient: 0.4,
-        material: [Material { young_modulus: 2e11, poisson_ratio: 0.3 }; 2],
-        displacement_reference: microslip::parameters::CENTRE_POINT,
-        ..Parameters::default()
-    };
     let mut element = Box::new(MaybeUninit::uninit());
     // SAFETY: valid pointers; the element is initialised if the status is MSLIP_OK.
     unsafe {
-        assert_eq!(mslip_element_init(&parameters, 1, MSLIP_INPUT_APPROACH, element.as_mut_ptr()), MSLIP_OK);
+        assert_eq!(mslip_element_init(&parameters(200.0), 1, MSLIP_INPUT_APPROACH, element.as_mut_ptr()), MSLIP_OK);
         Box::leak(element.assume_init())
     }
 }
@@ -332,11 +310,10 @@ fn batch_element(shared: bool, active: i32) -> Call {
     let e = element();
     // SAFETY: an initialised element.
     let elements = if shared { ptr::from_ref(e) } else { array(|_| unsafe { ptr::read(e) }).cast_const() };
-    let (n_elements, index) = if shared { (1, array(|_| 0)) } else { (POINTS, null_mut()) };
+    let (n, index) = if shared { (1, array(|_| 0)) } else { (POINTS, null_mut()) };
     let (x, active) = (swing(e), array(|_| active));
     let [old, new] = [0.0; 2].map(|initial| array(|_| [initial; ELEMENT_STATE]).cast::<f64>());
-    let [force, tangent, dissipated] = outputs(3);
-    let [none] = outputs(0);
+    let ([p, q, r], [none]) = (outputs(3), outputs(0));
     for i in 0..POINTS {
         unsafe {
             let state = old.add(i * ELEMENT_STATE);
@@ -345,20 +322,7 @@ fn batch_element(shared: bool, active: i32) -> Call {
         }
     }
     prepared(move || unsafe {
-        mslip_batch_element_update(
-            POINTS,
-            n_elements,
-            elements,
-            index,
-            active,
-            ELEMENT_STATE,
-            old,
-            x,
-            new,
-            force,
-            tangent,
-            dissipated,
-        )
+        mslip_batch_element_update(POINTS, n, elements, index, active, ELEMENT_STATE, old, x, new, p, q, r)
     })
 }
 
@@ -395,13 +359,12 @@ const EVEN: [f64; N] = [0.05, 0.7, 0.2, 0.04, 0.0, 0.05, 0.03, 0.0, 0.0, 0.0, 0.
 #[bench::stiffness_imaginary(stiffness(NONE, true))]
 #[bench::stiffness_layer(stiffness(LAYER, false))]
 #[bench::stiffness_rough_layer(stiffness(ROUGH, false))]
-#[bench::plain_near_slip(plain(0.999))]
-#[bench::tabulated_small(tabulated(0.2))]
-#[bench::tabulated_microslip(tabulated(0.7))]
-#[bench::tabulated_near_slip(tabulated(0.999))]
-#[bench::tabulated_beyond_slip(tabulated(1.02))]
-#[bench::tabulated_gross_slip(tabulated(3.0))]
-#[bench::table(table())]
+#[bench::plain_near_slip(at(0.999, false))]
+#[bench::tabulated_small(at(0.2, true))]
+#[bench::tabulated_microslip(at(0.7, true))]
+#[bench::tabulated_near_slip(at(0.999, true))]
+#[bench::tabulated_beyond_slip(at(1.02, true))]
+#[bench::tabulated_gross_slip(at(3.0, true))]
 #[bench::update(update(3))]
 #[bench::update_force(update(2))]
 #[bench::path(path(|t| 0.8 * (2.0 * TAU * t).sin()))]

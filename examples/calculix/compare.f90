@@ -16,7 +16,7 @@ program compare
   real(wp), parameter :: rounding = 5e-7_wp, structural = 2*rounding
   ! Impacts amplify the differences.
   real(wp), parameter :: lifting_tolerance = 1e-5_wp
-  integer, parameter :: tip = 2, displacement = 3, force = 4, dissipated = 5      ! columns
+  integer, parameter :: displacement = 3, force = 4, dissipated = 5               ! columns
   character(len=256) :: results, jobs
   type(mslip_contact) :: contact
   type(mslip_element) :: element
@@ -138,25 +138,16 @@ contains
     close (unit)
   end subroutine compare_law
 
-  !> The blade with the contact: static loads, the trapezoidal rule, the lowest natural frequency.
+  !> The blade with the element under static loads and by the trapezoidal rule; the lowest natural frequency with the contact.
   subroutine compare_structure()
-    real(wp), allocatable :: stiffness(:, :), mass(:, :), loads(:, :), table(:, :), inverse_squares(:), work(:)
+    real(wp), allocatable :: stiffness(:, :), mass(:, :), table(:, :), inverse_squares(:), work(:)
     real(wp) :: lowest
-    integer :: end, rubbing, i, n
+    integer :: rubbing, i, n
 
     n = equation(' ')
-    end = equation('113.3')
     rubbing = equation('103.3')
     stiffness = read_matrix('matrices.sti', n)
     mass = read_matrix('matrices.mas', n)
-
-    call read_table(trim(jobs)//'/static_load.csv', 2, loads)
-    call read_table(trim(results)//'/static.csv', 5, table)
-    call compare_motion('static', table, [(at_time(loads, table(1, i)), i=1, size(table, 2))], 0.0_wp, stiffness, mass, end, &
-      rubbing)
-    call read_table(trim(jobs)//'/dynamic_load.csv', 2, loads)
-    call read_table(table_of('dynamic'), 5, table)
-    call compare_motion('dynamic', table, loads(2, 2:), 2/loads(1, 2), stiffness, mass, end, rubbing)
 
     call initialise_element(1)
     call compare_lifting('lifting', stiffness, mass)
@@ -175,41 +166,6 @@ contains
     call check('frequency: lowest, squared', abs(lowest - table(1, 1)), structural*lowest, lowest)
   end subroutine compare_structure
 
-  !> Trapezoidal rule with `rate` = 2/step: (K + rate^2 M) u = load - contact force + M (inertia). Static if `rate` is 0.
-  subroutine compare_motion(job, table, load, rate, stiffness, mass, end, rubbing)
-    character(len=*), intent(in) :: job
-    real(wp), intent(in) :: table(:, :), load(:), rate, stiffness(:, :), mass(:, :)
-    integer, intent(in) :: end, rubbing
-    character(len=*), parameter :: names(2:4) = [character(len=27) :: 'displacement of the tip', &
-      'displacement of the contact', 'force of the contact']
-    real(wp) :: own(5, size(table, 2)), state(mslip_state_length(30_mslip_size)), largest
-    real(wp), dimension(size(mass, 1)) :: u, velocity, acceleration, inertia
-    real(wp) :: inverse(size(mass, 1), size(mass, 1))
-    integer :: i, status
-
-    inverse = inverse_of(stiffness + rate**2*mass)
-    call mslip_state_init(state, status)
-    u = 0
-    velocity = 0
-    acceleration = 0
-    do i = 1, size(table, 2)
-      inertia = rate**2*u + 2*rate*velocity + acceleration
-      u = matmul(mass, inertia)
-      u(end) = u(end) + load(i)
-      u = matmul(inverse, u)
-      call equilibrium(u(rubbing), inverse(rubbing, rubbing), state, own(displacement, i), own(force, i))
-      u = u - own(force, i)*inverse(:, rubbing)
-      own(tip, i) = u(end)
-      inertia = rate**2*u - inertia  ! the new acceleration
-      if (rate > 0) velocity = velocity + (acceleration + inertia)/rate
-      acceleration = inertia
-    end do
-    do i = tip, force
-      largest = maxval(abs(own(i, :)))
-      call check(job//': structural solution, '//trim(names(i)), maxval(abs(own(i, :) - table(i, :))), structural*largest, largest)
-    end do
-  end subroutine compare_motion
-
   function inverse_of(matrix) result(inverse)
     real(wp), intent(in) :: matrix(:, :)
     real(wp), dimension(size(matrix, 1), size(matrix, 1)) :: factors, inverse
@@ -225,7 +181,8 @@ contains
     if (status /= 0) call stop_with('a matrix of CalculiX is not positive definite')
   end function inverse_of
 
-  !> As compare_motion, with the element: forces at the tip in y and z, or x, y and z; it slides in y, or y and x, and closes in -z.
+  !> Trapezoidal rule with `rate` = 2/step: (K + rate^2 M) u = load - contact force + M (inertia). Static if `rate` is 0. Forces at
+  !> the tip in y and z, or x, y and z; the element slides in y, or y and x, and closes in -z.
   subroutine compare_lifting(job, stiffness, mass)
     character(len=*), intent(in) :: job
     real(wp), intent(in) :: stiffness(:, :), mass(:, :)
@@ -306,31 +263,6 @@ contains
     call require(status)
     state = trial
   end subroutine element_equilibrium
-
-  !> Equilibrium u = free - compliance*force of contact and structure: Newton's method within a bracket, because the force
-  !> increases with the displacement and is at most mu N. Trial steps start from `state`, which becomes that of the solution.
-  subroutine equilibrium(free, compliance, state, u, f)
-    real(wp), intent(in) :: free, compliance
-    real(wp), intent(inout) :: state(:)
-    real(wp), intent(out) :: u, f
-    real(wp) :: trial(size(state)), low, high, residual, stiffness
-    integer :: i, status
-
-    low = free - compliance*contact%slip_force
-    high = free + compliance*contact%slip_force
-    u = (low + high)/2
-    do i = 1, 200
-      call mslip_masing_update(contact, state, u, trial, status, f, stiffness)
-      call require(status)
-      residual = u - free + compliance*f
-      if (residual > 0) high = u
-      if (residual < 0) low = u
-      if (high - low <= 4*spacing(u) .or. abs(residual) <= 2*spacing(free)) exit
-      u = u - residual/(1 + compliance*stiffness)
-      if (u <= low .or. u >= high) u = (low + high)/2
-    end do
-    state = trial
-  end subroutine equilibrium
 
   subroutine check(name, difference, allowed, largest)
     character(len=*), intent(in) :: name

@@ -105,7 +105,6 @@ step() {
     echo '*RESTART, READ, STEP=4'
     for load in 45 -75 75; do step "$load"; done
 } > resumed.inp
-printf '%s\n' '0., 0.' '1., 75.' '2., -75.' '3., 50.' '4., -35.' '5., 45.' '6., -75.' '7., 75.' > static_load.csv
 
 # Five periods of 380 Hz, 200 increments each; the trapezoidal rule.
 awk 'BEGIN {

@@ -3,7 +3,7 @@ module linear_structure
   use basics, only: fail, name_length, open_table, text, wp
   implicit none
   private
-  public :: read_structure, read_matrix, write_matrix
+  public :: read_structure, read_matrix
 
   type, public :: structure
     real(wp), allocatable :: mass(:,:), damping(:,:), stiffness(:,:)
@@ -109,19 +109,4 @@ contains
       if (.not. condition) call fail(trim(path)//': '//message)
     end subroutine require
   end subroutine read_matrix
-
-  !> Lower triangle with 17 digits, which restore the same doubles.
-  subroutine write_matrix(path, comment, matrix)
-    character(len=*), intent(in) :: path, comment
-    real(wp), intent(in) :: matrix(:,:)
-    integer :: unit, j
-
-    unit = open_table(path, '%%MatrixMarket matrix array real symmetric')
-    write (unit, '(2a)') '% ', comment
-    write (unit, '(i0, 1x, i0)') shape(matrix)
-    do j = 1, size(matrix, 2)
-      write (unit, '(es24.16e3)') matrix(j:, j)
-    end do
-    close (unit)
-  end subroutine write_matrix
 end module linear_structure

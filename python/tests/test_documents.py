@@ -7,6 +7,7 @@ import re
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 from tables import REPOSITORY
 
@@ -52,3 +53,13 @@ def test_programs_that_measure_times(name, tmp_path):
     slider = next(float(time) for name, time in times.items() if name.startswith("spring-slider in NumPy"))
     # A factor of ten to eighty, on whatever machine.
     assert all(float(time) < slider for name, time in times.items() if "slider" not in name and "Jenkins" not in name)
+
+
+def test_the_blades_of_the_demonstration_are_those_of_their_program(tmp_path):
+    files = REPOSITORY / "fortran_examples" / "model"
+    run(str(files / "blade_model.py"), str(tmp_path), directory=tmp_path)
+    for file in tmp_path.glob("*.mtx"):
+        own, stored = (np.loadtxt(path, skiprows=3) for path in (file, files / file.name))
+        # The condition of the stiffness matrix is about 1e6.
+        np.testing.assert_allclose(own, stored, rtol=1e-9, atol=1e-9 * np.abs(stored).max())
+    assert len(list(tmp_path.glob("*.mtx"))) == 6

@@ -21,7 +21,6 @@
 //! from gross slip and for larger Λ, fewer points of the midpoint rule in θ, `x = ξ sin²(θ/2)`, are enough.
 
 use crate::constant_load::contact::{Contact, NODES_IN_SLIP};
-use crate::constant_load::evaluator::BEYOND;
 use crate::error::Error;
 use crate::limits::MAX_DISPLACEMENT;
 use crate::numerics::chebyshev::Interpolant;
@@ -67,11 +66,26 @@ static RULE_IN_SLIP: [[f64; NODES_IN_SLIP]; 3] = {
     [rho, x, weights]
 };
 
-/// F and dF/dξ from the terms of F and `ρ - e` at the nodes. The number of nodes is a multiple of four.
+/// Blocks of four nodes and weights of Gauss's rules.
+static RULE_BELOW: [[[f64; 4]; 2]; NODES_BELOW / 4] = blocks(&gauss_legendre::<NODES_BELOW>());
+static RULE_BEYOND: [[[f64; 4]; 2]; NODES_BEYOND / 4] = blocks(&gauss_legendre::<NODES_BEYOND>());
+
+const fn blocks<const N: usize, const M: usize>(rule: &[[f64; N]; 2]) -> [[[f64; 4]; 2]; M] {
+    let mut blocks = [[[0.0; 4]; 2]; M];
+    let mut i = 0;
+    while i < N {
+        (blocks[i / 4][0][i % 4], blocks[i / 4][1][i % 4]) = (rule[0][i], rule[1][i]);
+        i += 1;
+    }
+    blocks
+}
+
+/// F and dF/dξ from the terms of F and `ρ - e` at blocks of nodes.
 #[inline(always)]
-fn sums<const N: usize>(terms: &[f64; N], rest: &[f64; N]) -> [f64; 2] {
+fn sum<B>(blocks: &[B], at: impl Fn(&B) -> [[f64; 4]; 2]) -> [f64; 2] {
     let mut sums = [[0.0; 4]; 2];
-    for (terms, rest) in terms.as_chunks::<4>().0.iter().zip(rest.as_chunks::<4>().0) {
+    for block in blocks {
+        let [terms, rest] = at(block);
         for k in 0..4 {
             sums[0][k] += terms[k];
             sums[1][k] += 0.5 * terms[k] / rest[k];
@@ -86,18 +100,12 @@ pub(crate) type ValueAndSlope = (f64, f64);
 /// K', K'' and their derivatives, each if it is requested.
 pub(crate) type StiffnessOutputs<'a> = [Option<&'a mut [f64]>; 4];
 
-/// Writes what is requested of K' and K'' at consecutive amplitudes.
+/// Writes what is requested of K' and K'' as value i of each output.
 #[inline(always)]
-pub(crate) fn write_values<const N: usize>(
-    values: [[ValueAndSlope; 2]; N],
-    first: usize,
-    outputs: &mut StiffnessOutputs,
-) {
-    for (i, [(real, d_real), (imaginary, d_imaginary)]) in values.into_iter().enumerate() {
-        for (output, value) in outputs.iter_mut().zip([real, imaginary, d_real, d_imaginary]) {
-            if let Some(place) = output.as_deref_mut().and_then(|values| values.get_mut(first + i)) {
-                *place = value;
-            }
+pub(crate) fn write_values([real, imaginary]: [ValueAndSlope; 2], i: usize, outputs: &mut StiffnessOutputs) {
+    for (output, value) in outputs.iter_mut().zip([real.0, imaginary.0, real.1, imaginary.1]) {
+        if let Some(place) = output.as_deref_mut().and_then(|values| values.get_mut(i)) {
+            *place = value;
         }
     }
 }
@@ -111,7 +119,7 @@ impl Contact {
         let cycle = self.cycle(amplitude);
         let real = if is_requested(k_real, dk_real) { cycle.real_with_derivative() } else { (0.0, 0.0) };
         let imaginary = if is_requested(k_imag, dk_imag) { cycle.imaginary_with_derivative() } else { (0.0, 0.0) };
-        write_values([[real, imaginary]], i, outputs);
+        write_values([real, imaginary], i, outputs);
     }
 
     fn cycle(&self, amplitude: f64) -> ComplexStiffness<'_> {
@@ -135,67 +143,109 @@ impl Contact {
 
     #[inline(always)]
     fn cycle_integrals_kernel(&self, xi: f64, e: f64) -> [f64; 2] {
-        if !self.has_weights_in_slip() || (e > IN_SLIP && e <= 0.0) {
-            self.integrals::<NODES_BEYOND, { NODES_BEYOND + BEYOND }>(xi, e)
-        } else if e >= FAR_BELOW[0] {
-            self.midpoint::<{ NODES_FAR_BELOW[0] }, { NODES_FAR_BELOW[0] + BEYOND }>(xi, e)
-        } else if e >= FAR_BELOW[1] {
-            self.midpoint::<{ NODES_FAR_BELOW[1] }, { NODES_FAR_BELOW[1] + BEYOND }>(xi, e)
-        } else if e > 0.0 {
-            self.integrals::<NODES_BELOW, { NODES_BELOW + BEYOND }>(xi, e)
-        } else {
-            let rest = RULE_IN_SLIP[0].map(|rho| rho - e);
-            sums(&from_fn(|i| self.weights_in_slip[i] * rest[i].sqrt()), &rest)
+        if !self.has_weights_in_slip() || (e > IN_SLIP && e < FAR_BELOW[1]) {
+            let is_beyond = e <= 0.0 || !self.has_weights_in_slip();
+            return self.integrals(if is_beyond { &RULE_BEYOND } else { &RULE_BELOW }, xi, e);
         }
+        if e > 0.0 {
+            let few = const { &Interpolant::<{ NODES_FAR_BELOW[0] }>::POINTS };
+            let many = const { &Interpolant::<{ NODES_FAR_BELOW[1] }>::POINTS };
+            return self.midpoint(if e >= FAR_BELOW[0] { few } else { many }, xi, e);
+        }
+        let mut blocks = [[[0.0; 4]; 2]; NODES_IN_SLIP / 4];
+        for i in 0..NODES_IN_SLIP {
+            let rest = RULE_IN_SLIP[0][i] - e;
+            (blocks[i / 4][0][i % 4], blocks[i / 4][1][i % 4]) = (self.weights_in_slip[i] * rest.sqrt(), rest);
+        }
+        sum(&blocks, |block| *block)
     }
 
     /// F and dF/dξ by the midpoint rule in θ, `x = ξ sin²(θ/2)`: the integrands are periodic and even.
     #[inline(always)]
-    fn midpoint<const N: usize, const L: usize>(&self, xi: f64, e: f64) -> [f64; 2] {
-        let cosines = const { &Interpolant::<N>::POINTS };
-        let mut x = [xi; L];
-        x.iter_mut().zip(cosines).for_each(|(x, cosine)| *x *= 0.5 - 0.5 * cosine);
-        let rest = cosines.map(|cosine| xi * (0.5 + 0.5 * cosine));
-        let stiffness = self.evaluator().relative_stiffnesses(&x, &rest.map(|rest| e + rest));
-        sums(&from_fn(|i| PI / N as f64 * (x[i] * rest[i]) * stiffness[i]), &rest)
+    fn midpoint(&self, cosines: &[f64], xi: f64, e: f64) -> [f64; 2] {
+        let weight = PI / cosines.len() as f64;
+        sum(
+            cosines.as_chunks::<4>().0,
+            #[inline(always)]
+            |cosines| {
+                let [mut x, mut rho, mut rest] = [[0.0; 4]; 3];
+                for k in 0..4 {
+                    (x[k], rest[k]) = (xi * (0.5 - 0.5 * cosines[k]), xi * (0.5 + 0.5 * cosines[k]));
+                    rho[k] = e + rest[k];
+                }
+                let mut terms = self.relative_stiffnesses(&x, &rho);
+                for k in 0..4 {
+                    terms[k] *= weight * (x[k] * rest[k]);
+                }
+                [terms, rest]
+            },
+        )
     }
 
-    /// F and dF/dξ by the rule of N nodes; L is the length of arrays of displacements.
+    /// F and dF/dξ by Gauss's rule.
     #[inline(always)]
-    fn integrals<const N: usize, const L: usize>(&self, xi: f64, e: f64) -> [f64; 2] {
+    fn integrals(&self, rule: &[[[f64; 4]; 2]], xi: f64, e: f64) -> [f64; 2] {
         let (below, excess) = (e.max(0.0), (-e).max(0.0));
         let q0 = below.cbrt();
         let scale = e.abs().cbrt().clamp(SMALLEST_SCALE, 1.0);
         // The largest x; u at x = 0.
         let top = xi.min(1.0);
         let end = 2.0 * (0.5 * top / (1.0 + q0 * (1.0 + q0)) / scale).sqrt().asinh();
-        let [mut zeta, mut weights] = const { gauss_legendre::<N>() };
         // x is its product with ζ² at first.
         let bend = (self.relative_distance_of_zero_compliance() / (3.0 * scale * end.sinh() * end)).sqrt();
-        if bend < 0.4 {
-            let largest = (1.0 / bend).asinh();
-            for (zeta, weight) in zeta.iter_mut().zip(&mut weights) {
-                let argument = largest * *zeta;
-                (*zeta, *weight) = (bend * argument.sinh(), *weight * bend * largest * argument.cosh());
-            }
+        let largest = (1.0 / bend).asinh();
+        sum(
+            rule,
+            #[inline(always)]
+            |[nodes, weights]| {
+                let (mut zeta, mut weights) = (*nodes, *weights);
+                if bend < 0.4 {
+                    for k in 0..4 {
+                        let argument = largest * zeta[k];
+                        (zeta[k], weights[k]) = (bend * argument.sinh(), weights[k] * bend * largest * argument.cosh());
+                    }
+                }
+                // exp(u) - 1.
+                let mut growth = [0.0; 4];
+                for k in 0..4 {
+                    let u = end * (1.0 - zeta[k] * zeta[k]);
+                    growth[k] = if end < 1.0 { u.exp_m1() } else { u.exp() - 1.0 };
+                }
+                let [mut x, mut rho, mut rest] = [[0.0; 4]; 3];
+                for k in 0..4 {
+                    let half = 0.5 * scale * growth[k] / (growth[k] + 1.0);
+                    let (step, rate) = (half * growth[k], half * (growth[k] + 2.0) * (2.0 * end * zeta[k]));
+                    let q = q0 + step;
+                    // ρ less its smallest value.
+                    let rise = step * (q * q + q * q0 + q0 * q0);
+                    (x[k], rho[k], rest[k]) = ((top - rise).max(0.0), below + rise, rise + excess);
+                    weights[k] *= (x[k] * rest[k]).sqrt() * (3.0 * q * q) * rate;
+                }
+                let stiffness = self.relative_stiffnesses(&x, &rho);
+                for k in 0..4 {
+                    weights[k] *= stiffness[k];
+                }
+                [weights, rest]
+            },
+        )
+    }
+
+    /// Tangent stiffnesses over the initial one at four rising x and remaining ρ = 1 - x.
+    #[inline(always)]
+    fn relative_stiffnesses(&self, x: &[f64; 4], rho: &[f64; 4]) -> [f64; 4] {
+        let (per_initial, slip) = (1.0 / self.initial_stiffness, self.slip_displacement);
+        let [mut values, mut remaining] = [[0.0; 4]; 2];
+        for k in 0..4 {
+            (values[k], remaining[k]) = (x[k] * slip, rho[k] * slip);
         }
-        // exp(u) - 1.
-        let growth = zeta.map(|zeta| {
-            let u = end * (1.0 - zeta * zeta);
-            if end < 1.0 { u.exp_m1() } else { u.exp() - 1.0 }
-        });
-        let (mut x, mut rho, mut rest) = ([top; L], [0.0; N], [0.0; N]);
-        for i in 0..N {
-            let half = 0.5 * scale * growth[i] / (growth[i] + 1.0);
-            let (step, rate) = (half * growth[i], half * (growth[i] + 2.0) * (2.0 * end * zeta[i]));
-            let q = q0 + step;
-            // ρ less its smallest value.
-            let rise = step * (q * q + q * q0 + q0 * q0);
-            (x[i], rho[i], rest[i]) = ((top - rise).max(0.0), below + rise, rise + excess);
-            weights[i] *= (x[i] * rest[i]).sqrt() * (3.0 * q * q) * rate;
+        match self.evaluator().four_stiffnesses(&values, &remaining) {
+            Some(stiffnesses) => values = stiffnesses,
+            None => (0..4).for_each(|k| values[k] = self.stiffness_in_integral(x[k], rho[k])),
         }
-        let stiffness = self.evaluator().relative_stiffnesses(&x, &rho);
-        sums(&from_fn(|i| weights[i] * stiffness[i]), &rest)
+        for value in &mut values {
+            *value *= per_initial;
+        }
+        values
     }
 
     /// The curve, continued to negative displacements, has a point of zero compliance, to first order at this distance from 0, in
@@ -212,10 +262,8 @@ impl Contact {
             return [0.0; _];
         }
         let [rho, x, weights] = &RULE_IN_SLIP;
-        let mut padded = [1.0; NODES_IN_SLIP + BEYOND];
-        padded.iter_mut().zip(x).for_each(|(padded, x)| *padded = *x);
-        let stiffness = self.evaluator().relative_stiffnesses(&padded, rho);
-        from_fn(|i| weights[i] * x[i].sqrt() * stiffness[i])
+        let per_initial = 1.0 / self.initial_stiffness;
+        from_fn(|i| weights[i] * x[i].sqrt() * (per_initial * self.stiffness_in_integral(x[i], rho[i])))
     }
 
     #[inline(always)]
@@ -297,11 +345,6 @@ impl ComplexStiffness<'_> {
     /// K'' and its derivative.
     #[inline(always)]
     pub(crate) fn imaginary_with_derivative(&self) -> (f64, f64) {
-        dispatch!(self.imaginary_kernel())
-    }
-
-    #[inline(always)]
-    fn imaginary_kernel(&self) -> (f64, f64) {
         if self.is_linear() {
             let slope = self.initial_slopes().1;
             return (self.amplitude * slope, slope);

@@ -188,14 +188,15 @@ impl Contact {
             let (slip_shift, compliance) = of(&self.zones);
             let fractions = [INNER_FRACTION, KNEE_FRACTION];
             for fraction in fractions.into_iter().take(if self.has_knee() { 2 } else { 1 }) {
-                let both = ForceInterpolant::of_layered(fraction, slip_shift, compliance, self.zones.sequence());
+                let both = ForceInterpolant::of(true, fraction, slip_shift, compliance, &mut self.zones.sequence());
                 if both.is_converged() {
                     return (both, fraction);
                 }
             }
         }
         let (slip_shift, compliance) = of(self.zones.contact());
-        let alone = ForceInterpolant::of(slip_shift, compliance, self.zones.sequence_of_contact());
+        let mut points = self.zones.sequence_of_contact();
+        let alone = ForceInterpolant::of(false, INNER_FRACTION, slip_shift, compliance, &mut points);
         (if self.is_layered() { alone.without_layer() } else { alone }, INNER_FRACTION)
     }
 

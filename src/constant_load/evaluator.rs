@@ -114,16 +114,24 @@ impl Contact {
         !self.interpolant().is_converged()
     }
 
-    /// Stiffnesses at displacements and remaining ones over that of gross slip, from the stick zones.
+    /// The tangent stiffness at x and the remaining ρ = 1 - x over the displacement of gross slip. Beyond the polynomials of the force it
+    /// follows from the last ones; without an interpolant the stick zone is found.
     #[inline(never)]
-    fn solved_stiffnesses(&self, x: &[f64], rho: &[f64], stiffnesses: &mut [f64]) {
-        let (zones, slip) = (self.stick_zones(), self.stick_zones().slip_shift());
-        for ((stiffness, x), rho) in stiffnesses.iter_mut().zip(x).zip(rho) {
-            *stiffness = match self.load_with_knee(rho * self.slip_displacement) {
-                Some((_, stiffness)) => stiffness,
-                None => self.stiffness_of(&zones.at_shift(Complement { consumed: x * slip, remaining: rho * slip })),
+    pub(crate) fn stiffness_in_integral(&self, x: f64, rho: f64) -> f64 {
+        if !self.has_no_interpolant() {
+            let rho = rho * self.slip_displacement * self.outer_scale;
+            return if rho < END_OF_PIECES {
+                let [slope] = self.interpolant().last_slopes(&[rho]);
+                self.slip_force * self.outer_scale * slope
+            } else {
+                self.response(x * self.slip_displacement).stiffness
             };
         }
+        if let Some((_, stiffness)) = self.load_with_knee(rho * self.slip_displacement) {
+            return stiffness;
+        }
+        let (zones, slip) = (self.stick_zones(), self.stick_zones().slip_shift());
+        self.stiffness_of(&zones.at_shift(Complement { consumed: x * slip, remaining: rho * slip }))
     }
 
     /// The load at a distance from the displacement of gross slip and the stiffness, of a contact whose layer bends the curve strongly,
@@ -283,26 +291,30 @@ impl CurveEvaluator<'_> {
         }
     }
 
-    /// Stiffnesses over the initial one in an integral, at N rising x and remaining ρ = 1 - x over the displacement of gross slip; there are
-    /// [`BEYOND`] more values of x. Beyond the polynomials of the force they follow from the last ones; without an interpolant the stick
-    /// zones are found.
+    /// Stiffnesses in an integral at four rising displacements up to that of gross slip and the remaining ones, if all are on one
+    /// polynomial of the force or beyond all of them.
     #[inline(always)]
-    pub fn relative_stiffnesses<const L: usize, const N: usize>(&self, x: &[f64; L], rho: &[f64; N]) -> [f64; L] {
-        let (mut roots, mut forces, mut stiffnesses) = ([0.0; L], [0.0; L], [0.0; L]);
-        if self.contact.has_no_interpolant() {
-            self.contact.solved_stiffnesses(x, rho, &mut stiffnesses);
-        } else {
-            let to_outer = self.slip_displacement * self.outer_scale;
-            let ends = |rho: &f64| rho * to_outer < END_OF_PIECES;
-            let count = rho.iter().position(ends).unwrap_or(N);
-            let displacement = x.map(|x| x * self.slip_displacement);
-            self.along::<true>(count, &displacement, &mut roots, &mut forces, &mut stiffnesses);
-            for (stiffness, rho) in stiffnesses.iter_mut().zip(rho).skip(count) {
-                *stiffness = self.outer_stiffness * self.interpolant.last_slope(rho * to_outer);
-            }
+    pub fn four_stiffnesses(&self, displacement: &[f64; 4], remaining: &[f64; 4]) -> Option<[f64; 4]> {
+        if !self.interpolant.is_converged() {
+            return None;
         }
-        let per_initial = 1.0 / self.initial_stiffness;
-        stiffnesses.map(|stiffness| per_initial * stiffness)
+        if remaining[0] * self.outer_scale < END_OF_PIECES {
+            let mut values = self.interpolant.last_slopes(&remaining.map(|remaining| remaining * self.outer_scale));
+            for value in &mut values {
+                *value *= self.outer_stiffness;
+            }
+            return Some(values);
+        }
+        if displacement[3] * self.inner_scale <= 1.0 {
+            return Some(self.four_inner::<true>(displacement).1);
+        }
+        let mut roots = [0.0; 4];
+        for k in 0..4 {
+            roots[k] = root_of((self.slip_displacement - displacement[k]) * self.outer_scale);
+        }
+        let interval = Interval::of(roots[0]);
+        let is_one = displacement[0] * self.inner_scale > 1.0 && Interval::of(roots[3]) == interval;
+        (is_one && interval.is_covered()).then(|| self.four_outer::<true>(interval, &roots).1)
     }
 
     #[inline(always)]

@@ -92,21 +92,6 @@ impl ForceInterpolant {
         converged: 0,
     };
 
-    /// The interpolant of the curve of a contact: the shift of gross slip, the compliance Λ, and points at decreasing remaining shifts.
-    pub fn of(slip_shift: f64, compliance: f64, at_remaining: impl FnMut(f64) -> CurvePoint) -> ForceInterpolant {
-        ForceInterpolant::with::<16, 8>(INNER_FRACTION, slip_shift, compliance, at_remaining)
-    }
-
-    /// That of the curve of a contact with a layer, given the fraction of the first polynomial.
-    pub fn of_layered(
-        inner_fraction: f64,
-        slip_shift: f64,
-        compliance: f64,
-        at_remaining: impl FnMut(f64) -> CurvePoint,
-    ) -> ForceInterpolant {
-        ForceInterpolant::with::<TERMS, { TERMS / 2 }>(inner_fraction, slip_shift, compliance, at_remaining)
-    }
-
     /// The same interpolant, marked as that of the curve of the contact without its layer.
     pub fn without_layer(self) -> ForceInterpolant {
         ForceInterpolant { converged: WITHOUT_LAYER * self.converged, ..self }
@@ -116,16 +101,18 @@ impl ForceInterpolant {
         self.converged == WITHOUT_LAYER
     }
 
-    /// With N terms on the later intervals.
-    #[inline(always)]
-    fn with<const N: usize, const M: usize>(
+    /// The interpolant of a curve from the fraction of its first polynomial, the shift of gross slip, the compliance Λ and points at decreasing
+    /// remaining shifts. With a layer the later intervals need all terms.
+    #[inline(never)]
+    pub fn of(
+        is_layered: bool,
         inner_fraction: f64,
         slip_shift: f64,
         compliance: f64,
-        mut at_remaining: impl FnMut(f64) -> CurvePoint,
+        at_remaining: &mut dyn FnMut(f64) -> CurvePoint,
     ) -> ForceInterpolant {
         let (first, remaining) = (inner_fraction * slip_shift, (1.0 - inner_fraction) * slip_shift);
-        let mut tangents = Interpolant::<{ TERMS / 2 }>::POINTS.map(|z| {
+        let mut tangents = Interpolant::<{ TERMS / 2 }>::at_points(|z| {
             let CurvePoint { compliance_increase: increase, curvature, .. } =
                 at_remaining(slip_shift - 0.5 * (1.0 - z) * first);
             let stiffness = 1.0 / (compliance + increase);
@@ -137,24 +124,24 @@ impl ForceInterpolant {
         let decrease = Interpolant::<TERMS>::osculating(&tangents);
         let accuracy = 1e-15;
         let mut converged = decrease.is_converged(accuracy);
-        let mut inner = decrease.mean_from_end().map(|row| row.map(|coefficient| -coefficient));
+        let mut inner = rows(&decrease.mean_from_end().map(|coefficient| -coefficient));
         if let Some([first, ..]) = inner.first_mut() {
             *first = 1.0;
         }
         let mut pieces = [[[0.0; 4]; _]; PIECES];
         let mut scale = 0.25;
         for (j, piece) in pieces.iter_mut().enumerate() {
-            let at = |z: f64| {
+            let mut at = |z: f64| {
                 let v = scale * (3.0 + z);
                 at_remaining(remaining * v * v)
             };
             let unit = 2.0 * remaining * scale * scale;
             // The rounding error of the stiffness grows by 4 from interval to interval: the later ones need fewer points.
             let tolerance = accuracy * (1.0 / (16.0 * scale * scale));
-            let (polynomial, piece_converged) = if j < 2 {
-                interpolate::<TERMS, { TERMS / 2 }>(compliance, unit, at, tolerance)
+            let (polynomial, piece_converged) = if j < 2 || is_layered {
+                interpolate::<TERMS, { TERMS / 2 }>(compliance, unit, &mut at, tolerance)
             } else {
-                interpolate::<N, M>(compliance, unit, at, tolerance)
+                interpolate::<16, 8>(compliance, unit, &mut at, tolerance)
             };
             *piece = polynomial;
             converged &= piece_converged;
@@ -162,7 +149,7 @@ impl ForceInterpolant {
         }
         let mut last = [[[0.0; 4]; _]; LAST_PIECES];
         for (piece, polynomial) in last.iter_mut().enumerate() {
-            let mut tangent = |z: f64| {
+            let tangent = |z: f64| {
                 let rho = END_OF_PIECES * Place { piece, z }.distance();
                 let point = at_remaining(remaining * rho);
                 let value = point.remaining / rho;
@@ -171,9 +158,9 @@ impl ForceInterpolant {
             };
             // The share in an integral is at most a 16th of that of the piece before.
             *polynomial = match piece {
-                0 | 1 => powers(Interpolant::<20>::osculating(&Interpolant::<10>::POINTS.map(tangent)).terms()),
-                2 | 3 => powers(Interpolant::<16>::osculating(&Interpolant::<8>::POINTS.map(tangent)).terms()),
-                _ => powers(Interpolant::<12>::osculating(&Interpolant::<6>::POINTS.map(&mut tangent)).terms()),
+                0 | 1 => powers(Interpolant::<20>::osculating(&Interpolant::<10>::at_points(tangent)).terms()),
+                2 | 3 => powers(Interpolant::<16>::osculating(&Interpolant::<8>::at_points(tangent)).terms()),
+                _ => powers(Interpolant::<12>::osculating(&Interpolant::<6>::at_points(tangent)).terms()),
             };
         }
         ForceInterpolant { inner, pieces, last, converged: converged as u64 }
@@ -235,9 +222,18 @@ impl ForceInterpolant {
 
     /// The derivative below the last interval of v, for integrals, if converged.
     #[inline(always)]
-    pub fn last_slope(&self, rho: f64) -> f64 {
-        let place = Place::of(eighth_root(rho * (1.0 / END_OF_PIECES)), LAST_PIECES);
-        self.last.get(place.piece).map_or(0.0, |piece| place.product_slope(value_and_slope(piece, place.z)))
+    pub fn last_slopes<const N: usize>(&self, rho: &[f64; N]) -> [f64; N] {
+        // Roots of several take the time of one.
+        let (mut roots, mut slopes) = ([0.0; N], [0.0; N]);
+        for k in 0..N {
+            roots[k] = eighth_root(rho[k] * (1.0 / END_OF_PIECES));
+        }
+        for k in 0..N {
+            let place = Place::of(roots[k], LAST_PIECES);
+            let piece = self.last.get(place.piece).unwrap_or(&self.inner);
+            slopes[k] = place.product_slope(value_and_slope(piece, place.z));
+        }
+        slopes
     }
 
     /// [`ForceInterpolant::secant_and_tangent`] at four places, if converged.
@@ -343,14 +339,15 @@ fn power_of(exponent: u64) -> f64 {
 
 /// 1 - τ over a dyadic interval, and whether it has converged: the integral of `unit (3+z)/(Λ + λ)`, with a constant that fits the
 /// values of 1 - τ. The compliance at the first point gives a parabola; the difference from it is interpolated.
+#[inline(never)]
 fn interpolate<const N: usize, const M: usize>(
     compliance: f64,
     unit: f64,
-    mut at: impl FnMut(f64) -> CurvePoint,
+    at: &mut dyn FnMut(f64) -> CurvePoint,
     tolerance: f64,
 ) -> (Polynomial, bool) {
     let (mut sum, mut first) = (0.0, None);
-    let tangents = Interpolant::<M>::POINTS.map(|z| {
+    let tangents = Interpolant::<M>::at_points(|z| {
         let CurvePoint { remaining, compliance_increase: increase, curvature } = at(z);
         sum += remaining;
         let first = *first.get_or_insert(increase);
@@ -361,8 +358,7 @@ fn interpolate<const N: usize, const M: usize>(
     });
     let decrease = Interpolant::<N>::osculating(&tangents);
     let stiffness = unit / (compliance + first.unwrap_or(0.0));
-    let mut integral =
-        decrease.integral().powers_from_middle().map(|row| row.map(|coefficient| -stiffness * coefficient));
+    let mut integral = rows(&decrease.integral().powers_from_middle().map(|coefficient| -stiffness * coefficient));
     if let Some([constant, linear, square, _]) = integral.first_mut() {
         // The mean of z²/2 over the points is 1/4.
         *constant += sum * (1.0 / M as f64) - 0.25 * stiffness;

@@ -12,7 +12,7 @@
 //! down to the rounding of ξ:
 //!
 //! - ξ <= 2/5: the first polynomial of the curve, integrated for each power;
-//! - 2/5 < ξ <= 1: G and R in u; 1 < ξ <= 1.6: G in u, with |e| and its sign;
+//! - 2/5 < ξ <= 1: G and R in u; 1 < ξ <= 1.56: G in u, with |e| and its sign;
 //! - beyond: `K' ξ^(3/2)` as a polynomial in 1/ξ. E is linear beyond 1.
 //!
 //! dF/dξ and dE/dξ, those of a single call, are interpolated first.
@@ -21,13 +21,11 @@ use crate::constant_load::complex_stiffness::{StiffnessOutputs, ValueAndSlope, w
 use crate::constant_load::contact::Contact;
 use crate::constant_load::interpolant::{CYCLE_WEIGHTS, INNER_FRACTION};
 use crate::constant_load::interpolant::{ENERGY_WEIGHTS, Place, eighth_root, weighted};
-use crate::numerics::chebyshev::{Interpolant, MORE_FROM_END, Polynomial, powers};
-use crate::numerics::polynomial::{Rows, rows, value_and_slope};
+use crate::numerics::chebyshev::{Interpolant, Polynomial, powers};
+use crate::numerics::polynomial::{Rows, rows, sum, value_and_slope};
 use crate::numerics::quadrature::gauss;
 use crate::shape::stick_zone::Complement;
-use crate::simd::dispatch;
 use crate::tag::Kind;
-use core::array::from_fn;
 use core::f64::consts::PI;
 
 /// Dyadic intervals of u: the last ends below the distance of any other amplitude from that of gross slip.
@@ -44,11 +42,13 @@ const TOP: f64 = 1.0 - INNER_FRACTION;
 /// Λ from which the polynomials are accurate: a singularity at a displacement of about -Λ² approaches the first ones.
 const SMALLEST_COMPLIANCE: f64 = 0.9;
 /// Smallest ξ of the last polynomial, and its terms: the derivative of those that are left out is n² times as large.
-const FAR: f64 = 1.0 + TOP;
+const FAR: f64 = 1.5;
 const FAR_TERMS: usize = 24;
-/// The first polynomial is used somewhat beyond its interval, where its error has hardly grown: at the end of the first piece, the
-/// derivative is least accurate.
+/// The first polynomial is used somewhat beyond its interval, where its error has hardly grown, the last one from within its own: at
+/// the end of a piece, the derivative is least accurate, by up to n² times the error of the interpolated values.
 const OVERLAP: f64 = 0.02;
+/// Largest ξ of the pieces beyond gross slip.
+const NEAR: f64 = 1.0 + TOP - 2.0 * OVERLAP;
 
 /// The polynomials of one shape.
 #[repr(C)]
@@ -66,7 +66,7 @@ pub(crate) struct StiffnessTable {
     gross_slip_rate: f64,
     /// K' and K'' over y = ξ/(2/5).
     inner: [Polynomial; 2],
-    /// K' ξ^(3/2) over 1.6/ξ.
+    /// K' ξ^(3/2) over 1.5/ξ.
     far: Rows<{ FAR_TERMS / 4 }>,
     /// (8/π) G over z = 4 2ʲ u - 3.
     below: Pieces<ROWS_BELOW>,
@@ -96,21 +96,10 @@ impl<const R: usize> Pieces<R> {
 
     /// The mean over (0, d) of a function of a distance d up to TOP, which is interpolated on some pieces first. It is a sum over pieces:
     /// for a small a/b, one of them contains singularities close to the real axis, to which a rule over (0, d) would not converge.
-    #[inline(never)]
-    fn mean_of<const MORE: usize>(rate: impl Fn(f64) -> f64) -> Pieces<R> {
+    fn mean_of(more: usize, rate: &dyn Fn(f64) -> f64) -> Pieces<R> {
         let (mut pieces, mut mean_below) = (Pieces::NONE, None);
-        for piece in (0..MORE).rev() {
-            let rates = Interpolant::<POINTS>::through(|z| rate(TOP * Place { piece, z }.distance()));
-            let rates: Rows<{ POINTS / 4 }> = powers(rates.terms());
-            let rate = |z| value_and_slope(&rates, z).0;
-            let below = mean_below.unwrap_or_else(|| rate(-1.0));
-            // The part below the piece, and ∫ 8 y⁷ f(d y⁸) dy from its end to 1.
-            let mean = Interpolant::<POINTS>::through(|z| {
-                let end = 2.0 / (3.0 + z);
-                let on_piece = |y: f64| 8.0 * (y * (y * y) * (y * y) * (y * y)) * rate((3.0 + z) * y - 3.0);
-                end.powi(8) * below + gauss(1.0 - end, |from_end| on_piece(end + from_end))
-            });
-            mean_below = Some(mean.terms().iter().sum());
+        for piece in (0..more).rev() {
+            let mean = mean_on(piece, &mut mean_below, rate);
             match pieces.others.get_mut(piece.wrapping_sub(1)) {
                 Some(rows) => *rows = powers(mean.terms()),
                 None if piece == 0 => pieces.first = powers(mean.terms()),
@@ -134,9 +123,26 @@ impl<const R: usize> Pieces<R> {
     }
 }
 
+/// [`Pieces::mean_of`] on a piece; the mean over all pieces below becomes that of the piece besides.
+#[inline(never)]
+fn mean_on(piece: usize, mean_below: &mut Option<f64>, rate: &dyn Fn(f64) -> f64) -> Interpolant<POINTS> {
+    let rates = Interpolant::<POINTS>::at_points(|z| rate(TOP * Place { piece, z }.distance()));
+    let rates: Rows<{ POINTS / 4 }> = powers(Interpolant::<POINTS>::through(&rates).terms());
+    let rate = |z| sum(rates.into_iter(), z);
+    let below = mean_below.unwrap_or_else(|| rate(-1.0));
+    // The part below the piece, and ∫ 8 y⁷ f(d y⁸) dy from its end to 1.
+    let mean = Interpolant::<POINTS>::through(&Interpolant::<POINTS>::at_points(|z| {
+        let end = 2.0 / (3.0 + z);
+        let on_piece = |y: f64| 8.0 * (y * (y * y) * (y * y) * (y * y)) * rate((3.0 + z) * y - 3.0);
+        end.powi(8) * below + gauss(1.0 - end, |from_end| on_piece(end + from_end))
+    }));
+    *mean_below = Some(mean.terms().iter().sum());
+    mean
+}
+
 impl StiffnessTable {
     pub const EMPTY: StiffnessTable = StiffnessTable {
-        tag: Kind::StiffnessTable.tag(0),
+        tag: 0.0,
         shape: [0.0; 2],
         moment: 0.0,
         slope_at_slip: 0.0,
@@ -153,6 +159,7 @@ impl StiffnessTable {
     #[inline(never)]
     pub fn init(&mut self, contact: &Contact) {
         *self = StiffnessTable::EMPTY;
+        self.tag = Kind::StiffnessTable.tag(0);
         self.shape = shape_of(contact);
         let [compliance, _] = self.shape;
         if !contact.is_frictionless() && compliance >= SMALLEST_COMPLIANCE && !contact.has_knee() {
@@ -172,15 +179,15 @@ impl StiffnessTable {
         [self.moment, self.slope_at_slip] = integrals(0.0);
         self.slip_energy = contact.slip_energy / (PI * initial * slip * slip);
         self.gross_slip_rate = 4.0 / PI * contact.slip_force / (initial * slip);
-        let far = Interpolant::<FAR_TERMS>::through(|z| {
+        let far = Interpolant::<POINTS>::through(&Interpolant::<POINTS>::at_points(|z| {
             let xi = 2.0 * FAR / (1.0 + z);
             integrals(1.0 - xi)[0] / xi.sqrt()
-        });
-        self.far = rows(&far.powers_of(&MORE_FROM_END));
-        self.below = Pieces::mean_of::<PIECES>(|e| integrals(e)[1]);
+        }));
+        self.far = rows(far.powers_from_end().first_chunk::<FAR_TERMS>().unwrap_or(&[0.0; _]));
+        self.below = Pieces::mean_of(PIECES, &|e| integrals(e)[1]);
         // Beyond the last piece, this rate changes like the root of the distance, that of the energy of a cylinder like 1/ln.
-        self.above = Pieces::mean_of::<{ PIECES + 1 }>(|e| integrals(-e)[1]);
-        self.energy = Pieces::mean_of::<{ PIECES + 4 }>(energy_rate);
+        self.above = Pieces::mean_of(PIECES + 1, &|e| integrals(-e)[1]);
+        self.energy = Pieces::mean_of(PIECES + 4, &energy_rate);
     }
 
     /// Whether the first double is that of a table, with polynomials or without.
@@ -200,62 +207,40 @@ impl StiffnessTable {
         Kind::StiffnessTable.count(self.tag) == Some(1)
     }
 
-    /// K' and K'' at N amplitudes \[m\] of a contact with friction of this shape, each if it is requested.
+    /// Writes what is requested of K', K'' and their derivatives at checked amplitudes \[m\] of a contact of this shape.
+    pub fn write(&self, contact: &Contact, amplitude: &[f64], mut outputs: StiffnessOutputs) {
+        if !self.has_polynomials() || contact.is_frictionless() {
+            (0..).zip(amplitude).for_each(|(i, &one)| contact.write_complex_stiffness(one, i, &mut outputs));
+            return;
+        }
+        let (fours, rest) = amplitude.as_chunks::<4>();
+        (0..).step_by(4).zip(fours).for_each(|(i, four)| self.write_some(contact, four, i, &mut outputs));
+        (4 * fours.len()..).zip(rest).for_each(|(i, one)| self.write_some(contact, &[*one], i, &mut outputs));
+    }
+
     #[inline(always)]
-    pub fn at<const REAL: bool, const IMAGINARY: bool, const N: usize>(
+    fn write_some<const N: usize>(
         &self,
         contact: &Contact,
         amplitude: &[f64; N],
-    ) -> [[ValueAndSlope; 2]; N] {
+        first: usize,
+        outputs: &mut StiffnessOutputs,
+    ) {
+        let requested = [outputs[0].is_some() || outputs[2].is_some(), outputs[1].is_some() || outputs[3].is_some()];
         let (unit, per_slip) = (contact.initial_stiffness, contact.per_slip_displacement);
         let e = amplitude.map(|amplitude| (contact.slip_displacement - amplitude) * per_slip);
         // Roots of several take the time of one.
         let u = e.map(|e| eighth_root(e.abs() * (1.0 / TOP)));
-        from_fn(|i| {
-            let values = self.at_fraction::<REAL, IMAGINARY>(amplitude[i] * per_slip, e[i], u[i]);
-            values.map(|(value, slope)| (unit * value, unit * per_slip * slope))
-        })
-    }
-
-    /// Writes what is requested of K', K'' and their derivatives at checked amplitudes \[m\] of a contact of this shape.
-    #[inline(always)]
-    pub fn write(&self, contact: &Contact, amplitude: &[f64], mut outputs: StiffnessOutputs) {
-        if self.has_polynomials() && !contact.is_frictionless() {
-            dispatch!(self.write_kernel(contact, amplitude, outputs));
-        } else {
-            (0..).zip(amplitude).for_each(|(i, &one)| contact.write_complex_stiffness(one, i, &mut outputs));
-        }
-    }
-
-    #[inline(always)]
-    fn write_kernel(&self, contact: &Contact, amplitude: &[f64], mut outputs: StiffnessOutputs) {
-        let requested = [outputs[0].is_some() || outputs[2].is_some(), outputs[1].is_some() || outputs[3].is_some()];
-        let (fours, rest) = amplitude.as_chunks::<4>();
-        for (i, four) in fours.iter().enumerate() {
-            write_values(self.parts(contact, four, requested), 4 * i, &mut outputs);
-        }
-        for (i, one) in rest.as_chunks::<1>().0.iter().enumerate() {
-            write_values(self.parts(contact, one, requested), 4 * fours.len() + i, &mut outputs);
-        }
-    }
-
-    #[inline(always)]
-    fn parts<const N: usize>(
-        &self,
-        contact: &Contact,
-        amplitude: &[f64; N],
-        requested: [bool; 2],
-    ) -> [[ValueAndSlope; 2]; N] {
-        match requested {
-            [true, true] => self.at::<true, true, N>(contact, amplitude),
-            [true, false] => self.at::<true, false, N>(contact, amplitude),
-            _ => self.at::<false, true, N>(contact, amplitude),
+        for i in 0..N {
+            let [real, imaginary] = self.at_fraction(requested, amplitude[i] * per_slip, e[i], u[i]);
+            let scaled = |(value, slope): ValueAndSlope| (unit * value, unit * per_slip * slope);
+            write_values([scaled(real), scaled(imaginary)], first + i, outputs);
         }
     }
 
     /// At ξ = 1 - e, in units of the initial stiffness.
     #[inline(always)]
-    fn at_fraction<const REAL: bool, const IMAGINARY: bool>(&self, xi: f64, e: f64, u: f64) -> [ValueAndSlope; 2] {
+    fn at_fraction(&self, [has_real, has_imaginary]: [bool; 2], xi: f64, e: f64, u: f64) -> [ValueAndSlope; 2] {
         if xi <= 1.0 - TOP + OVERLAP {
             let scale = const { 1.0 / (1.0 - TOP) };
             let part = |requested: bool, polynomial: &Polynomial| {
@@ -266,18 +251,19 @@ impl StiffnessTable {
                 (value, scale * slope)
             };
             let [real, imaginary] = &self.inner;
-            [part(REAL, real), part(IMAGINARY, imaginary)]
+            [part(has_real, real), part(has_imaginary, imaginary)]
         } else {
-            let (per_xi, place) = (1.0 / xi, Place::of(u, PIECES));
-            let real = if REAL { self.outer_real(xi, per_xi, e, &place) } else { (0.0, 0.0) };
-            [real, if IMAGINARY { self.outer_imaginary(per_xi, e, &place) } else { (0.0, 0.0) }]
+            // The compiler may divide before the comparison.
+            let (per_xi, place) = (1.0 / xi.max(1.0 - TOP), Place::of(u, PIECES));
+            let real = if has_real { self.outer_real(xi, per_xi, e, &place) } else { (0.0, 0.0) };
+            [real, if has_imaginary { self.outer_imaginary(per_xi, e, &place) } else { (0.0, 0.0) }]
         }
     }
 
     /// K' beyond the first polynomial.
     #[inline(always)]
     fn outer_real(&self, xi: f64, per_xi: f64, e: f64, place: &Place) -> ValueAndSlope {
-        if xi > FAR {
+        if xi > NEAR {
             let (value, slope) = value_and_slope(&self.far, FAR * per_xi);
             let factor = per_xi * per_xi.sqrt();
             return (factor * value, -factor * per_xi * (1.5 * value + FAR * per_xi * slope));
@@ -313,6 +299,13 @@ mod tests {
     use crate::constant_load::contact::tests::{FLATS, contact, cylinder, ellipse, parameters};
     use crate::parameters::{CENTRE_POINT, Parameters};
 
+    /// K' and K'' with their derivatives.
+    fn values(table: &StiffnessTable, contact: &Contact, amplitude: f64) -> [f64; 4] {
+        let mut values = [[0.0]; 4];
+        table.write(contact, &[amplitude], values.each_mut().map(|value| Some(value.as_mut_slice())));
+        values.map(|[value]| value)
+    }
+
     fn table_of(contact: &Contact) -> StiffnessTable {
         let mut table = StiffnessTable::EMPTY;
         table.init(contact);
@@ -329,7 +322,7 @@ mod tests {
             let fractions = (0..80).map(|k| 0.03125 * f64::from(k) + 1e-3).chain([3.0, 20.0, 1e6, 1e100]);
             for fraction in fractions.chain(near.flat_map(|e| [1.0 - e, 1.0 + e])) {
                 let amplitude = fraction * contact.slip_displacement;
-                let [[(real, d_real), (imaginary, d_imaginary)]] = table.at::<true, true, 1>(&contact, &[amplitude]);
+                let [real, imaginary, d_real, d_imaginary] = values(&table, &contact, amplitude);
                 let exact = contact.complex_stiffness(amplitude).unwrap();
                 let (exact_real, exact_d_real) = exact.real_with_derivative();
                 let (exact_imaginary, exact_d_imaginary) = exact.imaginary_with_derivative();
@@ -354,8 +347,7 @@ mod tests {
                 assert!(table.has_polynomials() && !table.is_of(&layered(1.01 * share, ratio)[0]));
                 for fraction in (0..40).map(|k| 0.0625 * f64::from(k) + 1e-3).chain([0.9999, 1.001, 20.0]) {
                     let amplitude = fraction * contact.slip_displacement;
-                    let [[(real, d_real), (imaginary, d_imaginary)]] =
-                        table.at::<true, true, 1>(&contact, &[amplitude]);
+                    let [real, imaginary, d_real, d_imaginary] = values(&table, &contact, amplitude);
                     let exact = contact.complex_stiffness(amplitude).unwrap();
                     let (exact_real, exact_d_real) = exact.real_with_derivative();
                     let (exact_imaginary, exact_d_imaginary) = exact.imaginary_with_derivative();

@@ -1,7 +1,7 @@
 //! Interpolation at Chebyshev points, of values or of values and slopes. For a smooth function the trailing coefficients estimate the error.
 
 use super::const_math::cosine;
-use crate::numerics::polynomial::{Rows, rows};
+use crate::numerics::polynomial::Rows;
 
 /// Number of coefficients of a polynomial, and largest number of interpolation points.
 pub(crate) const TERMS: usize = 20;
@@ -44,12 +44,9 @@ pub(crate) const fn monic_powers<const N: usize, const M: usize>(shift: f64, sca
 }
 
 /// Expansion about the middle of (-1, 1), in powers of z.
-static AROUND_MIDDLE: [[f64; TERMS]; TERMS] = powers_in(0.0, 1.0);
-/// The same of 32 terms.
-static MORE_AROUND_MIDDLE: [[f64; 32]; 32] = powers_in(0.0, 1.0);
+static AROUND_MIDDLE: [[f64; 32]; 32] = powers_in(0.0, 1.0);
 /// Expansion about the lower end, in powers of y = (1+z)/2 from 0 to 1.
-static FROM_END: [[f64; TERMS]; TERMS] = powers_in(-1.0, 2.0);
-pub(crate) static MORE_FROM_END: [[f64; 24]; 24] = powers_in(-1.0, 2.0);
+static FROM_END: [[f64; 24]; 24] = powers_in(-1.0, 2.0);
 
 /// 1/(2n), from n = 1. A vectorised division may have an unused lane that divides by 0.
 static PER_TWICE: [f64; TERMS] = {
@@ -86,7 +83,7 @@ impl<const N: usize> Interpolant<N> {
     };
 
     /// T_n at point j, at `[j][n]`.
-    pub const AT_POINTS: [[f64; N]; N] = {
+    const AT_POINTS: [[f64; N]; N] = {
         let mut table = [[0.0; N]; N];
         let mut j = 0;
         while j < N {
@@ -117,12 +114,17 @@ impl<const N: usize> Interpolant<N> {
         table
     };
 
-    /// The interpolant of a function.
-    pub fn through(value: impl FnMut(f64) -> f64) -> Interpolant<N> {
+    /// Values at the interpolation points, computed in their order.
+    pub fn at_points<T: Copy + Default>(mut value: impl FnMut(f64) -> T) -> [T; N] {
+        let mut values = [T::default(); N];
+        values.iter_mut().zip(const { &Self::POINTS }).for_each(|(at_point, z)| *at_point = value(*z));
+        values
+    }
+
+    /// The interpolant of values at the points.
+    pub fn through(values: &[f64; N]) -> Interpolant<N> {
         let mut coefficients = [0.0; N];
-        for (value, at_point) in Self::POINTS.map(value).iter().zip(const { &Self::AT_POINTS }) {
-            coefficients.iter_mut().zip(at_point).for_each(|(sum, t)| *sum += value * t);
-        }
+        add_rows(&mut coefficients, values, const { &Self::AT_POINTS }.as_flattened(), N);
         coefficients.iter_mut().for_each(|sum| *sum *= 2.0 / N as f64);
         if let Some(first) = coefficients.first_mut() {
             *first *= 0.5;
@@ -138,20 +140,9 @@ impl<const N: usize> Interpolant<N> {
         const { assert!(N == 2 * M) };
         let mut coefficients = [0.0; N];
         let (values, slopes) = coefficients.split_at_mut(M);
-        let tables = const { &Interpolant::<M>::AT_POINTS }.iter().zip(const { &Interpolant::<M>::SINES });
-        for (tangent, (cosines, sines)) in tangents.iter().zip(tables) {
-            values.iter_mut().zip(cosines).for_each(|(sum, cosine)| *sum += tangent.value * cosine);
-            slopes.iter_mut().zip(sines).for_each(|(sum, sine)| *sum += tangent.slope * sine);
-        }
-        values.iter_mut().for_each(|sum| *sum *= 2.0 / M as f64);
-        slopes.iter_mut().for_each(|sum| *sum *= 1.0 / (M * M) as f64);
-        if let [mean, ..] = values {
-            *mean *= 0.5;
-        }
-        for ((value, slope), m) in values.iter_mut().skip(1).zip(slopes.iter_mut().skip(1).rev()).zip(1..) {
-            *slope -= *value * (f64::from(m) / N as f64);
-            *value += *slope;
-        }
+        add_rows(values, &tangents.map(|at| at.value), const { &Interpolant::<M>::AT_POINTS }.as_flattened(), M);
+        add_rows(slopes, &tangents.map(|at| at.slope), const { &Interpolant::<M>::SINES }.as_flattened(), M);
+        combine(values, slopes);
         Interpolant(coefficients)
     }
 
@@ -171,75 +162,92 @@ impl<const N: usize> Interpolant<N> {
         &self.0
     }
 
-    /// Conversion to powers of the variable of `table`.
-    pub fn powers_of<const M: usize>(&self, table: &[[f64; M]; M]) -> [f64; M] {
-        let mut powers = [0.0; M];
-        for (coefficient, row) in self.0.iter().zip(table) {
-            powers.iter_mut().zip(row).for_each(|(sum, power)| *sum += coefficient * power);
-        }
-        powers
-    }
-
-    /// The integral over z whose mean over the points of [`Interpolant::osculating`] is zero. The twentieth coefficient is dropped: its integral would exceed the
-    /// degree.
+    /// The integral over z whose mean over the points of [`Interpolant::osculating`] is zero. The twentieth coefficient is
+    /// dropped: its integral would exceed the degree.
     pub fn integral(&self) -> Interpolant<TERMS> {
-        let mut padded = [0.0; TERMS + 1];
-        padded.iter_mut().zip(&self.0).take(TERMS - 1).for_each(|(target, coefficient)| *target = *coefficient);
-        if let Some(first) = padded.first_mut() {
-            *first *= 2.0;
-        }
-        let mut integral = [0.0; TERMS];
-        let differences = padded.iter().zip(padded.iter().skip(2)).zip(&PER_TWICE);
-        for (target, ((below, above), factor)) in integral.iter_mut().skip(1).zip(differences) {
-            *target = factor * (below - above);
-        }
-        // T_N is -1 at all those points.
-        let mean = integral.get(N).copied();
-        if let Some((first, mean)) = integral.first_mut().zip(mean) {
-            *first = mean;
-        }
-        Interpolant(integral)
+        integral(&self.0)
     }
 
     /// Coefficients of the powers of z.
-    pub fn powers_from_middle(&self) -> Polynomial {
-        rows(&self.powers_of(&AROUND_MIDDLE))
+    pub fn powers_from_middle(&self) -> [f64; N] {
+        self.powers_of(&AROUND_MIDDLE)
     }
 
     /// Coefficients of the powers of y = (1+z)/2.
-    pub fn powers_from_end(&self) -> [f64; TERMS] {
+    pub fn powers_from_end(&self) -> [f64; N] {
         self.powers_of(&FROM_END)
     }
 
     /// Mean over (0, y), as a polynomial in y = (1+z)/2.
-    pub fn mean_from_end(&self) -> Polynomial {
+    pub fn mean_from_end(&self) -> [f64; N] {
         let mut powers = self.powers_from_end();
-        for (power, n) in powers.iter_mut().zip(1..) {
-            *power /= n as f64;
-        }
-        rows(&powers)
+        powers.iter_mut().zip(1..).for_each(|(power, n)| *power /= f64::from(n));
+        powers
+    }
+
+    fn powers_of<const M: usize>(&self, table: &[[f64; M]; M]) -> [f64; N] {
+        let mut powers = [0.0; N];
+        add_rows(&mut powers, &self.0, table.as_flattened(), M);
+        powers
     }
 }
 
-/// Powers of z of the first terms of a Chebyshev series, without those at its end that are rounding errors: their derivatives would
+/// Adds rows of a table of the given width, each times its factor. One function for all lengths, which the compiler would unroll.
+#[inline(never)]
+fn add_rows(sums: &mut [f64], factors: &[f64], table: &[f64], width: usize) {
+    for (factor, row) in factors.iter().zip(table.chunks_exact(width.max(1))) {
+        sums.iter_mut().zip(row).for_each(|(sum, value)| *sum += factor * value);
+    }
+}
+
+/// The terms c_m and c_M+m from the sums `Σ f cos mθ` and `Σ f' sin θ sin (M-m)θ`.
+#[inline(never)]
+fn combine(values: &mut [f64], slopes: &mut [f64]) {
+    let points = values.len() as f64;
+    values.iter_mut().for_each(|sum| *sum *= 2.0 / points);
+    slopes.iter_mut().for_each(|sum| *sum *= 1.0 / (points * points));
+    if let [mean, ..] = values {
+        *mean *= 0.5;
+    }
+    for ((value, slope), m) in values.iter_mut().skip(1).zip(slopes.iter_mut().skip(1).rev()).zip(1..) {
+        *slope -= *value * (f64::from(m) / (2.0 * points));
+        *value += *slope;
+    }
+}
+
+#[inline(never)]
+fn integral(terms: &[f64]) -> Interpolant<TERMS> {
+    let mut padded = [0.0; TERMS + 1];
+    padded.iter_mut().zip(terms).take(TERMS - 1).for_each(|(target, coefficient)| *target = *coefficient);
+    padded[0] *= 2.0;
+    let mut integral = [0.0; TERMS];
+    for n in 1..TERMS {
+        integral[n] = PER_TWICE[n - 1] * (padded[n - 1] - padded[n + 1]);
+    }
+    // T_N is -1 at all those points.
+    integral[0] = integral.get(terms.len()).copied().unwrap_or(0.0);
+    Interpolant(integral)
+}
+
+/// Powers of z of a Chebyshev series, without the terms at its end that are rounding errors or exceed the rows: their derivatives would
 /// be n² times as large.
+#[inline(never)]
 pub(crate) fn powers<const R: usize>(series: &[f64]) -> Rows<R> {
     let size = series.iter().fold(0.0, |size: f64, term| size.max(term.abs()));
     let used = series.iter().rposition(|term| term.abs() > f64::EPSILON * size).map_or(0, |last| last + 1);
     let mut result = [[0.0; 4]; R];
-    for (term, row) in series.iter().zip(&MORE_AROUND_MIDDLE).take(used.min(4 * R)) {
-        result.as_flattened_mut().iter_mut().zip(row).for_each(|(power, factor)| *power += term * factor);
-    }
+    let kept = series.get(..used.min(4 * R)).unwrap_or(&[]);
+    add_rows(result.as_flattened_mut(), kept, AROUND_MIDDLE.as_flattened(), AROUND_MIDDLE.len());
     result
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::numerics::polynomial::{sum, value_and_slope};
+    use crate::numerics::polynomial::{rows, sum, value_and_slope};
 
     fn osculating<const N: usize, const M: usize>(tangent: impl FnMut(f64) -> (f64, f64)) -> Interpolant<N> {
-        Interpolant::osculating(&Interpolant::<M>::POINTS.map(tangent).map(|(value, slope)| Tangent { value, slope }))
+        Interpolant::osculating(&Interpolant::<M>::at_points(tangent).map(|(value, slope)| Tangent { value, slope }))
     }
 
     #[test]
@@ -247,7 +255,7 @@ mod tests {
         let interpolant = osculating::<20, 10>(|z| (z.exp(), z.exp()));
         assert!(interpolant.is_converged(1e-15));
         for z in [-1.0, -0.3, 0.0, 0.77, 1.0_f64] {
-            let integral = interpolant.integral().powers_from_middle();
+            let integral: Polynomial = rows(&interpolant.integral().powers_from_middle());
             let (value, slope) = value_and_slope(&integral, z);
             let mean = Interpolant::<10>::POINTS.iter().map(|z| value_and_slope(&integral, *z).0).sum::<f64>() / 10.0;
             assert!(mean.abs() < 1e-15);
@@ -255,12 +263,12 @@ mod tests {
             assert!((value - (z.exp() - interpolant.mean())).abs() < 2e-15, "{z}");
             assert!((slope - z.exp()).abs() < 8e-15, "{z} {slope}");
             let y: f64 = 0.5 * (1.0 + z);
-            let mean = sum(interpolant.mean_from_end().iter().copied(), y);
+            let mean = sum(rows::<20, 5>(&interpolant.mean_from_end()).into_iter(), y);
             let exact = if y > 0.0 { 0.5 * (z.exp() - (-1f64).exp()) / y } else { (-1f64).exp() };
             assert!((mean / exact - 1.0).abs() < 2e-15, "{z}");
         }
         assert!(!osculating::<20, 10>(|z| (z.abs(), z.signum())).is_converged(1e-15));
-        assert!(Interpolant::<20>::through(f64::exp).is_converged(1e-15));
+        assert!(Interpolant::<20>::through(&Interpolant::<20>::at_points(f64::exp)).is_converged(1e-15));
     }
 
     #[test]

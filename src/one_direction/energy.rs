@@ -31,13 +31,8 @@ struct Slip {
 }
 
 /// Energy \[J\] dissipated from a closed contact with the diagram `knots`, which must not be empty.
-#[inline(always)]
+#[inline(never)]
 pub(crate) fn dissipated(element: &Element, knots: &[[f64; 4]], path: &Path) -> f64 {
-    dispatch!(dissipated_kernel(element, knots, path))
-}
-
-#[inline(always)]
-fn dissipated_kernel(element: &Element, knots: &[[f64; 4]], path: &Path) -> f64 {
     let mu = element.friction_coefficient;
     let [start, end] = path.shift;
     let contact_rate = end - start;
@@ -164,8 +159,12 @@ impl Slip {
     ///
     /// The inner integral is `R = N(S_b) - N(S_c) - N'(S_c)(S_b - S_c)`. Unless the slip zone is too narrow for this difference, the mean of
     /// R along the path follows from N and N', or by parts from N and M.
-    #[inline(always)]
     fn integral(&self, element: &Element) -> f64 {
+        dispatch!(self.integral_kernel(element))
+    }
+
+    #[inline(always)]
+    fn integral_kernel(&self, element: &Element) -> f64 {
         let [c0, c1] = self.inner;
         let [b0, b1] = self.outer;
         let (growth, swept) = (b1 - b0, c0 - c1);
@@ -177,11 +176,9 @@ impl Slip {
         if 2.5 * width < widest {
             let room = room(element, c1, widest);
             let path_rule = gauss_rule(if 16.0 * swept.max(growth.abs()) < room { 1 } else { 2 });
-            if 8.0 * width < room {
-                return self.integral_of_curvature(element, path_rule, &ZONE_RULE);
-            }
             if 1.5 * width < room {
-                return self.integral_of_curvature(element, path_rule, &WIDE_ZONE_RULE);
+                let zone_rule: &[Block] = if 8.0 * width < room { &ZONE_RULE } else { &WIDE_ZONE_RULE };
+                return self.integral_of_curvature(element, path_rule, zone_rule);
             }
             // A wider zone loses few digits, because N'' is large there.
             if 8.0 * width < widest {

@@ -168,9 +168,9 @@ pub fn state_check(state: &[f64]) -> Result<(), Error> {
     // A knot is located by ξ and η, each within two roundings of the larger one: S is within four of them over twice the size. N is of
     // an exponent of at most 9 in S, with a layer of ln(1+x) (1+1/x) at x = N/N_c, at most 2^40 times 1000: 35. So N is within 70
     // roundings at both ends of a piece. The tables of N(S) and S(N) are within 1e-13 in every rounding mode; with a layer of the
-    // smallest N_c within 1.3e-10.
+    // smallest N_c within 2.5e-10.
     let size = 0.5 * (last_eta - last_xi);
-    let rounding = (140.0 * f64::EPSILON * last_xi.abs().max(last_eta.abs()) + 2.6e-10 * size) * load;
+    let rounding = (140.0 * f64::EPSILON * last_xi.abs().max(last_eta.abs()) + 5e-10 * size) * load;
     let allowed = rounding.min(f64::MAX);
     let monotone = |pair: &[[f64; PER_KNOT]]| match pair {
         [[xi, eta, inner, _], [next_xi, next_eta, outer, _]] => {

@@ -255,7 +255,7 @@ impl LayerCurve {
 
     /// dλ2/dτ as a polynomial in τ up to 1/2, with its pole at 1/η > 1.
     fn curvature_series(&self) -> [f64; RETAINED_TERMS] {
-        let tangents = Interpolant::<{ RETAINED_TERMS / 2 }>::POINTS.map(|z| {
+        let tangents = Interpolant::<{ RETAINED_TERMS / 2 }>::at_points(|z| {
             let consumed = 0.25 * (1.0 + z);
             let load = Complement { consumed, remaining: 1.0 - consumed };
             let value = self.curvature(load);
@@ -581,8 +581,10 @@ impl<S: Shape> Shape for Layered<S> {
         }
         let largest = self.shape.value(quantity, self.shape.largest_size());
         let of_shape = self.shape.size_at(quantity, value.min(largest));
-        let of_layer = self.shape.at_load(self.layer.load_of_extent(value / unloaded));
-        inverse_of_sum(value, of_shape.min(of_layer), f64::INFINITY, |w| {
+        // A soft layer stiffens exponentially: alone it may carry a load that no size has.
+        let of_layer = self.layer.load_of_extent(value / unloaded);
+        let start = if of_layer < self.shape.load(of_shape) { self.shape.at_load(of_layer) } else { of_shape };
+        inverse_of_sum(value, start, f64::INFINITY, |w| {
             let sum = self.value(quantity, w);
             // dN/d(ln w) = 2w²/(dw²/dN).
             [sum, 2.0 * w / self.shape.size_slope(w) * w * self.compliance(quantity, w) / sum]

@@ -403,7 +403,7 @@ fn layers(call: &Call, arguments: &mut Arguments, first: usize) {
     for (field, status, values) in [
         (0, by_normal, [-1e-9, f64::INFINITY, f64::NAN, 1e-160, 1e160]),
         (1, by_tangential, [-LEAST, f64::INFINITY, f64::NAN, 1e-160, 1e60]),
-        (2, MSLIP_BAD_STIFFENING_LOAD, [-1.0, f64::NAN, 0.999e-3 * load, LEAST, f64::NEG_INFINITY]),
+        (2, MSLIP_BAD_STIFFENING_LOAD, [-1.0, f64::NAN, 0.999e-3 * load, f64::MIN_POSITIVE, f64::NEG_INFINITY]),
         (3, MSLIP_BAD_REFERENCE_LOAD, [-LEAST, f64::NAN, 2e150, f64::INFINITY, -1.0]),
     ] {
         for value in values {

@@ -56,10 +56,12 @@ program bad_input
 
 contains
 
-  pure function flat_parameters() result(flat)
+  pure function flat_parameters(i) result(flat)
+    ! The contacts of a batch differ by their loads.
+    integer, intent(in) :: i
     type(mslip_parameters) :: flat
 
-    flat = mslip_parameters(flat_half_width=5.0e-4_wp, edge_radius=3.0e-3_wp, length=2.0e-2_wp, normal_force=800.0_wp, &
+    flat = mslip_parameters(flat_half_width=5.0e-4_wp, edge_radius=3.0e-3_wp, length=2.0e-2_wp, normal_force=790.0_wp + 10*i, &
       friction_coefficient=0.5_wp, material=[mslip_material(1.14e11_wp, 0.32_wp), mslip_material(2.0e11_wp, 0.29_wp)], &
       displacement_reference=MSLIP_CENTRE_POINT)
   end function flat_parameters
@@ -72,12 +74,14 @@ contains
     items = merge(n, 1, procedures(p)%batch)
     if (allocated(contacts)) deallocate (contacts)
     allocate (contacts(items))
-    call mslip_contact_init(flat_parameters(), contacts(1), ok)
-    contacts = contacts(1)
+    do i = 1, items
+      call mslip_contact_init(flat_parameters(i), contacts(i), ok)
+    end do
     if (allocated(elements)) deallocate (elements)
     allocate (elements(items))
-    call mslip_element_init(flat_parameters(), directions, MSLIP_INPUT_APPROACH, elements(1), ok)
-    elements = elements(1)
+    do i = 1, items
+      call mslip_element_init(flat_parameters(i), directions, MSLIP_INPUT_APPROACH, elements(i), ok)
+    end do
     vector = [spread(1.0e-7_wp, 1, int(directions)), 2.0e-7_wp]
     vectors = spread(vector, 2, n)
     scalar = 1.0e-7_wp
@@ -86,7 +90,7 @@ contains
     if (allocated(index)) deallocate (index)
     if (allocated(active)) deallocate (active)
     if (procedures(p)%batch) then
-      index = [(int(i, mslip_int), i = 1, n)]
+      index = [2_mslip_int, 1_mslip_int, 3_mslip_int]
       active = spread(1_mslip_int, 1, n)
     end if
     state = spread(0.0_wp, 1, int(mslip_state_length(reversals)))
@@ -343,7 +347,7 @@ contains
     real(wp) :: error
     integer :: i
 
-    call mslip_element_init(flat_parameters(), one, MSLIP_INPUT_APPROACH, other, status)
+    call mslip_element_init(flat_parameters(1), one, MSLIP_INPUT_APPROACH, other, status)
     state_of_one = spread(0.0_wp, 1, int(mslip_element_state_length(one, 500_mslip_size)))
     call mslip_element_state_init(one, state_of_one, status)
     workspace_of_one = spread(0.0_wp, 1, int(mslip_element_workspace_length(one, h, samples)))
@@ -357,7 +361,7 @@ contains
         call rejected('two directions', MSLIP_NOT_AVAILABLE)
         cycle
       end if
-      elements(1) = other
+      elements(merge(2, 1, procedures(p)%batch)) = other  ! That of the first item.
       call rejected('one direction', merge(MSLIP_BAD_DIRECTIONS, MSLIP_BAD_ARRAY_SIZE, procedures(p)%memory == 'w'))
       if (procedures(p)%batch) then
         active(1) = 0

@@ -379,12 +379,9 @@ impl Period<'_, '_, '_> {
             let stack = ReversalSensitivities::new(buffers.gradients.as_flattened_mut());
             buffers.nodes.for_each_panel(&self.motion, segment, buffers.harmonics, |nodes, displacement, weights| {
                 let mut derivatives: [Nodes; PARAMETERS] = [[[0.0; 4]; _]; _];
-                for (block, displacement) in displacement.iter().enumerate() {
-                    for k in 0..4 {
-                        let at_node = stack.at(&self.law, displacement[k]);
-                        for (values, derivative) in derivatives.iter_mut().zip(at_node) {
-                            values.iter_mut().skip(block).take(1).for_each(|values| values[k] = derivative);
-                        }
+                for (node, displacement) in displacement.as_flattened().iter().enumerate() {
+                    for (values, derivative) in derivatives.iter_mut().zip(stack.at(&self.law, *displacement)) {
+                        values.as_flattened_mut().iter_mut().skip(node).take(1).for_each(|value| *value = derivative);
                     }
                 }
                 for (values, column) in derivatives.iter().zip(sums.chunks_exact_mut(coefficients)) {
@@ -400,10 +397,9 @@ impl Period<'_, '_, '_> {
         sums.fill(0.0);
         nodes.for_each_panel(&self.motion, segment, orders, |nodes, displacement, weights| {
             let [mut forces, mut stiffnesses]: [Nodes; 2] = [[[0.0; 4]; _]; _];
-            for ((forces, stiffnesses), displacement) in forces.iter_mut().zip(&mut stiffnesses).zip(displacement) {
-                for k in 0..4 {
-                    Response { force: forces[k], stiffness: stiffnesses[k] } = evaluator.at(displacement[k]);
-                }
+            let values = forces.as_flattened_mut().iter_mut().zip(stiffnesses.as_flattened_mut());
+            for ((force, stiffness), displacement) in values.zip(displacement.as_flattened()) {
+                Response { force: *force, stiffness: *stiffness } = evaluator.at(*displacement);
             }
             if force {
                 nodes.add(weights, &forces, force_sums);

@@ -304,7 +304,7 @@ fn curvature(punch: &RoundedPunch, load: f64) -> f64 {
 /// h'' as a polynomial in τ up to 1/2: positive, with its singularity as far beyond as the interval is long.
 fn curvature_series(contact: &RoundedPunch, load: f64) -> [f64; RETAINED_TERMS] {
     let mut last: Option<InversePower> = None;
-    let mut tangents = Interpolant::<{ RETAINED_TERMS / 2 }>::POINTS.map(|z| {
+    let mut tangents = Interpolant::<{ RETAINED_TERMS / 2 }>::at_points(|z| {
         let remaining = (0.75 + 0.25 * z) * load;
         let w = last.as_ref().map_or(contact.w, |last| last.w(remaining));
         let (punch, inverse) = RoundedPunch::refine_from(RoundedPunch::new(contact.flat, w), remaining);

@@ -1,10 +1,11 @@
 //! A sphere under oblique forces: the incremental formulas of Mindlin and Deresiewicz (J. Appl. Mech. 20, 1953, 327-344), integrated
 //! along forces that change together, T faster than mu N.
 
-use super::{Element, State};
-use crate::{Outcome, ensure};
+use crate::call::quiet;
+use crate::sampler::{ElementCase, Sampler};
+use microslip::element::{Directions, Element, NormalInput};
+use microslip::one_direction as state;
 use microslip::{EllipticParameters, Material};
-use reference::Input;
 
 const YOUNG_MODULUS: f64 = 7e10;
 const POISSON_RATIO: f64 = 0.33;
@@ -53,19 +54,23 @@ impl Branch {
     }
 }
 
-pub fn compare() -> Outcome {
+/// The same sphere for every case.
+pub fn compare(_: &ElementCase, _: &mut Sampler, _: &mut crate::Tally) {
     let radius = contact_radius(LARGEST);
-    let input = Input::Ellipse(EllipticParameters {
+    let parameters = EllipticParameters {
         semi_axis_x: radius,
         semi_axis_y: radius,
         normal_force: LARGEST,
         friction_coefficient: FRICTION,
         material: [Material { young_modulus: YOUNG_MODULUS, poisson_ratio: POISSON_RATIO }; 2],
         ..EllipticParameters::default()
-    });
-    let element = Element::new(&input, true).expect("an element");
-    let mut state = State::new(64);
-    state.step(&element, [0.0, 40.0])?;
+    };
+    let element = Element::elliptic(&parameters, Directions::One, NormalInput::Force).expect("an element");
+    let mut memory = vec![0.0; state::state_length(64)];
+    state::state_init(&mut memory).expect("long enough");
+    let mut step =
+        |to: [f64; 2]| quiet("advance", || state::advance(&element, &mut memory, to, false)).expect("a step").force[0];
+    step([0.0, 40.0]);
     // T rises, falls and rises while N rises, falls, rises, falls and rises.
     let corners: [[f64; 2]; 6] = [[40.0, 0.0], [46.0, 9.0], [41.0, 2.0], [44.0, -3.0], [38.0, 4.0], [39.0, 6.0]];
     let (mut displacement, mut reversal, mut direction) = (0.0, None, 1.0);
@@ -83,13 +88,11 @@ pub fn compare() -> Outcome {
             let t = f64::from(i) * h;
             displacement += h / 6.0 * (branch.rate(t) + 4.0 * branch.rate(t + 0.5 * h) + branch.rate(t + h));
             let [load, force] = branch.at(t + h);
-            let step = state.step(&element, [displacement, load])?;
-            worst = worst.max((step.force[0] - force).abs() / (FRICTION * load));
+            worst = worst.max((step([displacement, load]) - force).abs() / (FRICTION * load));
         }
         reversal = reversal.map(|reversal| moved(reversal, sign, to[0] - from[0]));
     }
-    ensure!(worst < 1e-10, "the forces differ by {worst:e} of mu N");
-    Ok(())
+    assert!(worst < 1e-10, "the forces differ by {worst:e} of mu N");
 }
 
 /// T* after a change of the load: dT* = ±mu dN.

@@ -14,9 +14,10 @@ use std::rc::Rc;
 const EXTRA: i32 = 400;
 
 /// A contact with a layer; the reference is that of the contact alone.
-struct Layered<'a> {
+pub struct Layered<'a> {
     case: &'a Case,
-    contact: mslip_contact,
+    pub layer: Layer,
+    pub contact: mslip_contact,
     input: Input,
     law: Rc<Law>,
     friction: Real,
@@ -24,6 +25,36 @@ struct Layered<'a> {
     /// c_t, and N_c unless it is infinite.
     compliance: Real,
     stiffening: Option<Real>,
+}
+
+/// The same input with a layer; the normal force and the friction coefficient.
+fn with_layer(input: &Input, layer: Layer) -> (Input, f64, f64) {
+    match *input {
+        Input::Flat(p) => (Input::Flat(Parameters { layer, ..p }), p.normal_force, p.friction_coefficient),
+        Input::Ellipse(p) => {
+            (Input::Ellipse(EllipticParameters { layer, ..p }), p.normal_force, p.friction_coefficient)
+        }
+    }
+}
+
+/// The input with a random layer, for a contact of the given stiffness.
+pub fn random_input(input: &Input, stiffness: f64, sampler: &mut Sampler) -> Input {
+    let (_, normal_force, _) = with_layer(input, Layer::none());
+    let tangential_compliance = sampler.power(-3.0, 3.0) / stiffness;
+    let stiffening_load = if sampler.chance(0.3) { f64::INFINITY } else { normal_force * sampler.power(-3.0, 2.0) };
+    let layer = Layer { normal_compliance: 0.0, tangential_compliance, stiffening_load, reference_load: 0.0 };
+    with_layer(input, layer).0
+}
+
+/// A contact with a random layer that the library accepts.
+pub fn random<'a>(case: &'a Case, sampler: &mut Sampler) -> Layered<'a> {
+    loop {
+        let (Input::Flat(Parameters { layer, .. }) | Input::Ellipse(EllipticParameters { layer, .. })) =
+            random_input(&case.reference.input, case.contact.initial_stiffness, sampler);
+        if let Some(layered) = Layered::new(case, layer) {
+            return layered;
+        }
+    }
 }
 
 /// A point of the curve \[N, m, J\]; of the layer alone what its name says.
@@ -42,35 +73,13 @@ struct Both {
 impl<'a> Layered<'a> {
     /// With a layer, if the library accepts it.
     fn new(case: &'a Case, layer: Layer) -> Option<Layered<'a>> {
-        let (input, normal_force, friction) = match case.reference.input {
-            Input::Flat(p) => (Input::Flat(Parameters { layer, ..p }), p.normal_force, p.friction_coefficient),
-            Input::Ellipse(p) => {
-                (Input::Ellipse(EllipticParameters { layer, ..p }), p.normal_force, p.friction_coefficient)
-            }
-        };
+        let (input, normal_force, friction) = with_layer(&case.reference.input, layer);
         let contact = call::prepare(&input)?;
         let law = case.reference.law(EXTRA);
         let [friction, load, compliance] =
             [friction, normal_force, layer.tangential_compliance].map(|value| law.real(value));
         let stiffening = layer.stiffening_load.is_finite().then(|| law.real(layer.stiffening_load));
-        Some(Layered { case, contact, input, law, friction, load, compliance, stiffening })
-    }
-
-    /// With a random layer that the library accepts.
-    fn random(case: &'a Case, sampler: &mut Sampler) -> Layered<'a> {
-        let normal_force = match &case.reference.input {
-            Input::Flat(p) => p.normal_force,
-            Input::Ellipse(p) => p.normal_force,
-        };
-        loop {
-            let tangential_compliance = sampler.power(-3.0, 3.0) / case.contact.initial_stiffness;
-            let linear = sampler.chance(0.3);
-            let stiffening_load = if linear { f64::INFINITY } else { normal_force * sampler.power(-3.0, 2.0) };
-            let layer = Layer { normal_compliance: 0.0, tangential_compliance, stiffening_load, reference_load: 0.0 };
-            if let Some(layered) = Layered::new(case, layer) {
-                return layered;
-            }
-        }
+        Some(Layered { case, layer, contact, input, law, friction, load, compliance, stiffening })
     }
 
     /// Takes the bits for a force or a displacement at this share of gross slip.
@@ -220,7 +229,7 @@ fn loss(y: &Real, logarithm: &Real) -> Real {
 
 /// Curve, inverse and energy of a contact with a layer.
 pub fn curve(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
-    let mut layered = Layered::random(case, sampler);
+    let mut layered = random(case, sampler);
     let half = call::displacement(&layered.contact, 0.5 * layered.contact.slip_force)[0];
     for _ in 0..10 {
         let (share, range) = sampler.share_of_force();

@@ -64,8 +64,11 @@ impl Sampler {
         self.unit() < share
     }
 
-    /// A double within the given number of doubles from another.
+    /// A double within the given number of doubles from another, unless that is 0.
     pub fn near(&mut self, value: f64, units: i64) -> f64 {
+        if value == 0.0 {
+            return value;
+        }
         let step = self.0.random_range(-units..=units);
         f64::from_bits((value.to_bits() as i64 + step) as u64)
     }

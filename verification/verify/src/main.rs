@@ -1,25 +1,36 @@
-//! Measures the error of every output of the library against the multi-precision reference.
+//! Measures the error of every output of the library against the multi-precision reference, and checks properties of long histories, at
+//! random contacts, elements, layers and histories. No call may raise a floating-point exception that an application can trap.
 //!
-//!     accuracy [--check] [--points N] [--only TEXT] [--regions FILE] [--promises FILE] [--replay FILE]
+//!     verify [--points N] [--only TEXT] [--regions FILE] [--promises FILE] [--replay FILE]
 //!
-//! `--check` is short. `MICROSLIP_SEED` is the seed, 1 without it. Regions and promises are written to CSV files. `--only` takes the
-//! measurements whose name contains a text. `--replay` compares the worst inputs of a CSV of regions again, beside the random points.
+//! `MICROSLIP_SEED` is the seed, 1 without it. Regions and promises are written to CSV files. `--only` takes the measurements whose name
+//! contains a text. `--replay` compares the worst inputs of a CSV of regions again, beside the random points.
 
 mod bounds;
 mod call;
 mod curve;
 mod element;
 mod harmonic;
+mod histories;
 mod history;
 mod layer;
+mod mindlin;
 mod replay;
 mod report;
 mod sampler;
+mod springs;
+mod steps;
 mod stiffness;
 mod tally;
 mod tractions;
+mod two_directions;
 
+use microslip::Parameters;
+use reference::Input;
 use sampler::{Case, ElementCase, KINDS, Sampler};
+use std::cell::RefCell;
+use std::collections::BTreeSet;
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -34,7 +45,7 @@ enum Measurement {
 use Measurement::{Contact, Element};
 
 /// Names, measurements, about how many points each counts as, and how many are one job.
-const MEASUREMENTS: [(&str, Measurement, f64, usize); 15] = [
+const MEASUREMENTS: [(&str, Measurement, f64, usize); 20] = [
     ("curve::fields", Contact(curve::fields), 1.0, 4000),
     ("curve::at_forces", Contact(curve::at_forces), 50.0, 200),
     ("curve::at_displacements", Contact(curve::at_displacements), 50.0, 200),
@@ -50,10 +61,16 @@ const MEASUREMENTS: [(&str, Measurement, f64, usize); 15] = [
     ("stiffness::event_driven", Contact(stiffness::event_driven), 200.0, 25),
     ("element::normal_law", Element(element::normal_law), 25.0, 200),
     ("element::along_a_path", Element(element::along_a_path), 32.0, 80),
+    ("steps::of_contact", Contact(steps::of_contact), 20.0, 50),
+    ("steps::of_element", Element(steps::of_element), 40.0, 50),
+    ("springs::compare", Element(springs::compare), 2e4, 1),
+    ("mindlin::compare", Element(mindlin::compare), f64::INFINITY, 1),
+    ("two_directions::histories", Element(two_directions::histories), 200.0, 10),
 ];
 
 /// Measurements of one kind of contact; the seed is the same if other jobs are left out.
 struct Job {
+    name: &'static str,
     measurement: Measurement,
     kind: &'static str,
     count: usize,
@@ -68,7 +85,7 @@ fn jobs(points: f64, only: &str) -> Vec<Job> {
         let count = (points / weight / pieces as f64).ceil() as usize;
         for i in 0..pieces {
             if name.contains(only) {
-                jobs.push(Job { measurement, kind: KINDS[i % KINDS.len()], count, seed });
+                jobs.push(Job { name, measurement, kind: KINDS[i % KINDS.len()], count, seed });
             }
             seed = seed.wrapping_add(1);
         }
@@ -82,7 +99,6 @@ fn main() {
     while let Some(argument) = arguments.next() {
         let mut value = || arguments.next().unwrap_or_else(|| panic!("{argument} needs a value"));
         match argument.as_str() {
-            "--check" => points = 1e4,
             "--points" => points = value().parse().expect("a number of points"),
             "--only" => only = value(),
             "--regions" => regions = Some(PathBuf::from(value())),
@@ -93,19 +109,35 @@ fn main() {
     }
     println!("seed {}", reference::seed());
     let (jobs, next, all) = (jobs(points, &only), AtomicUsize::new(0), Mutex::new(Tally::default()));
+    let stopped = Mutex::new(BTreeSet::new());
     let work = || {
         loop {
             let i = next.fetch_add(1, Ordering::Relaxed);
-            let Some(Job { measurement, kind, count, seed }) = jobs.get(i) else { break };
+            let Some(Job { name, measurement, kind, count, seed }) = jobs.get(i) else { break };
             if i * 100 / jobs.len() != (i + 1) * 100 / jobs.len() && jobs.len() > 1000 {
                 eprintln!("{} %", (i + 1) * 100 / jobs.len());
             }
             let mut tally = Tally::default();
             let mut sampler = Sampler::new(*seed);
             for _ in 0..*count {
-                match measurement {
-                    Contact(measure) => measure(&sampler.case(kind), &mut sampler, &mut tally),
-                    Element(measure) => measure(&sampler.element(kind), &mut sampler, &mut tally),
+                let inputs = RefCell::new(Input::Flat(Parameters::default()));
+                let measured = catch_unwind(AssertUnwindSafe(|| match measurement {
+                    Contact(measure) => {
+                        let case = sampler.case(kind);
+                        *inputs.borrow_mut() = case.reference.input;
+                        measure(&case, &mut sampler, &mut tally);
+                    }
+                    Element(measure) => {
+                        let case = sampler.element(kind);
+                        *inputs.borrow_mut() = case.input;
+                        measure(&case, &mut sampler, &mut tally);
+                    }
+                }));
+                // The message is printed already; the next point would begin where this one ended.
+                if measured.is_err() {
+                    println!("{name} failed: {kind}, {}", sampler::text(&inputs.borrow()));
+                    stopped.lock().unwrap().insert(*name);
+                    break;
                 }
             }
             all.lock().unwrap().add(tally);
@@ -126,7 +158,11 @@ fn main() {
     if let Some(path) = promises {
         report::write_promises(&tally, &path);
     }
+    // Beside the outputs, the measurements that check properties; a failed check of any kind is an assertion.
     let (passed, failed) = report::summary(&tally);
+    let stopped = stopped.into_inner().unwrap().len();
+    let names: BTreeSet<&str> = jobs.iter().map(|job| job.name).collect();
+    let (passed, failed) = (passed + names.len() - stopped, failed + stopped);
     println!("{passed} passed, {failed} failed");
-    std::process::exit(i32::from(failed > 0));
+    std::process::exit(i32::from(failed > 0 || passed == 0));
 }

@@ -8,23 +8,69 @@ use std::ptr::null_mut;
 /// The contact, if its parameters are accepted.
 pub fn prepare(input: &Input) -> Option<mslip_contact> {
     let mut contact = MaybeUninit::uninit();
-    let status = unsafe {
+    let status = quiet("contact_init", || unsafe {
         match input {
             Input::Flat(p) => mslip_contact_init(p, contact.as_mut_ptr()),
             Input::Ellipse(p) => mslip_contact_init_elliptic(p, contact.as_mut_ptr()),
         }
-    };
+    });
     (status == MSLIP_OK).then(|| unsafe { contact.assume_init() })
 }
 
-fn ok(status: i32, what: &str) {
+/// A call that raises no exception that an application may trap: invalid operation, division by zero, overflow.
+pub fn quiet<T>(what: &str, call: impl FnOnce() -> T) -> T {
+    let (result, raised) = flags_of(call);
+    assert!(raised == 0, "{what} raised the exceptions {raised:#x}");
+    result
+}
+
+/// The result of a call, and the exceptions of that kind that it raised.
+pub fn flags_of<T>(call: impl FnOnce() -> T) -> (T, u32) {
+    let result = flags::clear_for(call);
+    (result, flags::raised())
+}
+
+#[cfg(target_arch = "x86_64")]
+mod flags {
+    use std::arch::asm;
+
+    pub fn clear_for<T>(call: impl FnOnce() -> T) -> T {
+        let default = 0x1f80u32;
+        // SAFETY: the word of the default environment, without flags.
+        unsafe { asm!("ldmxcsr [{}]", in(reg) &raw const default, options(nostack)) };
+        call()
+    }
+
+    pub fn raised() -> u32 {
+        let mut word = 0u32;
+        // SAFETY: writes the word.
+        unsafe { asm!("stmxcsr [{}]", in(reg) &raw mut word, options(nostack)) };
+        word & 0x0d
+    }
+}
+
+/// Elsewhere exceptions are not seen.
+#[cfg(not(target_arch = "x86_64"))]
+mod flags {
+    pub fn clear_for<T>(call: impl FnOnce() -> T) -> T {
+        call()
+    }
+
+    pub fn raised() -> u32 {
+        0
+    }
+}
+
+fn ok(what: &str, call: impl FnOnce() -> i32) {
+    let status = quiet(what, call);
     assert!(status == MSLIP_OK, "{what} returned {status}");
 }
 
 /// The outputs of a call, of the given length each.
 fn outputs<const K: usize>(n: usize, what: &str, call: impl FnOnce([*mut f64; K]) -> i32) -> [Vec<f64>; K] {
     let mut outputs = [(); K].map(|()| vec![f64::NAN; n]);
-    ok(call(outputs.each_mut().map(|output| output.as_mut_ptr())), what);
+    let places = outputs.each_mut().map(|output| output.as_mut_ptr());
+    ok(what, || call(places));
     outputs
 }
 
@@ -47,7 +93,9 @@ pub fn force(contact: &mslip_contact, displacement: f64) -> [f64; 3] {
 pub fn sensitivity(contact: &mslip_contact, displacement: f64) -> (f64, [f64; MSLIP_PARAMETER_COUNT as usize]) {
     let (mut force, mut sensitivity) = (f64::NAN, [f64::NAN; _]);
     let place = sensitivity.as_mut_ptr();
-    ok(unsafe { mslip_monotonic_sensitivity(contact, 1, &displacement, &mut force, place) }, "monotonic_sensitivity");
+    ok("monotonic_sensitivity", || unsafe {
+        mslip_monotonic_sensitivity(contact, 1, &displacement, &mut force, place)
+    });
     (force, sensitivity)
 }
 
@@ -76,7 +124,7 @@ pub fn complex_stiffness(contact: &mslip_contact, amplitude: f64) -> [f64; 4] {
 
 pub fn stiffness_table(contact: &mslip_contact) -> Vec<f64> {
     let mut table = vec![0.0; mslip_stiffness_table_length()];
-    ok(unsafe { mslip_stiffness_table_init(contact, table.len(), table.as_mut_ptr()) }, "stiffness_table_init");
+    ok("stiffness_table_init", || unsafe { mslip_stiffness_table_init(contact, table.len(), table.as_mut_ptr()) });
     table
 }
 
@@ -102,7 +150,7 @@ pub fn iwan(contact: &mslip_contact, n: usize) -> ([Vec<f64>; 2], f64) {
 
 pub fn state(reversals: usize) -> Vec<f64> {
     let mut state = vec![0.0; mslip_state_length(reversals)];
-    ok(unsafe { mslip_state_init(state.len(), state.as_mut_ptr()) }, "state_init");
+    ok("state_init", || unsafe { mslip_state_init(state.len(), state.as_mut_ptr()) });
     state
 }
 
@@ -130,9 +178,9 @@ pub fn harmonic(contact: &mslip_contact, samples: usize, rule: i32, displacement
     let (n, u) = (displacement.len(), displacement.as_ptr());
     let mut workspace = vec![0.0; mslip_harmonic_workspace_length(n / 2, samples, rule)];
     let (length, memory) = (workspace.len(), workspace.as_mut_ptr());
-    ok(unsafe { mslip_harmonic_workspace_init(n / 2, samples, rule, length, memory) }, "harmonic_workspace_init");
+    ok("harmonic_workspace_init", || unsafe { mslip_harmonic_workspace_init(n / 2, samples, rule, length, memory) });
     let (mut f, mut j, mut e) = (vec![f64::NAN; n], vec![f64::NAN; n * n], f64::NAN);
-    let status = unsafe { mslip_harmonic_force(contact, memory, u, f.as_mut_ptr(), j.as_mut_ptr(), &mut e) };
-    ok(status, "harmonic_force");
+    let (force, jacobian) = (f.as_mut_ptr(), j.as_mut_ptr());
+    ok("harmonic_force", || unsafe { mslip_harmonic_force(contact, memory, u, force, jacobian, &mut e) });
     (f, j, e)
 }

@@ -1,6 +1,8 @@
 //! The element under a varying normal force: its normal law, and steps and tractions along histories.
 
+use crate::call::quiet;
 use crate::curve::moved;
+use crate::histories;
 use crate::sampler::{ElementCase, Sampler, text};
 use crate::tally::Tally;
 use microslip::one_direction as state;
@@ -43,7 +45,7 @@ pub fn normal_law(case: &ElementCase, sampler: &mut Sampler, tally: &mut Tally) 
 /// The normal law at a load, and its approach.
 pub fn at_load(case: &ElementCase, load: f64, range: &'static str, tally: &mut Tally) -> f64 {
     let ElementCase { element, reference, kind, input, .. } = case;
-    let at_load = element.approach_under(load);
+    let at_load = quiet("approach_under", || element.approach_under(load));
     let place = || format!("{} N {load:e}", text(input));
     let family = &reference.family;
     let exact = family.find(Given::Load, &reference.real(load));
@@ -61,7 +63,7 @@ pub fn at_load(case: &ElementCase, load: f64, range: &'static str, tally: &mut T
 pub fn at_approach(case: &ElementCase, approach: f64, range: &'static str, tally: &mut Tally) {
     let ElementCase { element, reference, kind, input, .. } = case;
     let family = &reference.family;
-    let at_approach = element.normal_force_at(approach);
+    let at_approach = quiet("normal_force_at", || element.normal_force_at(approach));
     let place = || format!("{} w {approach:e}", text(input));
     let exact = family.find(Given::Approach, &reference.real(approach));
     let [normal, _] = family.log_compliances(&exact);
@@ -74,78 +76,10 @@ pub fn at_approach(case: &ElementCase, approach: f64, range: &'static str, tally
     tally.check(key, half_width, &exact.half_width, condition, place);
 }
 
-/// Displacements and normal inputs of a history.
-fn history(case: &ElementCase, sampler: &mut Sampler, steps: usize) -> (Vec<[f64; 2]>, &'static str) {
-    let ElementCase { element, .. } = case;
-    let by_force = element.normal_input == microslip::ffi::MSLIP_INPUT_NORMAL_FORCE;
-    let mu = element.friction_coefficient;
-    let (pattern, range) = match sampler.below(7) {
-        0 => (0, "constant load"),
-        1 | 2 => (1, "load varies"),
-        3 => (2, "loads from 1e-6"),
-        4 => (3, "separation"),
-        5 => (4, "near-ties"),
-        _ => (5, "beyond the tables"),
-    };
-    let input_of = |load: f64| {
-        let within = element.check_normal_force(load).is_ok();
-        within.then(|| if by_force { load } else { element.approach_under(load).value })
-    };
-    let top = sampler.power(-1.5, 0.5);
-    let constant = sampler.between(0.05, 1.0);
-    let far = if sampler.chance(0.1) { sampler.power(0.0, 4.0) } else { 0.0 };
-    let mut path: Vec<[f64; 2]> = Vec::with_capacity(steps);
-    let (mut load_before, mut before) = (0.0, [0.0; 2]);
-    for i in 0..steps {
-        let share = match pattern {
-            0 => constant,
-            2 => sampler.power(-6.0, 0.1),
-            5 => sampler.power(-1.0, 3.0),
-            _ if sampler.chance(0.2) => load_before / element.normal_force,
-            _ => sampler.between(0.05, 1.2),
-        };
-        let mut load = share * element.normal_force;
-        let input = match input_of(load) {
-            _ if pattern == 3 && sampler.chance(0.3) => {
-                load = 0.0;
-                if by_force { 0.0 } else { -(sampler.below(3) as f64) * element.approach * sampler.unit() }
-            }
-            _ if pattern == 4 && sampler.chance(0.3) && before[1] > 0.0 => {
-                load = load_before;
-                if sampler.chance(0.2) {
-                    1e-25 * input_of(element.normal_force).expect("the load of the parameters")
-                } else {
-                    sampler.near(before[1], 2)
-                }
-            }
-            Some(input) => input,
-            None => {
-                load = element.normal_force;
-                input_of(load).expect("the load of the parameters")
-            }
-        };
-        let reach = |load: f64| if load > 0.0 { mu * element.shift_under(load) } else { 0.0 };
-        let (now, last) = (reach(load), reach(load_before));
-        let unit = reach(element.normal_force);
-        let displacement = match sampler.below(8) {
-            0 => before[0],
-            1 => before[0] + (now - last) * sampler.between(-1.5, 1.5),
-            2 => before[0] + now.max(last) * sampler.power(-16.0, -1.0),
-            3 if pattern == 4 => before[0] + (now - last).copysign(sampler.between(-1.0, 1.0)),
-            3 if i > 0 => path[sampler.below(i)][0],
-            4 if pattern == 4 && before[0] != 0.0 => sampler.near(before[0], 2),
-            5 => before[0] - now.max(last) * sampler.power(-3.0, 0.3),
-            _ => unit * (far + top * sampler.between(-1.0, 1.0)),
-        };
-        (load_before, before) = (load, [displacement, input]);
-        path.push(before);
-    }
-    (path, range)
-}
-
 /// Steps along a history, and tractions at its end.
 pub fn along_a_path(case: &ElementCase, sampler: &mut Sampler, tally: &mut Tally) {
-    let (path, range) = history(case, sampler, 32);
+    let kind = [0, 1, 1, 2, 3, 4, 5][sampler.below(7)];
+    let (path, range) = (histories::of_element(case, sampler, kind, 32), histories::RANGES[kind]);
     let (state, exact, farthest) = steps(case, &path, range, tally);
     if exact.size.is_some() {
         let place = || format!("{} path {path:?}", text(&case.input));
@@ -162,7 +96,7 @@ pub fn steps(case: &ElementCase, path: &[[f64; 2]], range: &'static str, tally: 
     // Largest displacement and size so far.
     let (mut farthest, mut largest): (f64, Option<Size>) = (0.0, None);
     for (i, &[u, w]) in path.iter().enumerate() {
-        let got = state::advance(element, &mut library, [u, w], true)
+        let got = quiet("advance", || state::advance(element, &mut library, [u, w], true))
             .unwrap_or_else(|error| panic!("{error:?}: {} path {:?}", text(input), &path[..=i]));
         let before = exact.clone();
         let [displacement, normal] = [u, w].map(|value| reference.real(value));
@@ -319,7 +253,7 @@ fn tractions_at(
     let half_width = size.half_width.f64();
     let x: Vec<f64> = (0..8).map(|_| half_width * sampler.between(-1.0, 1.0)).collect();
     let (mut pressure, mut shear) = (vec![f64::NAN; x.len()], vec![f64::NAN; x.len()]);
-    tractions(element, library, &x, Some(&mut pressure), Some(&mut shear)).expect("a state");
+    quiet("tractions", || tractions(element, library, &x, Some(&mut pressure), Some(&mut shear))).expect("a state");
     let peak = &family.friction * family.pressure(size, &reference.real(0.0));
     for ((&x, pressure), shear) in x.iter().zip(pressure).zip(shear) {
         let place = || format!("{} x {x:e}", place());
@@ -347,9 +281,9 @@ fn tractions_at(
 pub fn prepare(input: &Input, by_force: bool) -> Option<(microslip::element::Element, Exact)> {
     use microslip::element::{Directions, Element, NormalInput};
     let normal = if by_force { NormalInput::Force } else { NormalInput::Approach };
-    let element = match input {
+    let element = quiet("element", || match input {
         Input::Flat(parameters) => Element::rounded_flat(parameters, Directions::One, normal),
         Input::Ellipse(parameters) => Element::elliptic(parameters, Directions::One, normal),
-    };
+    });
     element.ok().map(|element| (element, Exact::new(input, by_force)))
 }

@@ -1,11 +1,13 @@
 //! Histories against a bank of 6,000 springs in parallel (Popov and Heß): spring j belongs to the size S_j, carries the displacement of
 //! all sizes beyond it and slips at `mu (S_b - S_j)`. In one direction it is the law with its integral over the stiffness as a sum.
 
-use super::{Element, KINDS, State, next};
-use crate::{Outcome, ensure};
-use rand::rngs::SmallRng;
+use crate::call::quiet;
+use crate::element::prepare;
+use crate::histories;
+use crate::sampler::{ElementCase, Sampler};
+use microslip::one_direction as state;
 use reference::Input;
-use reference::family::{Family, Given};
+use reference::family::Given;
 
 const SPRINGS: usize = 6000;
 
@@ -25,10 +27,12 @@ struct Bank {
 
 impl Bank {
     /// Cells of equal stiffness up to that of the largest load of the tables.
-    fn new(element: &Element, family: &Family) -> Bank {
-        let largest = family.find(Given::Load, &family.real(element.library.normal_force));
+    fn new(case: &ElementCase) -> Bank {
+        let ElementCase { element, reference, input, .. } = case;
+        let family = &reference.family;
+        let largest = family.find(Given::Load, &family.real(element.normal_force));
         // The size that touches first has a stiffness if it is a flat.
-        let touching = match &element.input {
+        let touching = match input {
             Input::Flat(parameters) if parameters.flat_half_width > 0.0 => {
                 1.0 / family.size(&family.real(0.0)).tangential_compliance
             }
@@ -41,8 +45,9 @@ impl Bank {
             size.push(family.with_compliance(&(1.0 / middle)).shift.f64());
             springs.push(cell.f64());
         }
-        let friction = element.library.friction_coefficient;
-        let width = cell.f64();
+        let friction = element.friction_coefficient;
+        // The largest dS/d(stiffness) between the middles of two cells, and up to half a cell beyond the last.
+        let steepest = size.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
         Bank {
             friction,
             elongation: vec![0.0; size.len()],
@@ -50,7 +55,7 @@ impl Bank {
             stiffness: springs,
             displacement: 0.0,
             contact: 0.0,
-            per_kink: 0.25 * friction * width * width / family.curvature(&largest).f64(),
+            per_kink: 0.26 * friction * steepest * cell.f64(),
         }
     }
 
@@ -88,50 +93,39 @@ impl Bank {
 }
 
 /// Compares an element whose input is the force with its bank.
-pub fn compare(element: &Element, steps: u64, rng: &mut SmallRng) -> Outcome {
-    let family = Family::new(&element.input);
-    let mut bank = Bank::new(element, &family);
-    let mut state = State::new(500);
-    let mut past: Vec<[f64; 2]> = vec![[0.0; 2]];
-    let mut worst: f64 = 0.0;
-    for number in 0..steps {
-        let kind = KINDS[(number * 6 / steps) as usize];
-        let to = next(kind, element, &past, rng);
-        let pieces = state.knots().len();
-        let step = state.step(element, to)?;
-        let contact = if to[1] > 1e-40 * element.library.normal_force {
-            family.find(Given::Load, &family.real(to[1])).shift.f64()
-        } else {
-            0.0
-        };
-        // An open contact moves freely.
-        let motion = (to[0] - bank.displacement).abs();
-        let [force, energy] = bank.step(to[0], contact);
+pub fn compare(case: &ElementCase, sampler: &mut Sampler, _: &mut crate::Tally) {
+    let Some((element, reference)) = prepare(&case.input, true) else { return };
+    let case = &ElementCase { element, reference, input: case.input, kind: case.kind };
+    let element = &case.element;
+    let family = &case.reference.family;
+    let (slip_force, mut bank) = (element.friction_coefficient * element.normal_force, Bank::new(case));
+    let slip = element.friction_coefficient * element.shift_under(element.normal_force);
+    let mut state = vec![0.0; state::state_length(500)];
+    state::state_init(&mut state).expect("long enough");
+    let pieces = |state: &[f64]| (state[0].to_bits() & 0xff_ffff_ffff) as usize;
+    // All but loads beyond those of the bank.
+    let kind = [0, 1, 3, 4, 6][sampler.below(5)];
+    let path = histories::of_element(case, sampler, kind, 100);
+    let mut farthest: f64 = slip;
+    for (number, &[u, w]) in path.iter().enumerate().filter(|(_, [_, w])| *w <= element.normal_force) {
+        let before = pieces(&state);
+        let step = quiet("advance", || state::advance(element, &mut state, [u, w], true)).expect("within its range");
+        let contact =
+            if w > 1e-40 * element.normal_force { family.find(Given::Load, &family.real(w)).shift.f64() } else { 0.0 };
+        let motion = (u - bank.displacement).abs();
+        farthest = farthest.max(u.abs());
+        let largest = contact.max(bank.contact);
+        let [force, energy] = bank.step(u, contact);
         // Kinks of the elongation: at every knot and at the edge of the contact; pieces between are smooth and count as one each. Springs
         // round in every step.
-        let kinks = (2 * (pieces + state.knots().len()) + 4) as f64;
-        let rounding = 1e-12 * element.slip_force() + 4.0 * f64::EPSILON * number as f64 * element.slip_force();
+        let kinks = (2 * (before + pieces(&state)) + 4) as f64;
+        let rounding = (1e-12 + 4.0 * f64::EPSILON * (number + 1) as f64) * slip_force * farthest / slip;
         let error = kinks * bank.per_kink + rounding;
-        let off = (force - step.force[0]).abs();
-        worst = worst.max(off / element.slip_force());
-        ensure!(
-            off <= error,
-            "step {number}, {kind}: {:?}, by the bank {force:?}, {error:e} allowed; {to:?}",
-            step.force
-        );
+        let context = || format!("step {number}, {error:e} allowed; {:?}, path {:?}", case.input, &path[..=number]);
+        assert!((force - step.force[0]).abs() <= error, "{:?}, by the bank {force:?}; {}", step.force, context());
         // Every part of the contact slips by at most the motion and the change of its limit.
-        let slip = motion + bank.friction * (contact.max(bank.contact) + element.slip() / bank.friction);
-        let bound = 2.0 * error * slip;
-        ensure!(
-            (energy - step.dissipated).abs() <= bound,
-            "step {number}, {kind}: dissipated {:e}, by the bank {energy:e}, {bound:e} allowed; {to:?}",
-            step.dissipated
-        );
-        past.push(to);
-        if past.len() > 32 {
-            past.remove(0);
-        }
+        let bound = 2.0 * error * (motion + bank.friction * largest + slip);
+        let off = (energy - step.dissipated).abs();
+        assert!(off <= bound, "dissipated {:e}, by the bank {energy:e}; {}", step.dissipated, context());
     }
-    println!("  bank of springs: worst {worst:.1e} mu N");
-    Ok(())
 }

@@ -1,0 +1,137 @@
+/* bench.h: what microslip is compared with, the contacts and motions, the measurements, and their report. */
+#ifndef BENCH_H
+#define BENCH_H
+
+#include "../c_tests/outputs.h"
+
+#include <stdio.h>
+
+#define PI 3.14159265358979323846
+
+/* Parallel sliders; a bank is padded to whole lanes with sliders without stiffness. */
+enum { LANES = 8 };
+typedef struct sliders {
+    size_t n, padded;
+    double *stiffness, *slip; /* slip: slip force of each, or its coefficient of friction under a varying load */
+} sliders;
+
+sliders sliders_of(size_t n, const double *stiffness, const double *slip);
+/* One: with K' and K'' of the contact at that amplitude, or for 0 and where none has them with its initial stiffness and slip force. */
+sliders sliders_fitted(const mslip_contact *contact, size_t n, double amplitude);
+
+/* Force and stiffness on the initial loading curve. */
+void sliders_curve(const void *sliders, size_t n, const double *displacement, double *force, double *stiffness);
+/* K', K'' and their derivatives with respect to the amplitude, in closed form for each slider. */
+void sliders_stiffness(const void *sliders, double amplitude, double result[4]);
+/* One time step under a load that multiplies the slip forces, which updates the forces of the sliders. */
+double sliders_step(const sliders *s, double load, double *forces, double du, double *stiffness);
+
+/* One slider. */
+static inline double jenkins_step(double stiffness, double slip, double *force, double du, double *tangent)
+{
+    const double trial = *force + stiffness * du;
+    const double limited = trial > slip ? slip : trial < -slip ? -slip : trial;
+    *tangent = trial == limited ? stiffness : 0.0;
+    return *force = limited;
+}
+
+/* Alternating frequency/time: tables and buffers of sliders in one or two tangential directions. Normal stiffness 0: a constant
+   load; otherwise the load is max(0, normal_stiffness w). */
+typedef struct aft aft;
+aft *aft_of(int directions, double normal_stiffness, int harmonics, int samples, const sliders *s);
+
+/* Coefficients [mean, cos 1, sin 1, ...] of each displacement (u, v, w) and force; jacobian of as many rows and columns,
+   column-major, or NULL. */
+void sliders_harmonic(aft *a, const double *displacement, double *force, double *jacobian);
+
+/* The law as Allara (2009) computes it: Eq. 10 by quadrature of the tractions, inverted by root finding; a contact of two bodies of
+   the same material. Stick zones are measured by w = sqrt(c^2 - a^2), c their half-width. */
+typedef struct paper {
+    double flat, half_width, w;    /* a, b, and w of the whole contact */
+    double load, modulus, length, friction, poisson; /* P = N/L, E*, L, mu, nu/(1 - nu) */
+    double slip_force, slip_displacement;
+    int nodes;                     /* of the quadrature: 2 nodes + 1 on each smooth part of the tractions */
+} paper;
+
+paper paper_of(const mslip_parameters *p, double half_width, int nodes);
+
+/* Force and tangent stiffness on the initial loading curve at n displacements >= 0. */
+void paper_curve(const void *paper, size_t n, const double *displacement, double *force, double *stiffness);
+
+/* Section 3.4: K', K'' and their derivatives with respect to the amplitude. */
+void paper_stiffness(const void *paper, double amplitude, double result[4]);
+
+/* Does the work once; the result depends on all of it, so that none is optimised away. */
+typedef double work(void *context);
+
+/* One method at one call of a task. */
+typedef struct entry {
+    const char *task, *motion, *method;
+    double shape, amplitude;          /* a/b, and displacement over that of gross slip */
+    int harmonics, samples, jacobian;
+    double parameter;                 /* nodes, sliders or items; 0: none */
+    double error;                     /* relative, against multi-precision; harmonic force: against exact integrals; or -1 */
+    double sample_error;              /* harmonic force: against the reference with the same samples; or -1 */
+    double time, logarithms;          /* median over the rounds of one item [ns], and over that of a logarithm */
+    work *run;
+    void *context;
+    double items;                     /* points, steps, contacts in one run */
+} entry;
+
+extern entry entries[];
+extern size_t entry_count;
+extern int rounds; /* per entry; the slowest have fewer; 0: nothing is timed */
+
+/* Adds an entry without errors and runs it once. Its context is a copy of so many bytes. */
+entry *entry_add(entry e, const void *context, size_t bytes);
+void measure(size_t first); /* times all entries from `first` on, interleaved */
+
+/* Zeroed memory, aligned for vectors, until it is freed down to a mark. */
+void *allocate(size_t bytes);
+double *doubles(size_t n);
+size_t memory_mark(void);
+void free_to(size_t mark);
+
+/* Counts a check that a value is below a bound, and prints it if not. */
+void check_below(const char *what, double value, double bound);
+extern int checks_passed, checks_failed;
+double median_of(double *values, size_t n); /* sorts them */
+void require(int32_t status);               /* MSLIP_OK, or prints the message and exits */
+
+/* The cases of a run: full, or quick. */
+typedef struct extent {
+    int shapes, amplitudes;
+    const double *shape, *amplitude; /* a/b; displacement over that of gross slip */
+    int least_samples, most_samples; /* powers of 2 */
+    int most_sliders;                /* powers of 4 */
+    int decades;                     /* of items in a batch, from 100 */
+    int grid;                        /* amplitudes of complex stiffness */
+} extent;
+
+/* A steel contact of half-width 0.5 mm under 800 N, and what competitors derive from it. */
+enum { BANKS = 7, RULES = 6 };
+typedef struct test_case {
+    double shape; /* a/b */
+    mslip_parameters parameters;
+    mslip_contact contact;
+    sliders bank[BANKS]; /* 1, 4, 16, ... sliders, fitted by the library */
+    paper paper[RULES];  /* 4 to 32 nodes */
+} test_case;
+test_case case_of(double shape);
+
+/* Adds the entries of one amplitude or motion, whose number is k. */
+typedef void set_up(const test_case *c, const extent *x, int k);
+set_up set_up_force, set_up_initialisation, set_up_stiffness, set_up_range, set_up_near_slip, set_up_step, set_up_batch;
+set_up set_up_harmonic, set_up_element, set_up_element_step, set_up_plane, set_up_plane_step;
+enum { LINE_MOTIONS = 7, PLANE_MOTIONS = 7, DECADES_TO_SLIP = 15 };
+
+/* Values of the multi-precision reference; NaN while `truth_rows` only lists its input. */
+void truth(const mslip_parameters *p, const char *task, int n, const double *arguments, int values, double *value);
+extern FILE *truth_rows, *truth_values; /* its input and, unless NULL, its output */
+
+void check_errors(void);
+void write_tables(FILE *file);
+void write_details(FILE *file); /* of all calls: times over those of a logarithm, a spring-slider and a bank of them */
+void write_entries(FILE *file);
+
+#endif

@@ -1,0 +1,125 @@
+"""Two neighbouring titanium blades as finite elements, reduced to the degrees of freedom of contacts and excitation.
+
+    blade_model.py [DIRECTORY]      writes the files of the models `blades` and `wedge`, into the program's own directory by default
+
+Each blade is a Timoshenko beam that bends in the circumferential direction. Its foot sits in a dovetail slot: the flanks, pressed
+together by the centrifugal force, carry the deflection w in their normal direction (a stiff spring) and part of the rocking of the
+foot (a spring: the pressure moves along the flanks). The rest of the rocking is carried by friction: a rotation theta of the foot
+slides the two flanks, a lever r away from the axis of the blade, by +r theta and -r theta. By symmetry both flanks have the same
+loop, so one coordinate, r theta, serves both. The platform is a rigid mass 30 mm above the foot.
+
+blades  The damper is pressed against the undersides of the two platforms and seated in the second one, so that it slides on the
+        first. At the damper an underside moves by w - e theta, with e the distance from the axis of the platform to its underside.
+wedge   The damper is a rigid body that moves in the circumferential and the radial direction, x and r. It lies between two inclined
+        undersides, at a distance s from the axes of the blades, where these also move radially: the rotation theta moves that of
+        the first blade by -s theta and that of the second, on the other side of its axis, by +s theta.
+"""
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+E, NU, DENSITY = 114e9, 0.32, 4430.0  # Ti-6Al-4V: Pa, -, kg/m3
+LENGTH, WIDTH, THICKNESS = 0.120, 0.040, 0.006  # m
+ELEMENTS, PLATFORM = 24, 12  # the deflection of node 6, 30 mm above the foot; followed by the rotation
+FOOT, ROCKING = 5e8, 2e4  # flanks in their normal direction, N/m; rocking not carried by friction, N m/rad
+LEVER, UNDERSIDE, DAMPER_DISTANCE = 0.008, 0.003, 0.014  # r, e, s, m
+PLATFORM_MASS, PLATFORM_INERTIA, DAMPER_MASS = 0.012, 4e-7, 0.020  # kg, kg m2, kg
+DASHPOT = 150.0  # N s/m, normal to the undersides, at 45 degrees to the circumferential direction
+MISTUNING = 0.005  # of the stiffness of the second blade
+MODES = 8  # of each blade, with its boundary fixed
+
+
+def modes_of(stiffness, mass):
+    """Angular frequencies and mass-normalised modes."""
+    inverse = np.linalg.inv(np.linalg.cholesky(mass))
+    squares, vectors = np.linalg.eigh(inverse @ stiffness @ inverse.T)
+    return np.sqrt(squares), inverse.T @ vectors
+
+
+def beam_element(modulus, l):
+    """Stiffness and mass for deflection and rotation at both nodes. The interpolation satisfies the static equations exactly (Friedman
+    and Kosmatka, Computers and Structures 47, 1993), so that thin beams do not lock."""
+    area = WIDTH * THICKNESS
+    inertia = area * THICKNESS**2 / 12
+    f = 12 * modulus * inertia / (5 / 6 * modulus / (2 * (1 + NU)) * area * l**2)
+    a, b = (4 + f) * l**2, (2 - f) * l**2
+    stiffness = np.array([[12, 6 * l, -12, 6 * l], [6 * l, a, -6 * l, b], [-12, -6 * l, 12, -6 * l], [6 * l, b, -6 * l, a]])
+    mass = np.zeros((4, 4))
+    for node, weight in zip(*np.polynomial.legendre.leggauss(4)):  # of polynomials of degree 6
+        x = 0.5 * (1 + node)
+        deflection = np.array([1 - 3 * x**2 + 2 * x**3 + f * (1 - x), l * (x - 2 * x**2 + x**3 + f / 2 * (x - x**2)),
+                               3 * x**2 - 2 * x**3 + f * x, l * (-(x**2) + x**3 + f / 2 * (x**2 - x))]) / (1 + f)
+        rotation = np.array([6 / l * (x**2 - x), 1 - 4 * x + 3 * x**2 + f * (1 - x), 6 / l * (x - x**2),
+                             3 * x**2 - 2 * x + f * x]) / (1 + f)
+        mass += weight / 2 * l * DENSITY * (area * np.outer(deflection, deflection) + inertia * np.outer(rotation, rotation))
+    return stiffness * modulus * inertia / (l**3 * (1 + f)), mass
+
+
+def blade(modulus, lever, boundary):
+    """Reduced mass and stiffness of a blade; the platform moves radially by `lever` theta."""
+    n = 2 * (ELEMENTS + 1)
+    stiffness, mass = np.zeros((n, n)), np.zeros((n, n))
+    element = beam_element(modulus, LENGTH / ELEMENTS)
+    for d in range(0, n - 2, 2):
+        stiffness[d:d + 4, d:d + 4] += element[0]
+        mass[d:d + 4, d:d + 4] += element[1]
+    stiffness[[0, 1], [0, 1]] += FOOT, ROCKING
+    mass[[PLATFORM, PLATFORM + 1], [PLATFORM, PLATFORM + 1]] += PLATFORM_MASS, PLATFORM_INERTIA
+    change = np.eye(n)  # to the sliding of the flanks, the deflection of the underside, the radial displacement
+    change[1, 1] = 1 / LEVER
+    change[PLATFORM, PLATFORM + 1] = UNDERSIDE / lever
+    change[PLATFORM + 1, PLATFORM + 1] = 1 / lever
+    stiffness, mass = change.T @ stiffness @ change, change.T @ mass @ change
+
+    # The boundary stays physical, with modes of the fixed boundary (Craig and Bampton, AIAA Journal 6, 1968). Their sign is chosen.
+    inner = np.setdiff1d(np.arange(n), boundary)
+    modes = modes_of(stiffness[np.ix_(inner, inner)], mass[np.ix_(inner, inner)])[1][:, :MODES]
+    basis = np.zeros((n, len(boundary) + MODES))
+    basis[boundary, range(len(boundary))] = 1
+    basis[inner, :len(boundary)] = -np.linalg.solve(stiffness[np.ix_(inner, inner)], stiffness[np.ix_(inner, boundary)])
+    basis[inner, len(boundary):] = modes * np.sign(modes.sum(0))
+    return basis.T @ mass @ basis, basis.T @ stiffness @ basis
+
+
+def model(levers, boundary, damping_ratio, damper):
+    """Mass, damping and stiffness of the blades, and after them of the translations of the damper."""
+    size = len(boundary) + MODES
+    matrices = mass, damping, stiffness = np.zeros((3, 2 * size + 2 * damper, 2 * size + 2 * damper))
+    for i, lever in enumerate(levers):
+        own = slice(i * size, (i + 1) * size)
+        mass[own, own], stiffness[own, own] = blade(E * (1 + i * MISTUNING), lever, boundary)
+        # The same damping ratio in all modes with open contacts.
+        omega, modes = modes_of(stiffness[own, own], mass[own, own])
+        modes = mass[own, own] @ modes
+        damping[own, own] = 2 * damping_ratio * modes * omega @ modes.T
+        if damper:  # a dashpot between the damper and the platform
+            normal = np.zeros(len(mass))
+            normal[-2:] = np.array([2 * i - 1, 1]) * np.sqrt(0.5)
+            normal[i * size + 1:i * size + 3] = -normal[-2:]
+            damping += DASHPOT * np.outer(normal, normal)
+    for i in range(2 * size, len(mass)):  # a free body decays like the first mode of the first blade
+        mass[i, i] = DAMPER_MASS
+        damping[i, i] += 2 * damping_ratio * modes_of(stiffness[:size, :size], mass[:size, :size])[0][0] * DAMPER_MASS
+    return [0.5 * (matrix + matrix.T) for matrix in matrices]
+
+
+MODELS = {
+    "blades": ("two blades", ["root", "platform", "tip"], ([1.0, 1.0], [1, PLATFORM, 2 * ELEMENTS], 1e-3, 0)),
+    "wedge": ("two blades with a wedge damper", ["root", "platform", "platform_radial", "tip"],
+              ([-DAMPER_DISTANCE, DAMPER_DISTANCE], [1, PLATFORM, PLATFORM + 1, 2 * ELEMENTS], 5e-3, 1)),
+}
+
+if __name__ == "__main__":
+    for name, (description, boundary, parameters) in MODELS.items():
+        files = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent)
+        texts = ["mass of %s, kg", "damping of %s, N s/m", "stiffness of %s, contacts open, N/m"]
+        for kind, text, matrix in zip(["mass", "damping", "stiffness"], texts, model(*parameters)):
+            head = f"%%MatrixMarket matrix array real symmetric\n% {text % description}\n{len(matrix)} {len(matrix)}\n"
+            values = "".join(f"{value:.16e}\n" for i in range(len(matrix)) for value in matrix[i:, i])
+            (files / f"{name}_{kind}.mtx").write_text(head + values)
+        names = [f"{dof}_{blade}" for blade in (1, 2) for dof in boundary + [f"mode_{i + 1}" for i in range(MODES)]]
+        names += ["damper_x", "damper_r"] if name == "wedge" else []
+        rows = "".join(f"{i} {dof}\n" for i, dof in enumerate(names, 1))
+        (files / f"{name}_dof.txt").write_text(f"# degrees of freedom of {description}; modes are mass-normalised\n{rows}")
