@@ -1986,7 +1986,7 @@ contains
     !! Number of doubles in the state of an element; 0 if directions is neither 1 nor 2. For one tangential direction it
     !! has a capacity of `pieces` pieces of the memory diagram, at least 4, and is never full: if the capacity is
     !! exceeded, the two adjacent pieces are merged for which later forces change least. For two directions the length
-    !! is fixed, and `pieces` is ignored; as long as v does not change, the state is a memory diagram of that length.
+    !! is fixed, and `pieces` is ignored.
     integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1 or 2.
     integer(mslip_size), intent(in) :: pieces  !! Pieces of the memory diagram, >= 0; ignored for two directions.
     integer(mslip_size) :: length  !! The length. It may dimension an array.
@@ -2019,8 +2019,7 @@ contains
 
   subroutine mslip_element_state_error(directions, state, force_error, status)
     !! Bound on the error [N] of the tangential force due to merged pieces: 0 if none was merged since the last gross
-    !! slip or separation. For two directions it is that bound as long as v has not changed since the contact closed,
-    !! and 0 otherwise: pieces are merged only there. The error of the law for two directions is not included.
+    !! slip or separation. For two directions it is 0: the error of their law is not included.
     integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1 or 2.
     real(mslip_real), intent(in) :: state(:)  !! A state.
     real(mslip_real), intent(inout), target :: force_error  !! Bound on the error [N].

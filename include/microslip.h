@@ -766,8 +766,7 @@ int32_t mslip_element_displacement(const struct mslip_element *element,
 
 // Number of doubles in the state of an element; 0 if directions is neither 1 nor 2. For one tangential direction it has a capacity
 // of `pieces` pieces of the memory diagram, at least 4, and is never full: if the capacity is exceeded, the two adjacent pieces
-// are merged for which later forces change least. For two directions the length is fixed, and `pieces` is ignored; as long as v
-// does not change, the state is a memory diagram of that length.
+// are merged for which later forces change least. For two directions the length is fixed, and `pieces` is ignored.
 size_t mslip_element_state_length(int32_t directions,
                                   size_t pieces);
 
@@ -788,8 +787,7 @@ int32_t mslip_element_state_check(int32_t directions,
                                   const double *state);
 
 // Bound on the error [N] of the tangential force due to merged pieces: 0 if none was merged since the last gross slip or
-// separation. For two directions it is that bound as long as v has not changed since the contact closed, and 0 otherwise: pieces are
-// merged only there. The error of the law for two directions is not included.
+// separation. For two directions it is 0: the error of their law is not included.
 //
 // Returns MSLIP_BAD_DIRECTIONS, also for the state of another number of directions, MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or
 // MSLIP_BAD_STATE.
