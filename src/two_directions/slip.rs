@@ -206,6 +206,22 @@ fn find_kernel(
         if !converged {
             slip.descend(other, &problem, derivatives);
         }
+        if middle && theta >= 1.0 && slip.set.count_ones() as usize == end {
+            // The middle of a contact that slides far is its end. Tractions give the springs without cancellation.
+            for k in 0..2 {
+                let (mut d, mut above) = ([0.0; N], 0.0);
+                for j in (0..end).rev() {
+                    let mut sum = slip.level[j] * slip.e[k][j] / contact.per_pressure[j].max(TINY);
+                    for m in j + 1..end {
+                        sum -= d[m] * contact.map(&t, k, m, j);
+                    }
+                    d[j] = sum * contact.per_map(&t, k, j);
+                    above += d[j];
+                    v[k][j] = above;
+                }
+            }
+            break;
+        }
         for k in 0..2 {
             let mut sigma = [0.0; N];
             for i in 0..N {
