@@ -50,7 +50,8 @@ fn element(flat_half_width: f64, ratio: f64) -> Element {
 fn solved(mut a: [[f64; UNKNOWNS]; UNKNOWNS], mut b: [f64; UNKNOWNS]) -> [f64; UNKNOWNS] {
     for p in 0..UNKNOWNS {
         let pivot = (p..UNKNOWNS).max_by(|i, j| a[*i][p].abs().total_cmp(&a[*j][p].abs())).unwrap();
-        (a.swap(p, pivot), b.swap(p, pivot));
+        a.swap(p, pivot);
+        b.swap(p, pivot);
         let (row, value) = (a[p], b[p]);
         for i in p + 1..UNKNOWNS {
             let factor = a[i][p] / row[p];
