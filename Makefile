@@ -147,7 +147,7 @@ host: all
 	@tools/dependencies.sh host
 	examples/calculix/run.sh dist
 
-## fuzz: fuzz the C interface with TIME= seconds for each of two targets, JOBS= processes at once
+## fuzz: fuzz the C interface with TIME= seconds, JOBS= processes at once
 fuzz:
 	@tools/dependencies.sh fuzz
 	tools/fuzz.sh

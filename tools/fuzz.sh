@@ -2,7 +2,6 @@
 # fuzz.sh [--check | --seeds] [TARGET...]: coverage-guided fuzzing of the library (libFuzzer, AddressSanitizer) on stable Rust.
 #
 #   calls     calls of the C interface, with invalid arguments and corrupted memory
-#   physics   invariants of any contact and load history
 #
 # TIME seconds for each target (60), JOBS processes (1), MICROSLIP_SEED (new each time). New inputs are kept in
 # verification/fuzz/corpus/, failing ones in verification/fuzz/artifacts/.
@@ -18,7 +17,7 @@ case ${1:-} in
     --check) mode=check TIME=600 JOBS=1 && shift ;;
     --seeds) mode=seeds && shift ;;
 esac
-[ $# -gt 0 ] || set -- calls physics
+[ $# -gt 0 ] || set -- calls
 
 # The instrumentation of cargo-fuzz, without that of comparisons. --target keeps the flags from build scripts.
 host=$(rustc -vV | sed -n 's/^host: //p')

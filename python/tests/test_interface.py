@@ -292,33 +292,6 @@ def test_plain_data_is_pickled_and_checked():
         microslip.State.from_bytes(b"")
 
 
-def test_values_of_a_contact_can_only_be_read():
-    assert contact.slip_force == 400
-    with pytest.raises(AttributeError, match="can only be read"):
-        contact.slip_force = 1.0
-    assert microslip.Contact.slip_force.__doc__ == "mu N [N]."
-    assert (both.directions, both.normal_input) == (2, microslip.INPUT_APPROACH)
-
-
-def test_equivalents():
-    jenkins = contact.jenkins_equivalent(SLIP)
-    assert jenkins.slip_force < contact.slip_force
-    iwan = contact.iwan_equivalent(8)
-    assert_allclose(iwan.slip_force.sum(), contact.slip_force, rtol=1e-14)
-    displacement = np.linspace(0, 1.5, 200) * SLIP
-    parallel = np.minimum(np.outer(displacement, iwan.stiffness), iwan.slip_force).sum(axis=1)
-    error = abs(parallel - contact.monotonic_force(displacement).force).max() / contact.slip_force
-    assert 0.5 * iwan.force_error < error <= iwan.force_error * (1 + 1e-9)
-
-
-def test_hysteresis_loop():
-    loop = contact.hysteresis_loop(0.8 * SLIP, 400)
-    assert_allclose(loop.displacement, 0.8 * SLIP * np.cos(2 * np.pi * np.arange(400) / 400), rtol=0, atol=1e-15 * SLIP)
-    # The area of the polygon, of second order in the distance of the points.
-    area = 0.5 * np.sum(loop.displacement * np.roll(loop.force, -1) - np.roll(loop.displacement, -1) * loop.force)
-    assert abs(area) == pytest.approx(contact.dissipated_energy(loop.force.max()), rel=1e-3)
-
-
 def test_threads_share_a_workspace():
     # Calls of about a millisecond, so that threads meet in them.
     long = microslip.Workspace(2, 20_000)

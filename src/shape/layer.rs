@@ -723,6 +723,19 @@ pub(crate) mod tests {
         flats.flat_map(with_layers).chain(with_layers(HertzEllipse::new(&ellipse).unwrap())).collect()
     }
 
+    /// The logarithms and their series for a small argument, on both sides of the place where one takes over.
+    #[test]
+    fn logarithms_join_their_series() {
+        let layer = LayerCurve { compliance: 1.0, stiffening: 0.4, softest: 0.6 };
+        let joins = |middle: f64, ratio: &dyn Fn(f64) -> f64| {
+            let [below, above] = [1.0 - 1e-12, 1.0 + 1e-12].map(|part| ratio(part * middle));
+            assert!((above / below - 1.0).abs() < 1e-15, "{middle:e}: {below:e} {above:e}");
+        };
+        joins(1e-8 / 0.4, &|tau| layer.consumed(Complement { consumed: tau, remaining: 1.0 - tau }) / tau);
+        joins(1e-8 / 0.4 * 0.6, &|s| layer.remaining(s) / s);
+        joins(1e-8 / 0.4, &|value| layer.load_remaining(value) / value);
+    }
+
     #[test]
     fn quantities_are_integrals_of_the_compliances() {
         for shape in shapes() {

@@ -6,7 +6,6 @@ function run
     gradients();
     elements_of_nlvib();
     errors();
-    times();
     check();
 end
 
@@ -213,56 +212,4 @@ function rejected(message, call)
         found = failure.message;
     end
     check(['"', message, '" in the message: ', found], double(isempty(strfind(found, message))), 0);
-end
-
-% Microseconds of a call with its Jacobian, five harmonics and 128 samples, beside a spring-slider in the language of Octave.
-function times()
-    displacement = [0; 4e-7*ones(10, 1)];
-    contact = microslip('contact', parameters());
-    element = microslip('element', parameters());
-    both = [displacement, [microslip('approach', element, 150); zeros(10, 1)]];
-    printf('contact %.0f us, element %.0f us, spring-slider in Octave %.0f us\n', ...
-           microseconds(2000, @() two(@() microslip('harmonic_force', contact, 128, displacement))), ...
-           microseconds(2000, @() two(@() microslip('harmonic_force', element, 128, both))), ...
-           microseconds(20, @() spring_slider(displacement, 5, 128, 1e8, 60)));
-end
-
-function two(call)
-    [~, ~] = call();
-end
-
-function time = microseconds(repetitions, call)
-    call();
-    start = tic;
-    for i = 1:repetitions
-        call();
-    end
-    time = 1e6*toc(start)/repetitions;
-end
-
-% Two periods of samples from the unloaded state; the second one counts.
-function [force, jacobian] = spring_slider(displacement, H, N, stiffness, limit)
-    phase = 2*pi*(0:2*N-1).'/N;
-    basis = ones(2*N, 2*H + 1);
-    for k = 1:H
-        basis(:, 2*k) = cos(k*phase);
-        basis(:, 2*k+1) = sin(k*phase);
-    end
-    u = basis*displacement;
-    f = zeros(2*N, 1);
-    df = zeros(2*N, 2*H + 1);
-    df(1,:) = stiffness*basis(1,:);
-    f(1) = stiffness*u(1);
-    for i = 2:2*N
-        f(i) = f(i-1) + stiffness*(u(i) - u(i-1));
-        if abs(f(i)) >= limit
-            f(i) = limit*sign(f(i));
-        else
-            df(i,:) = df(i-1,:) + stiffness*(basis(i,:) - basis(i-1,:));
-        end
-    end
-    weights = basis(N+1:end,:).'*2/N;
-    weights(1,:) = weights(1,:)/2;
-    force = weights*f(N+1:end);
-    jacobian = weights*df(N+1:end,:);
 end
