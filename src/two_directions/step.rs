@@ -115,10 +115,10 @@ fn finish<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
             }
         }
     }
-    // Coulomb's bound, which a contact that slides far reaches.
+    // Coulomb's bound.
     let bound = c.now.load;
     let square = force[0] * force[0] + force[1] * force[1];
-    if slip.slides >= 1.0 || square.value() > bound.value() * bound.value() {
+    if square.value() > bound.value() * bound.value() {
         let scale = square.at_least(TINY).sqrt().inverse().times(bound);
         force = both!(|k| force[k] * scale);
     }
