@@ -27,7 +27,6 @@ use crate::numerics::chebyshev::Interpolant;
 use crate::numerics::fp_class::in_0_to;
 use crate::numerics::quadrature::gauss_legendre;
 use crate::simd::dispatch;
-use core::array::from_fn;
 use core::f64::consts::PI;
 
 /// Complex stiffness at one displacement amplitude. Quantities are evaluated on demand.
@@ -262,8 +261,11 @@ impl Contact {
             return [0.0; _];
         }
         let [rho, x, weights] = &RULE_IN_SLIP;
-        let per_initial = 1.0 / self.initial_stiffness;
-        from_fn(|i| weights[i] * x[i].sqrt() * (per_initial * self.stiffness_in_integral(x[i], rho[i])))
+        let mut products = [0.0; NODES_IN_SLIP];
+        let blocks = products.as_chunks_mut::<4>().0.iter_mut().zip(x.as_chunks::<4>().0).zip(rho.as_chunks::<4>().0);
+        blocks.for_each(|((block, x), rho)| *block = self.relative_stiffnesses(x, rho));
+        products.iter_mut().zip(weights).zip(x).for_each(|((product, weight), x)| *product *= weight * x.sqrt());
+        products
     }
 
     #[inline(always)]

@@ -124,7 +124,7 @@ impl<const N: usize> Interpolant<N> {
     /// The interpolant of values at the points.
     pub fn through(values: &[f64; N]) -> Interpolant<N> {
         let mut coefficients = [0.0; N];
-        add_rows(&mut coefficients, values, const { &Self::AT_POINTS }.as_flattened(), N);
+        add_rows(&mut coefficients, values.iter().copied(), const { &Self::AT_POINTS });
         coefficients.iter_mut().for_each(|sum| *sum *= 2.0 / N as f64);
         if let Some(first) = coefficients.first_mut() {
             *first *= 0.5;
@@ -136,13 +136,22 @@ impl<const N: usize> Interpolant<N> {
     ///
     /// At the M points T_M+k = -T_M-k, and sin θ dT_n/dz = n sin nθ has the same value for both. So the transforms
     /// `a_m = 2/M Σ f cos mθ` and `b_m = 2/M Σ f' sin θ sin mθ` equal `c_m - c_2M-m` and `m c_m + (2M-m) c_2M-m`.
+    #[inline(never)]
     pub fn osculating<const M: usize>(tangents: &[Tangent; M]) -> Interpolant<N> {
         const { assert!(N == 2 * M) };
         let mut coefficients = [0.0; N];
         let (values, slopes) = coefficients.split_at_mut(M);
-        add_rows(values, &tangents.map(|at| at.value), const { &Interpolant::<M>::AT_POINTS }.as_flattened(), M);
-        add_rows(slopes, &tangents.map(|at| at.slope), const { &Interpolant::<M>::SINES }.as_flattened(), M);
-        combine(values, slopes);
+        add_rows(values, tangents.iter().map(|at| at.value), const { &Interpolant::<M>::AT_POINTS });
+        add_rows(slopes, tangents.iter().map(|at| at.slope), const { &Interpolant::<M>::SINES });
+        values.iter_mut().for_each(|sum| *sum *= 2.0 / M as f64);
+        slopes.iter_mut().for_each(|sum| *sum *= 1.0 / (M * M) as f64);
+        if let [mean, ..] = values {
+            *mean *= 0.5;
+        }
+        for ((value, slope), m) in values.iter_mut().skip(1).zip(slopes.iter_mut().skip(1).rev()).zip(1..) {
+            *slope -= *value * (f64::from(m) / N as f64);
+            *value += *slope;
+        }
         Interpolant(coefficients)
     }
 
@@ -187,31 +196,25 @@ impl<const N: usize> Interpolant<N> {
 
     fn powers_of<const M: usize>(&self, table: &[[f64; M]; M]) -> [f64; N] {
         let mut powers = [0.0; N];
-        add_rows(&mut powers, &self.0, table.as_flattened(), M);
+        add_triangle(&mut powers, &self.0, table.as_flattened(), M);
         powers
     }
 }
 
-/// Adds rows of a table of the given width, each times its factor. One function for all lengths, which the compiler would unroll.
-#[inline(never)]
-fn add_rows(sums: &mut [f64], factors: &[f64], table: &[f64], width: usize) {
-    for (factor, row) in factors.iter().zip(table.chunks_exact(width.max(1))) {
+/// Adds rows, each times its factor.
+#[inline(always)]
+fn add_rows<const M: usize>(sums: &mut [f64], factors: impl Iterator<Item = f64>, rows: &[[f64; M]; M]) {
+    for (factor, row) in factors.zip(rows) {
         sums.iter_mut().zip(row).for_each(|(sum, value)| *sum += factor * value);
     }
 }
 
-/// The terms c_m and c_M+m from the sums `Σ f cos mθ` and `Σ f' sin θ sin (M-m)θ`.
+/// Adds the polynomials of a table of the given width, of degrees 0, 1, ..., each times its factor. One function for all lengths, for each
+/// of which the compiler would unroll it.
 #[inline(never)]
-fn combine(values: &mut [f64], slopes: &mut [f64]) {
-    let points = values.len() as f64;
-    values.iter_mut().for_each(|sum| *sum *= 2.0 / points);
-    slopes.iter_mut().for_each(|sum| *sum *= 1.0 / (points * points));
-    if let [mean, ..] = values {
-        *mean *= 0.5;
-    }
-    for ((value, slope), m) in values.iter_mut().skip(1).zip(slopes.iter_mut().skip(1).rev()).zip(1..) {
-        *slope -= *value * (f64::from(m) / (2.0 * points));
-        *value += *slope;
+fn add_triangle(powers: &mut [f64], factors: &[f64], table: &[f64], width: usize) {
+    for ((factor, row), terms) in factors.iter().zip(table.chunks_exact(width.max(1))).zip(1..) {
+        powers.iter_mut().zip(row).take(terms).for_each(|(power, value)| *power += factor * value);
     }
 }
 
@@ -237,7 +240,7 @@ pub(crate) fn powers<const R: usize>(series: &[f64]) -> Rows<R> {
     let used = series.iter().rposition(|term| term.abs() > f64::EPSILON * size).map_or(0, |last| last + 1);
     let mut result = [[0.0; 4]; R];
     let kept = series.get(..used.min(4 * R)).unwrap_or(&[]);
-    add_rows(result.as_flattened_mut(), kept, AROUND_MIDDLE.as_flattened(), AROUND_MIDDLE.len());
+    add_triangle(result.as_flattened_mut(), kept, AROUND_MIDDLE.as_flattened(), AROUND_MIDDLE.len());
     result
 }
 
