@@ -44,23 +44,6 @@ aft *aft_of(int directions, double normal_stiffness, int harmonics, int samples,
    column-major, or NULL. */
 void sliders_harmonic(aft *a, const double *displacement, double *force, double *jacobian);
 
-/* The law as Allara (2009) computes it: Eq. 10 by quadrature of the tractions, inverted by root finding; a contact of two bodies of
-   the same material. Stick zones are measured by w = sqrt(c^2 - a^2), c their half-width. */
-typedef struct paper {
-    double flat, half_width, w;    /* a, b, and w of the whole contact */
-    double load, modulus, length, friction, poisson; /* P = N/L, E*, L, mu, nu/(1 - nu) */
-    double slip_force, slip_displacement;
-    int nodes;                     /* of the quadrature: 2 nodes + 1 on each smooth part of the tractions */
-} paper;
-
-paper paper_of(const mslip_parameters *p, double half_width, int nodes);
-
-/* Force and tangent stiffness on the initial loading curve at n displacements >= 0. */
-void paper_curve(const void *paper, size_t n, const double *displacement, double *force, double *stiffness);
-
-/* Section 3.4: K', K'' and their derivatives with respect to the amplitude. */
-void paper_stiffness(const void *paper, double amplitude, double result[4]);
-
 /* Does the work once; the result depends on all of it, so that none is optimised away. */
 typedef double work(void *context);
 
@@ -69,7 +52,7 @@ typedef struct entry {
     const char *task, *motion, *method;
     double shape, amplitude;          /* a/b, and displacement over that of gross slip */
     int harmonics, samples, jacobian;
-    double parameter;                 /* nodes, sliders or items; 0: none */
+    double parameter;                 /* sliders or items; 0: none */
     double error;                     /* relative, against multi-precision; harmonic force: against exact integrals; or -1 */
     double sample_error;              /* harmonic force: against the reference with the same samples; or -1 */
     double time, logarithms;          /* median over the rounds of one item [ns], and over that of a logarithm */
@@ -82,7 +65,7 @@ extern entry entries[];
 extern size_t entry_count;
 extern int rounds; /* per entry; the slowest have fewer; 0: nothing is timed */
 
-/* Adds an entry without errors and runs it once. Its context is a copy of so many bytes. */
+/* Adds an entry whose error is 0 and runs it once. The entry keeps its own copy of the context, of the given number of bytes. */
 entry *entry_add(entry e, const void *context, size_t bytes);
 void measure(size_t first); /* times all entries from `first` on, interleaved */
 
@@ -109,13 +92,12 @@ typedef struct extent {
 } extent;
 
 /* A steel contact of half-width 0.5 mm under 800 N, and what competitors derive from it. */
-enum { BANKS = 7, RULES = 6 };
+enum { BANKS = 7 };
 typedef struct test_case {
     double shape; /* a/b */
     mslip_parameters parameters;
     mslip_contact contact;
     sliders bank[BANKS]; /* 1, 4, 16, ... sliders, fitted by the library */
-    paper paper[RULES];  /* 4 to 32 nodes */
 } test_case;
 test_case case_of(double shape);
 

@@ -25,9 +25,6 @@ test_case case_of(double shape)
     for (int k = 0; k < BANKS; ++k) {
         c.bank[k] = sliders_fitted(&c.contact, (size_t)1 << 2 * k, 0.0);
     }
-    for (int k = 0; k < RULES; ++k) {
-        c.paper[k] = paper_of(p, c.contact.half_width, (int)(4.0 * pow(2.0, 3.0 * k / (RULES - 1)) + 0.5));
-    }
     return c;
 }
 

@@ -5,7 +5,6 @@ set encoding utf8
 # Colours that colour-blind readers distinguish (Okabe and Ito); markers and dashes differ too.
 set style line 1 lc rgb '#0072B2' lw 2.4 dt 1     pt 7  ps 1.0
 set style line 2 lc rgb '#0072B2' lw 2.4 dt (6,3) pt 6  ps 1.0
-set style line 3 lc rgb '#009E73' lw 1.6 dt 1     pt 9  ps 1.0
 set style line 4 lc rgb '#555555' lw 1.6 dt 1     pt 11 ps 1.0
 set style line 5 lc rgb '#000000' lw 1.6 dt (2,3) pt 2  ps 1.0
 
@@ -35,7 +34,6 @@ do for [name in 'force stiffness'] {
     shape = panel == 1 ? 0 : 0.9
     set title shape_title(shape)
     plot rows(name, shape, 0, 0, 'microslip')     with linespoints ls 1 title panel == 1 ? 'microslip' : '', \
-         rows(name, shape, 0, 0, 'quadrature')    with linespoints ls 3 title panel == 1 ? 'Eq. 10 by quadrature' : '', \
          rows(name, shape, 0, 0, 'sliders')       with linespoints ls 4 title panel == 1 ? 'parallel sliders, 4 to 4096' : '', \
          rows(name, shape, 0, 0, 'spring-slider') with linespoints ls 5 title panel == 1 ? 'one spring-slider' : ''
   }

@@ -25,7 +25,6 @@ void check_errors(void)
     static const struct { const char *task, *method; double parameter, bound; } checks[] = {
         { "force", "microslip", 0.0, 1e-13 }, { "stiffness", "microslip", 0.0, 1e-12 }, { "harmonic", "microslip", 0.0, 1e-13 },
         { "time step", "microslip", 0.0, 1e-13 }, { "initialisation", "microslip", 0.0, 1e-14 },
-        { "force", "quadrature", 32.0, 1e-10 }, { "stiffness", "quadrature", 32.0, 1e-6 },
         { "force", "sliders", 1024.0, 1e-5 }, { "stiffness", "sliders", 1024.0, 1e-3 },
         { "time step", "sliders", 1024.0, 1e-5 }, { "harmonic", "sliders", 1024.0, 1e-5 },
         { "force", "spring-slider", 0.0, 0.1 }, { "time step", "spring-slider", 0.0, 0.1 },
@@ -78,7 +77,7 @@ static double time_at(const entry *at, const char *method, double level, int *ex
 }
 
 /* Times of one kind of call over shapes and amplitudes. */
-typedef struct { sample own, quadrature, coarse, fine, one; double error, sampling, sampling_of_one; } summary;
+typedef struct { sample own, coarse, fine, one; double error, sampling, sampling_of_one; } summary;
 
 static const summary *summary_of(const char *own, const entry *kind)
 {
@@ -97,7 +96,6 @@ static const summary *summary_of(const char *own, const entry *kind)
             /* Event-driven: against exact integrals, not at equal samples. */
             s.error = fmax(s.error, strcmp(own, "microslip") ? e->error : error_of(e));
             if (!strcmp(own, "microslip")) {
-                put(&s.quadrature, e->amplitude < 1.0 ? time_at(e, "quadrature", 1e-8, &s.quadrature.extrapolated) : -1.0);
                 put(&s.coarse, time_at(e, "sliders", 1e-4, &s.coarse.extrapolated));
                 put(&s.fine, time_at(e, "sliders", 1e-8, &s.fine.extrapolated));
             }
@@ -124,8 +122,8 @@ static void row(FILE *file, const char *title, const char *own, const char *task
     const entry kind = { .task = task, .motion = "", .harmonics = harmonics, .samples = samples, .jacobian = jacobian };
     const summary *s = summary_of(own, &kind);
     if (s->own.n) {
-        fprintf(file, "| %s | %s | %.0e | %s | %s | %s | %s |\n", title, cell(&s->own), s->error, cell(&s->quadrature),
-                cell(&s->coarse), cell(&s->fine), cell(&s->one));
+        fprintf(file, "| %s | %s | %.0e | %s | %s | %s |\n", title, cell(&s->own), s->error, cell(&s->coarse), cell(&s->fine),
+                cell(&s->one));
     }
 }
 
@@ -178,8 +176,8 @@ void write_tables(FILE *file)
             newton_row(file, contacts[k].name, contacts[k].task, contacts[k].motion, h, h == 1 || k == 2 ? 64 : h == 5 ? 128 : 256);
         }
     }
-    fputs("\n| task | microslip | error | Eq. 10 by quadrature, 1e-8 | parallel sliders, 1e-4 | parallel sliders, 1e-8 "
-          "| one spring-slider |\n|---|---:|---:|---:|---:|---:|---:|\n", file);
+    fputs("\n| task | microslip | error | parallel sliders, 1e-4 | parallel sliders, 1e-8 "
+          "| one spring-slider |\n|---|---:|---:|---:|---:|---:|\n", file);
     row(file, "force and stiffness at a displacement", "microslip", "force", 0, 0, 0);
     row(file, "complex stiffness and derivatives", "microslip", "stiffness", 0, 0, 0);
     for (int h = 1; h <= 9; h += 4) {

@@ -4,11 +4,11 @@
 #include <math.h>
 #include <string.h>
 
-enum { POINTS = 1000, STRIDE = 100, FEW = POINTS / STRIDE }; /* slow methods and errors take every 100th point */
+enum { POINTS = 1000, STRIDE = 100, FEW = POINTS / STRIDE }; /* errors take every 100th point */
 static double points[POINTS], few[FEW];
 
 typedef void curve(const void *law, size_t n, const double *displacement, double *force, double *stiffness);
-typedef struct { curve *curve; const void *law; int all; } curve_job;
+typedef struct { curve *curve; const void *law; } curve_job;
 
 static void microslip_curve(const void *contact, size_t n, const double *displacement, double *force, double *stiffness)
 {
@@ -29,9 +29,8 @@ static double run_curve(void *context)
 {
     const curve_job *j = context;
     double force[POINTS], stiffness[POINTS];
-    const size_t n = j->all ? POINTS : FEW;
-    j->curve(j->law, n, j->all ? points : few, force, stiffness);
-    return force[n - 1] + stiffness[n / 2];
+    j->curve(j->law, POINTS, points, force, stiffness);
+    return force[POINTS - 1] + stiffness[POINTS / 2];
 }
 
 static void add_curve(const entry *e, const double *exact, const char *method, double parameter, curve_job job)
@@ -40,7 +39,7 @@ static void add_curve(const entry *e, const double *exact, const char *method, d
     entry *added = entry_add(*e, &job, sizeof job);
     added->method = method;
     added->parameter = parameter;
-    added->items = job.all ? POINTS : FEW;
+    added->items = POINTS;
     job.curve(job.law, FEW, few, force, stiffness);
     for (int i = 0; i < FEW; ++i) {
         added->error = fmax(added->error, fabs(force[i] / exact[i] - 1.0));
@@ -60,14 +59,11 @@ void set_up_force(const test_case *c, const extent *x, int a)
         truth(&c->parameters, "force", 1, &few[i], 2, value);
         exact[i] = value[0];
     }
-    add_curve(&e, exact, "microslip", 0.0, (curve_job) { microslip_curve, &c->contact, 1 });
-    for (int k = 0; k < RULES; ++k) {
-        add_curve(&e, exact, "quadrature", c->paper[k].nodes, (curve_job) { paper_curve, &c->paper[k], 0 });
-    }
+    add_curve(&e, exact, "microslip", 0.0, (curve_job) { microslip_curve, &c->contact });
     for (int k = 1; k < BANKS && (int)c->bank[k].n <= x->most_sliders; ++k) {
-        add_curve(&e, exact, "sliders", (double)c->bank[k].n, (curve_job) { sliders_curve, &c->bank[k], c->bank[k].n <= 256 });
+        add_curve(&e, exact, "sliders", (double)c->bank[k].n, (curve_job) { sliders_curve, &c->bank[k] });
     }
-    add_curve(&e, exact, "spring-slider", 0.0, (curve_job) { jenkins_curve, &c->bank[0], 1 });
+    add_curve(&e, exact, "spring-slider", 0.0, (curve_job) { jenkins_curve, &c->bank[0] });
 }
 
 static double run_contact_init(void *parameters)
@@ -138,7 +134,7 @@ static void add_stiffness(const entry *e, double (*exact)[4], const char *method
 
 void set_up_stiffness(const test_case *c, const extent *x, int a)
 {
-    enum { N = 8, SLOW = 2 };
+    enum { N = 8 };
     double exact[N][4];
     const entry e = { .task = "stiffness", .amplitude = x->amplitude[a], .run = run_stiffness };
     stiffness_job j = { .law = &c->contact, .n = N };
@@ -151,12 +147,6 @@ void set_up_stiffness(const test_case *c, const extent *x, int a)
     for (int k = 0; k < BANKS && (int)c->bank[k].n <= x->most_sliders; ++k) {
         j.law = &c->bank[k];
         add_stiffness(&e, exact, k ? "sliders" : "spring-slider", k ? (double)c->bank[k].n : 0.0, &j);
-    }
-    j.stiffness = paper_stiffness;
-    j.n = SLOW;
-    for (int k = 0; k < RULES; ++k) {
-        j.law = &c->paper[k];
-        add_stiffness(&e, exact, "quadrature", c->paper[k].nodes, &j);
     }
 }
 

@@ -3,7 +3,7 @@
 #   make test PREFIX=...    compile templates and driver twice, and run them: with checks and floating-point traps; with OpenMP
 #   make clean
 #
-# PREFIX is the installation of microslip. TEMPLATES are in fixed form, MODULES in free form.
+# PREFIX is the installation of microslip; the driver needs LAPACK. TEMPLATES are in fixed form, MODULES in free form.
 
 PREFIX ?= ../../dist
 FC ?= gfortran
@@ -32,7 +32,7 @@ build/%/driver: always
 	rm -rf build/$* && mkdir -p build/$*
 	cd build/$* && $(FC) $(FLAGS_$*) -std=f2008 -pedantic $(WARNINGS) -c $(SOURCES)
 	$(if $(TEMPLATES),cd build/$* && $(FC) $(FLAGS_$*) $(WARNINGS) $(PRESCRIBED) -c $(abspath $(TEMPLATES)))
-	cd build/$* && $(FC) $(FLAGS_$*) *.o $(abspath $(PREFIX))/lib/libmicroslip.a -lm -o driver
+	cd build/$* && $(FC) $(FLAGS_$*) *.o $(abspath $(PREFIX))/lib/libmicroslip.a -llapack -lblas -lm -o driver
 
 clean:
 	rm -rf build

@@ -7,7 +7,7 @@ module host
   use microslip
   implicit none
   private
-  public :: contact_model, run
+  public :: contact_model, element_of, points_of, run
 
   abstract interface
     !> One call of the user subroutine: from displacement and state variables at the start of the increment to those of the trial.
@@ -42,6 +42,45 @@ module host
   real(wp), parameter :: usual_step = 0.01_wp, restart_time = 0.5_wp
 
 contains
+
+  !> The element of a, R, L, N, mu, E1, nu1, E2, nu2.
+  function element_of(c, directions, normal_input) result(element)
+    real(wp), intent(in) :: c(:)
+    integer, intent(in) :: directions, normal_input
+    type(mslip_element) :: element
+    integer(mslip_int) :: status
+
+    call mslip_element_init(mslip_parameters(c(1), c(2), c(3), c(4), c(5), [mslip_material(c(6), c(7)), &
+      mslip_material(c(8), c(9))], displacement_reference=MSLIP_RIGID_STRIP), directions, normal_input, element, status)
+    call check_status('element', status, MSLIP_OK)
+  end function element_of
+
+  !> Points with these elements: the unknowns of the program are those of the law, and force and energy a share of the element's.
+  function points_of(name, elements, share, variables, call_user) result(model)
+    character(len=*), intent(in) :: name
+    type(mslip_element), intent(in) :: elements(:)
+    real(wp), intent(in) :: share(:)
+    integer, intent(in) :: variables
+    procedure(user_subroutine) :: call_user
+    type(contact_model) :: model
+    integer :: j, m
+
+    m = elements(1)%directions + 1
+    write (model%name, '(2a, i0)') name, ', directions: ', m - 1
+    model%points = size(elements)
+    model%unknowns = m
+    model%variables = variables
+    model%elements = elements
+    model%share = share
+    allocate (model%to_law(m, m, size(elements)), model%from_law(m, m, size(elements)), source=0.0_wp)
+    do j = 1, m
+      model%to_law(j, j, :) = 1
+      model%from_law(j, j, :) = share
+    end do
+    model%offset = spread(0.0_wp, 1, m)
+    model%spring = spread(0.3_wp*elements(1)%tangential_stiffness, 1, m)
+    model%call_user => call_user
+  end function points_of
 
   subroutine run(model)
     type(contact_model), intent(in) :: model
@@ -134,13 +173,14 @@ contains
     logical, intent(out) :: converged
     real(wp) :: residual(model%unknowns), matrix(model%unknowns, model%unknowns), ratio, tolerance
     logical :: close(model%points), failed
-    integer :: iteration, i, j
+    integer :: iteration, i, j, pivots(model%unknowns), info
+    external :: dgesv
 
     x = x_start
     tolerance = 1e-10_wp*maxval(model%spring)*model%elements(1)%approach
     do iteration = 1, 16
       failed = .false.
-      !$omp parallel do private(residual, matrix, ratio, j) reduction(.or.: failed)
+      !$omp parallel do private(residual, matrix, ratio, j, pivots, info) reduction(.or.: failed)
       do i = 1, model%points
         call model%call_user(i, x_start(:, i), x(:, i), before(:, i), after(:, i), force(:, i), tangent(:, :, i), dissipated(i), &
           ratio)
@@ -152,7 +192,7 @@ contains
           do j = 1, model%unknowns
             matrix(j, j) = matrix(j, j) + model%spring(j)
           end do
-          call solve(matrix, residual)
+          call dgesv(size(residual), 1, matrix, size(residual), pivots, residual, size(residual), info)
           x(:, i) = x(:, i) - residual
         end if
       end do
@@ -323,30 +363,5 @@ contains
     call check(trim(model%name)//': a shorter increment', ratio < 1)
     call check_same(trim(model%name)//': state variables after an error', after, before(:, 1))
   end subroutine exceed_range
-
-  !> Gaussian elimination with pivoting; the solution replaces b.
-  subroutine solve(a, b)
-    real(wp), intent(inout) :: a(:, :), b(:)
-    real(wp) :: row(size(b)), element
-    integer :: i, j, p
-
-    do i = 1, size(b)
-      p = i - 1 + maxloc(abs(a(i:, i)), 1)
-      row = a(i, :)
-      a(i, :) = a(p, :)
-      a(p, :) = row
-      element = b(i)
-      b(i) = b(p)
-      b(p) = element
-      do j = i + 1, size(b)
-        element = a(j, i)/a(i, i)
-        a(j, i:) = a(j, i:) - element*a(i, i:)
-        b(j) = b(j) - element*b(i)
-      end do
-    end do
-    do i = size(b), 1, -1
-      b(i) = (b(i) - dot_product(a(i, i+1:), b(i+1:)))/a(i, i)
-    end do
-  end subroutine solve
 
 end module host

@@ -151,9 +151,6 @@ impl Element {
     }
 
     /// Initialises an element in place; unchanged on an error.
-    ///
-    /// # Errors
-    /// As for [`Element::rounded_flat`].
     pub(crate) fn init_rounded_flat(
         &mut self,
         parameters: &Parameters,
@@ -172,9 +169,6 @@ impl Element {
     }
 
     /// Initialises an element in place; unchanged on an error.
-    ///
-    /// # Errors
-    /// As for [`Element::elliptic`].
     pub(crate) fn init_elliptic(
         &mut self,
         parameters: &EllipticParameters,
@@ -206,23 +200,8 @@ impl Element {
         let Common { normal_force, friction_coefficient, .. } = *parameters;
         let plane = shape.plane();
         let layer = plane.layer;
-        let mut largest = shape.largest_size();
-        if directions == Directions::Two {
-            largest = largest.min(plane.largest);
-        }
-        let w = shape.at_load(normal_force);
+        let [w, largest] = sizes(shape, normal_force, directions)?;
         let compliances = [Quantity::Approach, Quantity::Shift].map(|quantity| shape.compliance(quantity, w));
-        if !layer.is_none() {
-            layer.check_share(normal_force, compliances)?;
-            // The contact stiffens with the load, so that a layer has energies of the order of N² where those of a contact are smaller.
-            let most = normal_force * MOST_LOAD_WITH_LAYER;
-            if shape.load(largest) > most {
-                largest = shape.at_load(most);
-            }
-        }
-        if w >= largest {
-            return Err(Error::LengthTooShort);
-        }
         let [approach, shift] = [Quantity::Approach, Quantity::Shift].map(|quantity| shape.value(quantity, w));
         for value in [approach, shift, normal_force] {
             // The element accepts its own load and approach.
@@ -267,6 +246,13 @@ impl Element {
             self.lateral[0],
             self.lateral[1],
         ]);
+        self.fill_tables(shape, input, [normal_force, approach, shift]);
+        Ok(())
+    }
+
+    /// Fills the tables up to N, U and S of the parameters.
+    fn fill_tables(&mut self, shape: &dyn Shape, input: NormalInput, [normal_force, approach, shift]: [f64; 3]) {
+        let plane = shape.plane();
         // The approach and the shift of a short contact have a maximum just beyond the largest size, where their inverses are
         // singular. Where that is at less than 2.25 times the argument, it would lie within 9 half-lengths of a quarter.
         let regular = |value: f64, largest: f64| value.min(largest / 2.25);
@@ -282,13 +268,12 @@ impl Element {
             NormalInput::Approach => (Quantity::Approach, regular(approach, self.largest_approach)),
             NormalInput::Force => (Quantity::Load, normal_force),
         };
-        let is_sum = layer.is_none() && input == NormalInput::Approach;
+        let is_sum = plane.layer.is_none() && input == NormalInput::Approach;
         self.shift_per = if is_sum { [plane.per_approach[0], plane.per_load[0]] } else { [0.0; 2] };
         Table::fill([&mut self.of_input, &mut self.shift], largest, &mut |x| {
             let [load, approach, shift] = shape.series(shape.size_at(argument, x), argument);
             [if input == NormalInput::Force { approach } else { load }, shift]
         });
-        Ok(())
     }
 
     /// The family of sizes in both directions.
@@ -328,9 +313,7 @@ impl Element {
     }
 
     /// Checks the tag of an element that is used with the given number of directions.
-    ///
-    /// # Errors
-    /// `BadElement` unless it was initialised by this version; `BadDirections` for the other number of directions.
+    /// Errors: `BadElement` unless it was initialised by this version; `BadDirections` for the other number of directions.
     #[inline(always)]
     pub(crate) fn check_directions(&self, directions: Directions) -> Result<(), Error> {
         match self.tag & !(ELLIPTIC | FORCE_INPUT) {
@@ -505,9 +488,7 @@ impl Element {
     }
 
     /// Checks a normal component.
-    ///
-    /// # Errors
-    /// `BadNormalForce` for a force that is negative or not finite; `BadDisplacement` for an approach that is not finite;
+    /// Errors: `BadNormalForce` for a force that is negative or not finite; `BadDisplacement` for an approach that is not finite;
     /// `LengthTooShort` if the contact would become too wide for its length.
     #[inline(always)]
     pub(crate) fn check_input(&self, input: f64) -> Result<(), Error> {
@@ -567,17 +548,16 @@ impl Element {
     /// N, S and, if requested, their derivatives at four inputs; zeros for an open contact.
     #[inline(always)]
     pub(crate) fn four_normals<const SLOPES: bool>(&self, input: &[f64; 4]) -> [[f64; 4]; 4] {
-        if input.iter().all(|input| *input > 0.0) {
-            return self.closed::<SLOPES, 4>(input);
-        }
         // A closed contact in place of each open one.
-        let substitute = self.of_input.smallest();
+        let (is_closed, substitute) = (input.map(|input| input > 0.0), self.of_input.smallest());
         let mut closed = *input;
-        closed.iter_mut().for_each(|input| *input = if *input > 0.0 { *input } else { substitute });
+        for (input, is_closed) in closed.iter_mut().zip(is_closed) {
+            *input = if is_closed { *input } else { substitute };
+        }
         let mut states = self.closed::<SLOPES, 4>(&closed);
         for values in &mut states {
-            for (value, input) in values.iter_mut().zip(input) {
-                *value = if *input > 0.0 { *value } else { 0.0 };
+            for (value, is_closed) in values.iter_mut().zip(is_closed) {
+                *value = if is_closed { *value } else { 0.0 };
             }
         }
         states
@@ -697,12 +677,32 @@ const EMPTY: Element = Element {
 };
 
 /// E* of parameters that were checked.
-///
-/// # Errors
-/// `OutOfRange`, or `BadNormalForce` for an open contact.
+/// Errors: `OutOfRange`, or `BadNormalForce` for an open contact.
 fn closed_modulus(parameters: &Common) -> Result<f64, Error> {
     let modulus = parameters.composite_modulus()?;
     if parameters.normal_force > 0.0 { Ok(modulus) } else { Err(Error::BadNormalForce) }
+}
+
+/// The size under a normal force and the largest one for which the laws hold.
+///
+/// Errors: those of [`Layer::check_share`]; `LengthTooShort` if the first one is not smaller.
+fn sizes(shape: &dyn Shape, normal_force: f64, directions: Directions) -> Result<[f64; 2], Error> {
+    let plane = shape.plane();
+    let mut largest = shape.largest_size();
+    if directions == Directions::Two {
+        largest = largest.min(plane.largest);
+    }
+    let w = shape.at_load(normal_force);
+    if !plane.layer.is_none() {
+        let compliances = [Quantity::Approach, Quantity::Shift].map(|quantity| shape.compliance(quantity, w));
+        plane.layer.check_share(normal_force, compliances)?;
+        // The contact stiffens with the load, so that a layer has energies of the order of N² where those of a contact are smaller.
+        let most = normal_force * MOST_LOAD_WITH_LAYER;
+        if shape.load(largest) > most {
+            largest = shape.at_load(most);
+        }
+    }
+    if w >= largest { Err(Error::LengthTooShort) } else { Ok([w, largest]) }
 }
 
 /// A number from 1 to 2 that depends on the bits of all values.

@@ -35,9 +35,7 @@ impl HarmonicOutput<'_> {
     }
 
     /// Checks the n coefficients of a displacement, and the lengths of the outputs.
-    ///
-    /// # Errors
-    /// `BadArraySize`, `BadDisplacement`.
+    /// Errors: `BadArraySize`, `BadDisplacement`.
     pub(crate) fn check(&self, n: usize, displacement: &[f64]) -> Result<(), Error> {
         let fits = |output: &Option<&mut [f64]>, length: usize| output.as_ref().is_none_or(|o| o.len() == length);
         if displacement.len() != n || !fits(&self.force, n) || !fits(&self.jacobian, n * n) {

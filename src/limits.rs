@@ -6,7 +6,6 @@ use crate::numerics::fp_class::abs_le;
 /// The bound keeps products with forces and energies representable.
 pub(crate) const MAX_DISPLACEMENT: f64 = 1e150;
 
-/// # Errors
 /// `BadDisplacement` unless it is finite and at most 1e150 in magnitude.
 #[inline(always)]
 pub(crate) fn check_displacement(displacement: f64) -> Result<(), Error> {
@@ -14,9 +13,7 @@ pub(crate) fn check_displacement(displacement: f64) -> Result<(), Error> {
 }
 
 /// Rejects coefficients that are not finite or too large.
-///
-/// # Errors
-/// `BadDisplacement`.
+/// Errors: `BadDisplacement`.
 pub(crate) fn check_coefficients(displacement: &[f64]) -> Result<(), Error> {
     displacement.iter().try_for_each(|&coefficient| check_displacement(coefficient))
 }
@@ -30,7 +27,6 @@ pub(crate) fn exponent_of(numerators: &[f64], denominators: &[f64]) -> i32 {
     numerators.iter().map(exponent).sum::<i32>() - denominators.iter().map(exponent).sum::<i32>()
 }
 
-/// # Errors
 /// `OutOfRange` if a quotient of products is not between 2^-500 and 2^500.
 pub(crate) fn in_range(numerators: &[f64], denominators: &[f64]) -> Result<(), Error> {
     if exponent_of(numerators, denominators).abs() <= LARGEST_EXPONENT { Ok(()) } else { Err(Error::OutOfRange) }

@@ -48,7 +48,6 @@ impl Layer {
     /// polynomials of a contact resolve down to this ratio.
     const SMALLEST_STIFFENING: f64 = 1e-3;
 
-    /// # Errors
     /// The error of the first field that is NaN or outside its range.
     fn check(&self, normal_force: f64) -> Result<(), Error> {
         not_negative(self.normal_compliance, Error::BadNormalCompliance)?;
@@ -268,10 +267,10 @@ impl Pair {
 }
 
 #[cfg(test)]
-pub(crate) mod tests {
+mod tests {
     use super::*;
 
-    pub(crate) fn steel() -> Parameters {
+    fn steel() -> Parameters {
         let material = Material { young_modulus: 2e11, poisson_ratio: 0.3 };
         Parameters {
             flat_half_width: 1e-4,

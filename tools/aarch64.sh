@@ -73,43 +73,6 @@ same_bits() {
         "$work/native" > "$work/native.hash" && $emulator "$work/emulated" > "$work/emulated.hash" &&
         cat "$work/native.hash" "$work/emulated.hash" && cmp "$work/native.hash" "$work/emulated.hash"
 }
-# The largest differences with each platform's own functions, over the largest value of the output, as the next power of ten. Each
-# result is within 1e-13 of the exact one, as the reference tables show.
-differences() {
-    application "$CC" "$prefix" native && application ${cross}gcc "$installed" emulated &&
-        "$work/native" values > "$work/native.txt" && $emulator "$work/emulated" values > "$work/emulated.txt" &&
-        paste -d '\n' "$work/native.txt" "$work/emulated.txt" | awk '
-            function size(x) { return x < 0 ? -x : x }
-            BEGIN { all = split("1e-15 1e-14 1e-13 2e-13", bounds, " "); bounds[0] = 0 }
-            NR % 2 { split($0, native); next }
-            {
-                output = $1 " " $2
-                if (!(output in largest)) order[++outputs] = output
-                largest[output] += 0
-                if (native[1] " " native[2] != output) exit status = 1
-                if (size($3) > largest[output]) largest[output] = size($3)
-                if (size($3 - native[3]) > difference[output]) difference[output] = size($3 - native[3])
-            }
-            END {
-                if (status || !outputs) exit 1
-                for (i = 1; i <= outputs; ++i) {
-                    if (difference[order[i]] > 2e-13 * largest[order[i]]) exit 1
-                    for (bound = 0; difference[order[i]] > bounds[bound] * largest[order[i]]; ++bound);
-                    ++count[bound]
-                    split(order[i], name, " ")
-                    names[bound] = names[bound] (count[bound] > 1 ? ", " : "") "`" name[2] "` of `mslip_" name[1] "`"
-                }
-                print "| largest difference | outputs |\n|---:|---|"
-                for (bound = 0; bound <= all; ++bound) {
-                    if (!count[bound]) continue
-                    printf "| %g | %s |\n", bounds[bound], count[bound] < 5 ? names[bound] : count[bound] " outputs"
-                }
-            }' > target/aarch64.md && cat target/aarch64.md
-}
-documented() {
-    sed '/<!-- aarch64: begin -->/,/<!-- aarch64: end -->/!d; /<!--/d' docs/accuracy.md | diff - target/aarch64.md
-}
-
 check 'Rust for aarch64' standard_library
 check 'library: build, install' make install TARGET=$triple SHARED=1 PREFIX="$installed"
 [ "$failed" -eq 0 ] || { counts; exit; }
@@ -119,8 +82,6 @@ check 'shared library: clients' clients "libmicroslip.so.$abi"
 rm "$installed"/lib/libmicroslip.so*
 check 'archive: clients' clients
 check 'with the same mathematical functions: the bits of this machine' same_bits
-check 'with each its own: differences within the accuracy' differences
-check 'the guide has these differences' documented
 check 'drivers in C, C++ and Fortran, with the reference tables' drivers
 check 'tests in Rust' rust
 # Zig links it.

@@ -8,12 +8,6 @@ echo "seed of the random tests: $MICROSLIP_SEED"
 
 tools/dependencies.sh check
 
-calculix_results() {
-    mkdir -p "$work/calculix" &&
-        build "$FC -J $work/calculix $prefix/include/microslip.f90" examples/calculix/compare.f90 "$work/calculix/compare" -llapack -lblas &&
-        "$work/calculix/compare" examples/calculix/results
-}
-
 uninstall() {
     cp -R "$prefix" "$work/leave" && make uninstall PREFIX="$work/leave" && [ -z "$(find "$work/leave" -type f)" ]
 }
@@ -39,7 +33,6 @@ installed() {
     step 'packages: source tarball, clients by each tool, shared library' tools/packages.sh
     step 'packages: recipes of conda-forge and Spack, citation' tools/recipes.sh
     step 'packages: fpm' tools/fpm.sh "$prefix"
-    step 'CalculiX: its results are those of the library' calculix_results
     step 'Abaqus: user subroutines, called by a driver' make -C examples/abaqus test PREFIX="$prefix"
     step 'ANSYS: bodies of user subroutines, called by a driver' make -C examples/ansys test PREFIX="$prefix"
     step 'Octave and NLvib: the law in harmonic balance' make -C examples/nlvib test PREFIX="$prefix"

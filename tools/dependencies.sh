@@ -29,7 +29,7 @@ ninja-build     check                                                 : command 
 doxygen         check docs                                            : command doxygen
 libjs-bootstrap5 check docs                                           : file /usr/share/javascript/bootstrap5
 python3         bench figures host                                    : command python3
-python3-venv    test check docs python                                : command python3 -c "import ensurepip"
+python3-venv    test check docs python host                           : command python3 -c "import ensurepip"
 octave          check octave                                          : command octave-cli
 octave-dev      check octave                                          : command mkoctfile
 openmpi-bin     check parallel                                        : command mpirun

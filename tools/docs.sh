@@ -1,7 +1,7 @@
 #!/bin/sh
 # docs.sh: the documents and the references of the C interface, the Fortran module and the Rust functions, into target/docs, a site
-# with a search that opens from its index.html without a network. What has no comment, and what is not understood, is an error. FORD
-# comes from PyPI, into target/tools.
+# with a search that opens from its index.html without a network. What is not understood is an error, and what has no comment in C or
+# Rust, from which the Fortran module is generated. FORD comes from PyPI, into target/tools.
 set -eu
 
 cd "$(dirname "$0")/.."
@@ -15,7 +15,7 @@ ford=target/tools/ford
 fortran() {
     $ford/bin/python -c 'import ford, latex2mathml' 2> /dev/null ||
         { python3 -m venv $ford && $ford/bin/pip install --quiet --disable-pip-version-check ford==7.0.13 latex2mathml==3.78.1; } || return 1
-    $ford/bin/python docs/reference/fortran.py docs/reference/ford.md > "$work/ford" 2>&1 || { cat "$work/ford"; return 1; }
+    $ford/bin/ford docs/reference/ford.md > "$work/ford" 2>&1 || { cat "$work/ford"; return 1; }
     ! grep 'Warning' "$work/ford"
 }
 

@@ -1,12 +1,11 @@
 #!/bin/sh
-# fuzz.sh [--check | --seeds] [TARGET...]: coverage-guided fuzzing of the library (libFuzzer, AddressSanitizer) on stable Rust.
+# fuzz.sh [--check | --seeds]: coverage-guided fuzzing of the library (libFuzzer, AddressSanitizer) on stable Rust: calls of the C
+# interface with invalid arguments and corrupted memory.
 #
-#   calls     calls of the C interface, with invalid arguments and corrupted memory
-#
-# TIME seconds for each target (60), JOBS processes (1), MICROSLIP_SEED (new each time). New inputs are kept in
+# TIME seconds (60), JOBS processes (1), MICROSLIP_SEED (new each time). New inputs are kept in
 # verification/fuzz/corpus/, failing ones in verification/fuzz/artifacts/.
 #
-# --check runs the committed seeds and a search of RUNS inputs from them, and keeps nothing; each target counts as a test.
+# --check runs the committed seeds and a search of RUNS inputs from them, and keeps nothing.
 # --seeds replaces the seeds by the smallest set of kept inputs with the same coverage.
 set -eu
 
@@ -14,10 +13,9 @@ cd "$(dirname "$0")/.."
 : "${CARGO:=cargo}" "${TIME:=60}" "${RUNS:=4000}" "${JOBS:=1}" "${MICROSLIP_SEED:=$(date +%s)}"
 mode=
 case ${1:-} in
-    --check) mode=check TIME=600 JOBS=1 && shift ;;
-    --seeds) mode=seeds && shift ;;
+    --check) mode=check TIME=600 JOBS=1 ;;
+    --seeds) mode=seeds ;;
 esac
-[ $# -gt 0 ] || set -- calls
 
 # The instrumentation of cargo-fuzz, without that of comparisons. --target keeps the flags from build scripts.
 host=$(rustc -vV | sed -n 's/^host: //p')
@@ -31,35 +29,30 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 # The library does not allocate: there are no leaks, and little freed memory to watch.
 export ASAN_OPTIONS=detect_leaks=0:quarantine_size_mb=16
-passed=0
-failed=0
-for target; do
-    program=target/$host/fuzz/$target
-    archive=verification/fuzz/seeds/$target.tar.gz
-    corpus=verification/fuzz/corpus/$target
-    seeds=$work/$target
-    mkdir -p "$seeds" "verification/fuzz/artifacts/$target"
-    if [ "$mode" = seeds ]; then
-        "$program" -set_cover_merge=1 -use_counters=0 -max_len=1024 "$seeds" "$corpus"
-        tar --create --sort=name --mtime=@0 --owner=0 --group=0 --numeric-owner --directory "$seeds" . |
-            gzip --no-name --best > "$archive"
-        continue
-    fi
-    tar --extract --gzip --file "$archive" --directory "$seeds"
-    [ "$mode" = check ] && corpus=$work/new || RUNS=-1
-    mkdir -p "$corpus"
-    echo "$target: $RUNS inputs or $TIME s, seed $MICROSLIP_SEED"
-    set -- -seed="$MICROSLIP_SEED" -runs="$RUNS" -max_total_time="$TIME" -max_len=2048 -len_control=0 -timeout=60 \
-        -print_final_stats=1 -artifact_prefix="verification/fuzz/artifacts/$target/"
-    [ "$JOBS" -eq 1 ] || set -- "$@" -fork="$JOBS"
-    if "$program" "$@" "$corpus" "$seeds" > "$work/log" 2>&1; then
-        passed=$((passed + 1))
-        grep -E 'INITED|DONE|number_of_executed_units' "$work/log" || true
-    else
-        failed=$((failed + 1))
-        grep -E -A 3 'panicked|ERROR|SUMMARY|Test unit' "$work/log"
-        echo "$target failed. RUST_LIBFUZZER_DEBUG_PATH=/dev/stdout $program FILE prints and repeats the input FILE named above."
-    fi
-done
-[ "$mode" = seeds ] || echo "$passed passed, $failed failed"
-[ "$failed" -eq 0 ]
+program=target/$host/fuzz/calls
+archive=verification/fuzz/seeds/calls.tar.gz
+corpus=verification/fuzz/corpus/calls
+seeds=$work/seeds
+mkdir -p "$seeds" verification/fuzz/artifacts/calls
+if [ "$mode" = seeds ]; then
+    "$program" -set_cover_merge=1 -use_counters=0 -max_len=1024 "$seeds" "$corpus"
+    tar --create --sort=name --mtime=@0 --owner=0 --group=0 --numeric-owner --directory "$seeds" . |
+        gzip --no-name --best > "$archive"
+    exit
+fi
+tar --extract --gzip --file "$archive" --directory "$seeds"
+[ "$mode" = check ] && corpus=$work/new || RUNS=-1
+mkdir -p "$corpus"
+echo "$RUNS inputs or $TIME s, seed $MICROSLIP_SEED"
+set -- -seed="$MICROSLIP_SEED" -runs="$RUNS" -max_total_time="$TIME" -max_len=2048 -len_control=0 -timeout=60 \
+    -print_final_stats=1 -artifact_prefix=verification/fuzz/artifacts/calls/
+[ "$JOBS" -eq 1 ] || set -- "$@" -fork="$JOBS"
+if "$program" "$@" "$corpus" "$seeds" > "$work/log" 2>&1; then
+    grep -E 'INITED|DONE|number_of_executed_units' "$work/log" || true
+    echo '1 passed, 0 failed'
+else
+    grep -E -A 3 'panicked|ERROR|SUMMARY|Test unit' "$work/log"
+    echo "RUST_LIBFUZZER_DEBUG_PATH=/dev/stdout $program FILE prints and repeats the input FILE named above."
+    echo '0 passed, 1 failed'
+    exit 1
+fi

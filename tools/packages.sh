@@ -147,7 +147,7 @@ check 'README: gfortran, shared library' readme_program f90 gfortran "$shared" "
 examples() { # a relative prefix, seen from the directory of the examples
     cp -R fortran_examples "$work/examples" && make -C "$work/examples" clean &&
         make -C "$work/examples" short PREFIX=../shared &&
-        (cd / && "$work/examples/build/first_contact") && [ "$(needs "$work/examples/build/forced_response")" = "$so" ]
+        (cd / && "$work/examples/build/static_first") && [ "$(needs "$work/examples/build/forced_response")" = "$so" ]
 }
 check 'Fortran examples, shared library' examples
 check 'CMake: clients of both libraries' cmake_client "both libraries" 4 -DCMAKE_PREFIX_PATH="$shared"

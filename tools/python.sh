@@ -115,6 +115,7 @@ check "clean environment" environment "$work/python" "$PYTHON"
 check 'pip install ./python without cargo' without_cargo
 core "$work/python"
 [ "${1:-}" = all ] || { counts; exit; }
+check 'CalculiX: its results are those of the library' "$work/python/bin/python" examples/calculix/compare.py examples/calculix/results
 check 'the wheel needs glibc 2.17 at most' glibc
 
 # others [every]: the oldest and the newest interpreter, or every one, of pyenv or on PATH, that can make environments

@@ -29,7 +29,7 @@ done
 check 'conda-forge: the recipe is rendered' $tools/bin/python packaging/conda/render.py $recipes/conda/recipe.yaml
 [ -z "${BUILD:-}" ] ||
     check 'conda-forge: the package is built and passes its tests' \
-        $tools/bin/python packaging/conda/render.py $recipes/conda/recipe.yaml "$work/conda"
+        $tools/bin/python packaging/conda/render.py $recipes/conda/recipe.yaml "$work/conda" "$tarball"
 check 'Spack: the package is valid Python' $tools/bin/python -c 'compile(open("target/recipes/spack/package.py").read(), "package.py", "exec")'
 check 'CITATION.cff' $tools/bin/cffconvert --validate
 counts

@@ -54,16 +54,6 @@ $OBJDUMP -d --no-show-raw-insn "$archive" | awk '
     $2 ~ /^j/ { jumped = 1 }
     /mov +%rsp, *%r11/ && jumped { print function_name, $0 }' > "$work/late_frames"
 
-# constants FILE PATTERN: names and values, by an expression of sed.
-constants() {
-    sed -n "$2" "$1" | sed 's/^MSLIP_ABI_VERSION/MSLIP_MODULE_ABI_VERSION/' | grep -v '^MSLIP_VERSION_' | sort
-}
-# Indices count from 0 in C, from 1 in Fortran.
-constants "$prefix/include/microslip.h" 's/^#define \(MSLIP_[A-Z_]*\) \([0-9][0-9]*\)$/\1 \2/p' |
-    awk '/^MSLIP_BY_/ { $2 += 1 } { print }' > "$work/c_constants"
-constants "$prefix/include/microslip.f90" \
-    's/.*parameter.*:: *\(MSLIP_[A-Z_]*\) *= *\([0-9][0-9]*\).*/\1 \2/p' > "$work/fortran_constants"
-
 check 'the archive exports the functions of the header' exports_interface
 check 'the archive depends on the mathematical library only' only_mathematics
 check 'no hidden symbols' empty "$work/hidden"
@@ -71,5 +61,4 @@ check 'no variables' empty "$work/writable"
 check 'no instructions that valgrind does not support' empty "$work/unsupported"
 check 'large stack frames are allocated at the entry of functions' empty "$work/late_frames"
 check 'no executable stack' grep -q '\.note\.GNU-stack' "$work/sections"
-check 'the Fortran module has the constants of the header' diff "$work/c_constants" "$work/fortran_constants"
 counts

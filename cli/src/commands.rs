@@ -9,7 +9,7 @@ use crate::table::{ColumnSpec, InputTable, Table, read_columns};
 use crate::units::Quantity::{self, Energy, Force, Length, Number, Pressure, Stiffness, StiffnessSlope};
 use crate::varying_load;
 use microslip::constant_load::equivalents::{SpringSlider, iwan, jenkins};
-use microslip::constant_load::masing::{check_step, step, step_with_energy};
+use microslip::constant_load::masing::{check_step, dissipated, step};
 use microslip::constant_load::state::{state_init, state_length};
 use microslip::element::NormalInput;
 use microslip::{Contact, CurvePoint, Error};
@@ -393,7 +393,7 @@ fn constant_load_history(options: &History, spec: &ContactSpec, table: &InputTab
             let between = from + (displacement - from) * f64::from(part) / f64::from(parts);
             (between, step(contact, &state, between).force())
         }));
-        let (step, dissipated) = step_with_energy(contact, &state, displacement);
+        let (step, dissipated) = (step(contact, &state, displacement), dissipated(contact, &state, displacement));
         points.push((displacement, step.force()));
         total += dissipated;
         rows.push(vec![displacement, step.force(), step.stiffness(), dissipated, total]);

@@ -339,12 +339,6 @@ impl ContactArgs {
 
     /// The contact as the start of a fit.
     pub fn fit_contact(&self) -> Result<microslip_fit::Contact> {
-        let bodies = |material: [Material; 2]| {
-            material.map(|Material { young_modulus, poisson_ratio }| microslip_fit::Material {
-                young_modulus,
-                poisson_ratio,
-            })
-        };
         Ok(match self.shape(1.0)? {
             ShapeParameters::Flat(parameters) => microslip_fit::Contact {
                 geometry: microslip_fit::Geometry::Flat {
@@ -359,7 +353,7 @@ impl ContactArgs {
                 },
                 normal_force: parameters.normal_force,
                 friction_coefficient: parameters.friction_coefficient,
-                material: bodies(parameters.material),
+                material: parameters.material,
             },
             ShapeParameters::Ellipse(parameters) => microslip_fit::Contact {
                 geometry: microslip_fit::Geometry::Ellipse {
@@ -368,7 +362,7 @@ impl ContactArgs {
                 },
                 normal_force: parameters.normal_force,
                 friction_coefficient: parameters.friction_coefficient,
-                material: bodies(parameters.material),
+                material: parameters.material,
             },
         })
     }

@@ -4,7 +4,6 @@ use crate::error::{CliError, Result, usage};
 use std::fs;
 use std::io::{self, ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Largest size of a parameter file, which has about 1 kB, in MB of 1e6 bytes.
 pub const PARAMETERS_SIZE: u64 = 1;
@@ -29,33 +28,10 @@ pub fn read_text(path: &Path, limit: u64) -> Result<String> {
     })
 }
 
-/// Whether the process was started without a standard output. The Rust runtime opens /dev/null in its place.
-static STDOUT_WAS_CLOSED: AtomicBool = AtomicBool::new(false);
-
-#[cfg(target_os = "linux")]
-mod before_main {
-    use super::{Ordering, STDOUT_WAS_CLOSED};
-
-    extern "C" fn check_stdout() {
-        // SAFETY: F_GETFD has no further argument and only reads the flags of the descriptor.
-        let closed = unsafe { libc::fcntl(libc::STDOUT_FILENO, libc::F_GETFD) } == -1;
-        STDOUT_WAS_CLOSED.store(closed, Ordering::Relaxed);
-    }
-
-    // SAFETY: the section holds pointers to functions that the C runtime calls before `main`; this one needs no Rust runtime.
-    #[used]
-    #[unsafe(link_section = ".init_array")]
-    static CHECK_STDOUT: extern "C" fn() = check_stdout;
-}
-
 /// Writes to standard output. A closed pipe is no error: its reader needs no more.
 pub fn write_stdout(bytes: &[u8]) -> Result<()> {
     let mut stdout = io::stdout().lock();
-    let outcome = match STDOUT_WAS_CLOSED.load(Ordering::Relaxed) {
-        true => Err(io::Error::other("it is closed")),
-        false => stdout.write_all(bytes).and_then(|()| stdout.flush()),
-    };
-    match outcome {
+    match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             Err(CliError::in_file(Path::new("standard output"), error))
         }

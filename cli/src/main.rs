@@ -3,7 +3,6 @@
 //! `args` defines the command line, `contact_spec` and `table` read the input, `commands`, `varying_load`, `fit` and `layer` compute, `plot`
 //! draws, and `files` reads and writes.
 
-mod allocator;
 mod args;
 mod canvas;
 mod commands;

@@ -1064,7 +1064,6 @@ fn outputs_are_complete_and_inputs_are_not_overwritten() {
     let pipe = shell.run("{ microslip curve flat.toml --points 100000; echo $? >&2; } | true");
     assert_eq!(pipe.stderr, b"0\n");
     if cfg!(target_os = "linux") {
-        shell.check_error("microslip contact flat.toml >&-", 1, "standard output: it is closed");
         shell.check_error("microslip contact flat.toml > /dev/full", 1, "standard output: No space left");
         let pipe =
             "mkfifo pipe; timeout 10 cat pipe & microslip contact flat.toml --out pipe; wait; test -p pipe && rm pipe";
@@ -1084,7 +1083,7 @@ fn outputs_are_complete_and_inputs_are_not_overwritten() {
 }
 
 #[test]
-fn input_without_end_and_missing_memory_are_errors() {
+fn input_without_end_is_an_error() {
     let shell = Shell::new("limits");
     for (script, text) in [
         ("yes 1e-6 | microslip history flat.toml", "standard input: longer than 200 MB"),
@@ -1096,11 +1095,6 @@ fn input_without_end_and_missing_memory_are_errors() {
     }
     if cfg!(target_os = "linux") {
         shell.check_error("microslip contact /dev/zero", 1, "/dev/zero: longer than 1 MB");
-        // In kB: enough to start, and not enough for these tables.
-        for command in ["curve flat.toml --points 1000000", "history flat.toml --displacements long.csv"] {
-            let script = format!("yes 1e-6 | head -n 400000 > long.csv; ulimit -v 60000; microslip {command}");
-            shell.check_error(&script, 1, "error: out of memory\n");
-        }
     }
 }
 

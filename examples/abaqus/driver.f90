@@ -19,23 +19,14 @@ module abaqus_calls
   real(wp), parameter :: areas(points) = [20e-6_wp, 30e-6_wp, 10e-6_wp], area = 60e-6_wp    ! m2
   real(wp), parameter :: penalty = 5e12_wp                      ! Pa/m, of Abaqus beside FRIC
   real(wp), parameter :: no_limit = 1e36_wp
+  ! Arguments that the subroutines do not use, or not in these steps.
+  real(wp), parameter :: zeros(12) = 0, unit_matrix(4) = [1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp]
+  character(len=80), parameter :: name = 'contact'
   integer :: directions = 1
   integer :: lflags(7) = [1, 0, 1, 0, 0, 0, 0]
   real(wp) :: params(3) = 0
 
 contains
-
-  function element_of(constants, normal_input) result(element)
-    real(wp), intent(in) :: constants(9)
-    integer, intent(in) :: normal_input
-    type(mslip_element) :: element
-    integer(mslip_int) :: status
-
-    call mslip_element_init(mslip_parameters(constants(1), constants(2), constants(3), constants(4), constants(5), &
-      [mslip_material(constants(6), constants(7)), mslip_material(constants(8), constants(9))], &
-      displacement_reference=MSLIP_RIGID_STRIP), directions, normal_input, element, status)
-    call check_status('element', status, MSLIP_OK)
-  end function element_of
 
   function constants_of(point) result(constants)
     integer, intent(in) :: point
@@ -62,24 +53,17 @@ contains
     integer, intent(in) :: point
     real(wp), intent(in) :: x_start(:), x(:), before(:)
     real(wp), intent(out) :: after(:), force(:), tangent(:, :), dissipated, ratio
-    real(wp) :: rhs(6, 1), amatrx(6, 6), energy(8), props(16), coords(3, 2), du(6, 1), rates(6), none(2), predef(2, 1, 2)
-    integer :: no_loads(1, 1)
+    real(wp) :: rhs(6, 1), amatrx(6, 6), energy(8), props(16)
     external :: uel
 
     after = before
     props = [constants_of(point), interference, axes(:, point)]
-    coords = 0
-    du(:, 1) = x - x_start
-    rates = 0
-    none = 0
-    no_loads = 0
-    predef = 0
     energy = 0
     energy(4) = before(7)
     ratio = no_limit
-    call uel(rhs, amatrx, after, energy, 6, 1, size(after), props, size(props), coords, 3, 2, x, du, rates, rates, 1, none, &
-      0.01_wp, 1, 1, point, params, 0, no_loads, none, predef, 1, lflags, 6, none, 1, ratio, [int(MSLIP_RIGID_STRIP), directions], &
-      2, 1.0_wp)
+    call uel(rhs, amatrx, after, energy, 6, 1, size(after), props, size(props), zeros, 3, 2, x, x - x_start, zeros, zeros, &
+      1, zeros, 0.01_wp, 1, 1, point, params, 0, [0], zeros, zeros, 1, lflags, 6, zeros, 1, ratio, &
+      [int(MSLIP_RIGID_STRIP), directions], 2, 1.0_wp)
     force = -rhs(:, 1)
     tangent = amatrx
     dissipated = energy(4) - before(7)
@@ -110,27 +94,14 @@ contains
     integer, intent(in) :: linper
     real(wp), intent(inout) :: statev(:), stress(:), ddsddr(:, :), sfd, pnewdt
     integer, intent(inout) :: open_close
-    real(wp) :: damping(size(rdisp), size(rdisp), 2), flux(2), ddfddt(2, 2), ddsddt(size(rdisp), 2), ddfddr(2, size(rdisp))
-    real(wp) :: energies(4), none(2), local(3, 3), rotation(2, 2)
-    character(len=80) :: names(3)
     integer :: state, discontinuity
     external :: uinter
 
-    damping = 0
-    flux = 0
-    ddfddt = 0
-    ddsddt = 0
-    ddfddr = 0
-    energies = 0
-    none = 0
-    local = 0
-    rotation = reshape([1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [2, 2])
-    names = 'contact'
     state = -1
     discontinuity = 0
-    call uinter(stress, ddsddr, damping(:, :, 1), damping(:, :, 2), flux, ddfddt, ddsddt, ddfddr, statev, energies(1), sfd, &
-      energies(2), energies(3), energies(4), pnewdt, rdisp, drdisp, none, none, none, none, none, 0.01_wp, 0.0_wp, names(1), &
-      names(2), names(3), [flat, interference, area, real(MSLIP_RIGID_STRIP, wp)], local(:, 1), local, rotation, areas(1), &
+    call uinter(stress, ddsddr, zeros, zeros, zeros, zeros, zeros, zeros, statev, zeros(1), sfd, zeros(2), zeros(3), zeros(4), &
+      pnewdt, rdisp, drdisp, zeros, zeros, zeros, zeros, zeros, 0.01_wp, 0.0_wp, name, name, name, &
+      [flat, interference, area, real(MSLIP_RIGID_STRIP, wp)], zeros, zeros, unit_matrix, areas(1), &
       1e-3_wp, 1, size(rdisp), size(statev), 1, 12, 3, 1, 1, 1, linper, open_close, state, discontinuity, 0)
   end subroutine perturb_or_step
 
@@ -166,19 +137,11 @@ contains
     integer, intent(inout) :: lm
     real(wp), intent(in) :: dgam(:), press, dpress
     real(wp), intent(inout) :: statev(:), tau(:), ddtddg(:, :), ddtddp(:), sfd, pnewdt
-    real(wp) :: dslip(size(dgam)), ddtddt(size(dgam), 2), none(3), rotation(2, 2), sed
-    character(len=80) :: names(3)
     external :: fric
 
-    dslip = 0
-    ddtddt = 0
-    none = 0
-    sed = 0
-    rotation = reshape([1.0_wp, 0.0_wp, 0.0_wp, 1.0_wp], [2, 2])
-    names = 'contact'
-    call fric(lm, tau, ddtddg, ddtddp, dslip, sed, sfd, ddtddt, pnewdt, statev, dgam, none, press, dpress, penalty, none, 1, 1, &
-      none, 0.01_wp, 1, names(1), names(2), names(3), 1, 1, 1, none, none, rotation, none, none, size(dgam), 3, 1, size(statev), &
-      1e-3_wp, [flat, area, real(MSLIP_RIGID_STRIP, wp)], 11)
+    call fric(lm, tau, ddtddg, ddtddp, zeros, zeros(1), sfd, zeros, pnewdt, statev, dgam, zeros, press, dpress, penalty, zeros, &
+      1, 1, zeros, 0.01_wp, 1, name, name, name, 1, 1, 1, zeros, zeros, unit_matrix, zeros, zeros, size(dgam), 3, 1, &
+      size(statev), 1e-3_wp, [flat, area, real(MSLIP_RIGID_STRIP, wp)], 11)
   end subroutine step_fric
 
   !> Counted only if it fails.
@@ -194,13 +157,9 @@ end module abaqus_calls
 program driver
   use abaqus_calls
   implicit none
-  type(mslip_element) :: element
   integer(mslip_int) :: status
 
   do directions = 1, 2
-    call mslip_element_init(mslip_parameters(0.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, 1.0_wp, mslip_material(1e9_wp, 0.3_wp), &
-      displacement_reference=MSLIP_RIGID_STRIP), directions, MSLIP_INPUT_APPROACH, element, status)
-    call check_status('directions', status, MSLIP_OK)
     call run(uel_model())
     call test_uel_flags()
     call run(uinter_model())
@@ -212,76 +171,37 @@ program driver
 
 contains
 
-  function new_model(name, unknowns, extra) result(model)
-    character(len=*), intent(in) :: name
-    integer, intent(in) :: unknowns, extra
-    type(contact_model) :: model
-    integer :: m
-
-    m = directions + 1
-    write (model%name, '(2a, i0)') name, ', directions: ', directions
-    model%points = points
-    model%unknowns = unknowns
-    model%variables = extra + contact_variables(directions)
-    allocate (model%to_law(m, unknowns, points), model%from_law(unknowns, m, points), model%elements(points))
-    allocate (model%offset(m), model%share(points), model%spring(unknowns))
-    model%to_law = 0
-    model%from_law = 0
-    model%offset = 0
-  end function new_model
-
   function uel_model() result(model)
     type(contact_model) :: model
     integer :: i
 
-    model = new_model('UEL', 6, 6)
-    do i = 1, points
-      model%elements(i) = element_of(constants_of(i), MSLIP_INPUT_APPROACH)
-      model%to_law(:, :, i) = rows(i)
-      model%from_law(:, :, i) = transpose(rows(i))
-    end do
+    model = points_of('UEL', [(element_of(constants_of(i), directions, MSLIP_INPUT_APPROACH), i=1, points)], &
+      spread(1.0_wp, 1, points), 6 + contact_variables(directions), call_uel)
+    model%unknowns = 6
+    model%to_law = reshape([(rows(i), i=1, points)], [directions + 1, 6, points])
+    model%from_law = reshape([(transpose(rows(i)), i=1, points)], [6, directions + 1, points])
     model%offset(directions + 1) = interference
-    model%share = 1
     model%energy = 7
-    model%spring = model%elements(1)%tangential_stiffness
-    model%call_user => call_uel
+    model%spring = spread(model%elements(1)%tangential_stiffness, 1, 6)
   end function uel_model
 
   function uinter_model() result(model)
     type(contact_model) :: model
-    integer :: i, j
 
-    model = new_model('UINTER', directions + 1, 0)
-    model%share = areas/area
-    do i = 1, points
-      model%elements(i) = element_of(flat, MSLIP_INPUT_APPROACH)
-      do j = 1, directions + 1
-        model%to_law(j, 1 + modulo(j, directions + 1), i) = 1
-      end do
-      model%from_law(:, :, i) = model%share(i)*transpose(model%to_law(:, :, i))
-    end do
+    model = points_of('UINTER', spread(element_of(flat, directions, MSLIP_INPUT_APPROACH), 1, points), areas/area, &
+      contact_variables(directions), call_uinter)
+    model%to_law = cshift(model%to_law, -1, dim=2)
+    model%from_law = cshift(model%from_law, -1, dim=1)
     model%offset(directions + 1) = interference
-    model%spring = 0.3_wp*model%elements(1)%tangential_stiffness
-    model%call_user => call_uinter
   end function uinter_model
 
   function fric_model() result(model)
     type(contact_model) :: model
-    integer :: i, j
 
-    model = new_model('FRIC', directions + 1, 0)
-    model%share = areas/area
+    model = points_of('FRIC', spread(element_of(flat, directions, MSLIP_INPUT_NORMAL_FORCE), 1, points), areas/area, &
+      contact_variables(directions), call_fric)
+    model%to_law(directions + 1, directions + 1, :) = area*penalty
     model%called_if_open = .false.
-    do i = 1, points
-      model%elements(i) = element_of(flat, MSLIP_INPUT_NORMAL_FORCE)
-      do j = 1, directions + 1
-        model%to_law(j, j, i) = 1
-        model%from_law(j, j, i) = model%share(i)
-      end do
-      model%to_law(directions + 1, directions + 1, i) = area*penalty
-    end do
-    model%spring = 0.3_wp*model%elements(1)%tangential_stiffness
-    model%call_user => call_fric
   end function fric_model
 
   !> What UEL returns for each LFLAGS, in the increment after a step that slips.
@@ -349,7 +269,7 @@ contains
     ! The first increment starts from the interference, not from an open contact.
     call call_uel(1, 0*x, x, 0*before, after, f, k, dissipated, ratio)
     call check('UEL, first increment', norm2(f - matmul(transpose(rows(1)), &
-      two_steps(element_of(constants_of(1), MSLIP_INPUT_APPROACH), [(0.0_wp, i=1, directions), interference], &
+      two_steps(element_of(constants_of(1), directions, MSLIP_INPUT_APPROACH), [(0.0_wp, i=1, directions), interference], &
       matmul(rows(1), x) + [(0.0_wp, i=1, directions), interference]))) <= 1e-12_wp*norm2(f))
   end subroutine test_uel_flags
 
@@ -402,7 +322,7 @@ contains
       call call_uinter(i, x0, x, before, after, stress, k, dissipated, ratio)
       total = total + stress
     end do
-    associate (force => two_steps(element_of(flat, MSLIP_INPUT_APPROACH), &
+    associate (force => two_steps(element_of(flat, directions, MSLIP_INPUT_APPROACH), &
         cshift(x0, 1) + [(0.0_wp, i=1, directions), interference], cshift(x, 1) + [(0.0_wp, i=1, directions), interference]))
       call check('UINTER, first increment: sum over the points', norm2(cshift(total, 1) - force) <= 1e-14_wp*norm2(force))
     end associate
@@ -446,7 +366,7 @@ contains
     real(wp) :: force(directions + 1)
     integer :: i
 
-    force = two_steps(element_of(flat, MSLIP_INPUT_NORMAL_FORCE), [(0.0_wp, i=1, directions), pressure*area], &
+    force = two_steps(element_of(flat, directions, MSLIP_INPUT_NORMAL_FORCE), [(0.0_wp, i=1, directions), pressure*area], &
       [displacement, 2*pressure*area])
     call check(name, norm2(tau*area - force(:directions)) <= 1e-12_wp*norm2(force))
   end subroutine check_friction

@@ -82,64 +82,30 @@ end module ansys_calls
 program driver
   use ansys_calls
   implicit none
-  type(mslip_element) :: element
-  integer(mslip_int) :: status
 
   call check('state variables in 2-D: start and finish of a point fit into an element', 2*contact_variables(1) <= 840)
   do directions = 1, 2
-    call new_element(MSLIP_INPUT_APPROACH, element, status)
-    call check_status('directions', status, MSLIP_OK)
-    call run(model('friction', MSLIP_INPUT_NORMAL_FORCE))
-    call run(model('interaction', MSLIP_INPUT_APPROACH))
+    call run(model('friction', MSLIP_INPUT_NORMAL_FORCE, call_friction))
+    call run(model('interaction', MSLIP_INPUT_APPROACH, call_interaction))
     call test_closing()
   end do
   call report()
 
 contains
 
-  subroutine new_element(normal_input, element, status)
-    integer, intent(in) :: normal_input
-    type(mslip_element), intent(inout) :: element
-    integer(mslip_int), intent(out) :: status
-
-    associate (p => properties)
-      call mslip_element_init(mslip_parameters(p(1), p(2), p(3), p(4), p(5), [mslip_material(p(6), p(7)), &
-        mslip_material(p(8), p(9))], displacement_reference=MSLIP_RIGID_STRIP), directions, normal_input, element, status)
-    end associate
-  end subroutine new_element
-
-  function model(name, normal_input)
+  function model(name, normal_input, call_user)
     character(len=*), intent(in) :: name
     integer, intent(in) :: normal_input
+    procedure(call_friction) :: call_user
     type(contact_model) :: model
-    integer :: i, j, m
 
-    m = directions + 1
-    write (model%name, '(2a, i0)') name, ', directions: ', directions
-    model%points = points
-    model%unknowns = m
-    model%variables = contact_variables(directions)
-    allocate (model%to_law(m, m, points), model%from_law(m, m, points), model%elements(points), model%offset(m), model%spring(m))
-    model%share = areas/properties(10)
-    model%to_law = 0
-    model%from_law = 0
-    model%offset = 0
-    do i = 1, points
-      call new_element(normal_input, model%elements(i), status)
-      call check_status('element', status, MSLIP_OK)
-      do j = 1, m
-        model%to_law(j, j, i) = 1
-        model%from_law(j, j, i) = model%share(i)
-      end do
-      if (normal_input == MSLIP_INPUT_NORMAL_FORCE) model%to_law(m, m, i) = properties(10)*penalty
-    end do
+    model = points_of(name, spread(element_of(properties(:9), directions, normal_input), 1, points), areas/properties(10), &
+      contact_variables(directions), call_user)
     if (normal_input == MSLIP_INPUT_APPROACH) then
-      model%offset(m) = -gap
-      model%call_user => call_interaction
+      model%offset(directions + 1) = -gap
     else
-      model%call_user => call_friction
+      model%to_law(directions + 1, directions + 1, :) = properties(10)*penalty
     end if
-    model%spring = 0.3_wp*model%elements(1)%tangential_stiffness
   end function model
 
   !> A contact that was open has lost its history, even if the friction was not called meanwhile.

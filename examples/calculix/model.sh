@@ -10,7 +10,7 @@
 #   resumed.inp    the last three of these steps, from a restart file of the fourth
 #   dynamic.inp    a force of constant frequency between the first resonances of the sliding and of the sticking blade
 #   frequency.inp  natural frequencies of the sticking blade
-#   matrices.inp   stiffness and mass of the blade alone, for compare.f90
+#   matrices.inp   stiffness and mass of the blade alone, for compare.py
 #   *_load.csv     force at the tip over time, linear in between
 #   lifting.inp, lifting_dynamic.inp
 #                  the same blade on the element with a normal direction: forces in y and z; the loads are time, y, z

@@ -1,12 +1,12 @@
 #!/bin/sh
 # run.sh PREFIX: builds CalculiX 2.20 from Debian's source package with the contact as its user element U1, runs the models,
-# compares the results with the library, and rewrites the tables of static jobs and the figures in results/. PREFIX is the installation of microslip;
-# everything else is in build/.
+# compares the results with the library, and rewrites the tables of static jobs and the figures in results/. PREFIX is the installation
+# of microslip, target/python has the wheel of the Python package; everything else is in build/.
 set -eu
 
 prefix=$(cd "${1:?usage: run.sh PREFIX}" && pwd)
 cd "$(dirname "$0")"
-: "${FC:=gfortran}" "${CC:=gcc}" "${GNUPLOT:=gnuplot}"
+: "${FC:=gfortran}" "${CC:=gcc}" "${GNUPLOT:=gnuplot}" "${PYTHON:=python3}"
 mkdir -p build results
 
 # The source package on any Debian release: apt verifies its signature, with a source list of its own.
@@ -40,7 +40,6 @@ strict='-std=f2008 -Wall -Wextra -pedantic -Wno-unused-dummy-argument'
         $FC $strict -O2 -c ../contact_element.f90 -o contact_element.o
         $FC -fopenmp main.o contact_element.o microslip.o "../$source/ccx_2.20.a" "$prefix/lib/libmicroslip.a" \
             -lspooles -lpthread -larpack -llapack -lblas -lm -o ccx
-        $FC $strict -O2 ../compare.f90 microslip.o "$prefix/lib/libmicroslip.a" -llapack -lblas -lm -o compare
     }
 )
 
@@ -95,7 +94,7 @@ rejected=$(awk '$3 ~ /U$/' static.sta | wc -l)
 echo "rejected increments: $rejected; the results after a restart are equal"
 
 cd ../..
-build/compare results build/jobs
-"$GNUPLOT" loops.gp
-"$GNUPLOT" lifting.gp
-"$GNUPLOT" orbit.gp
+"$PYTHON" -m venv build/python
+build/python/bin/pip install --quiet --force-reinstall ../../target/python/*.whl
+build/python/bin/python compare.py results build/jobs
+"$GNUPLOT" figures.gp

@@ -1,6 +1,7 @@
 //! The input of a fit: the contact, measured loops, and what is fixed. All numbers are in one consistent set of units.
 
 use crate::error::{Error, error};
+use microslip::Material;
 use serde::{Deserialize, Serialize};
 
 /// The contact. Fitted parameters are only start values here. It is read from the keys of a parameter file.
@@ -48,15 +49,6 @@ pub enum DisplacementReference {
     CentrePoint,
     /// A rigid strip, corrected to three-dimensional contact mechanics.
     RigidStrip,
-}
-
-/// Elastic constants of a body.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Material {
-    /// Young's modulus E > 0 \[Pa\].
-    pub young_modulus: f64,
-    /// Poisson's ratio, 0 <= nu <= 0.5 \[-\].
-    pub poisson_ratio: f64,
 }
 
 /// The keys of a parameter file.

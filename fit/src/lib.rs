@@ -17,9 +17,9 @@ mod verdict;
 
 pub use error::Error;
 pub use input::{
-    Contact, DisplacementReference, Geometry, Material, Measurement, NormalForce, Options, ShapeParameter,
-    missing_parameters,
+    Contact, DisplacementReference, Geometry, Measurement, NormalForce, Options, ShapeParameter, missing_parameters,
 };
+pub use microslip::Material;
 pub use report::{
     Cause, CauseKind, Estimate, Explanation, FittedLoop, Misfit, ProfilePoint, Report, SpringSlider, Status,
 };

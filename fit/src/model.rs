@@ -50,7 +50,7 @@ impl Family {
         {
             return error("the radius of the edges can be fitted only with a flat of a given half-width > 0");
         }
-        let compliance = |body: &input::Material| (1.0 - body.poisson_ratio.powi(2)) / body.young_modulus;
+        let compliance = |body: &Material| (1.0 - body.poisson_ratio.powi(2)) / body.young_modulus;
         let modulus = 1.0 / contact.material.iter().map(compliance).sum::<f64>();
         let family = Family { contact: contact.clone(), parameter, modulus };
         family.at(&family.contact.geometry, contact.normal_force)?;
@@ -101,10 +101,7 @@ impl Family {
 
     /// The contact under a normal force, with a friction coefficient of 1.
     fn at(&self, geometry: &Geometry, normal_force: f64) -> Result<Contact, Error> {
-        let material = self
-            .contact
-            .material
-            .map(|body| Material { young_modulus: body.young_modulus, poisson_ratio: body.poisson_ratio });
+        let material = self.contact.material;
         let contact = match *geometry {
             Geometry::Flat { flat_half_width, edge_radius, length, displacement_reference } => {
                 Contact::rounded_flat(&Parameters {
@@ -371,7 +368,7 @@ mod tests {
     use super::*;
 
     fn contact(flat_half_width: f64) -> input::Contact {
-        let material = input::Material { young_modulus: 2e11, poisson_ratio: 0.3 };
+        let material = Material { young_modulus: 2e11, poisson_ratio: 0.3 };
         let geometry = Geometry::Flat {
             flat_half_width,
             edge_radius: 5e-2,

@@ -15,7 +15,8 @@ program balance
   real(wp), parameter :: excitation = 15                                                ! N, cosine at mass 1
   real(wp), parameter :: frequency(8) = [300, 500, 650, 690, 710, 750, 790, 900]        ! Hz
   real(wp) :: linear(n, n), jacobian(n, n), residual(n), x(n), trial(n), step(n), size_of_residual
-  integer :: i, iteration, halving
+  integer :: i, iteration, halving, pivots(n), info
+  external :: dgesv                                    ! LAPACK
 
   call contact_init(harmonics)
   print '(a)', 'frequency_hz,amplitude_1_um,amplitude_2_um,contact_energy_uj'
@@ -26,7 +27,8 @@ program balance
     size_of_residual = norm2(residual)
     do iteration = 1, 60
       if (size_of_residual < tolerance*excitation) exit
-      step = solution(jacobian, residual)
+      step = residual
+      call dgesv(n, 1, jacobian, n, pivots, step, n, info)
       trial = x
       do halving = 0, 10                               ! a step that does not reduce the residual is halved
         x = trial - step/2**halving
@@ -87,24 +89,4 @@ contains
       contact_energy = contact_energy - pi*omega*(c/2)**2*dot_product(x([c, m + c]), matmul(damping, x([c, m + c])))
     end do
   end function contact_energy
-
-  ! Gaussian elimination with pivoting.
-  function solution(matrix, right) result(y)
-    real(wp), intent(in) :: matrix(n, n), right(n)
-    real(wp) :: a(n, n + 1), y(n)
-    integer :: k, j, pivot
-
-    a(:, :n) = matrix
-    a(:, n + 1) = right
-    do k = 1, n
-      pivot = k - 1 + maxloc(abs(a(k:, k)), 1)
-      a([k, pivot], :) = a([pivot, k], :)
-      do j = k + 1, n
-        a(j, k:) = a(j, k:) - a(j, k)/a(k, k)*a(k, k:)
-      end do
-    end do
-    do k = n, 1, -1
-      y(k) = (a(k, n + 1) - dot_product(a(k, k + 1:n), y(k + 1:)))/a(k, k)
-    end do
-  end function solution
 end program balance

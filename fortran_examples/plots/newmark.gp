@@ -27,47 +27,44 @@ array newmark[257]
 sample(dummy) = int(128*column('phase_rad')/pi + 1.5)
 row(f) = (same(column('frequency_hz'), f) && column('samples') != 128 ? column('response_difference') : NaN)
 
-do for [extension in 'svg png'] {
-  @set_terminal
-  set multiplot layout 2, 2
-  do for [c=1:2] {
-    f = frequency[3*(c-1) + 2]
-    unset logscale
-    set title sprintf('damper at %g N, %g Hz', normal_force[c], f)
-    set xlabel 'phase of the excitation (degrees)'
-    set format '%g'
-    set xrange [0:360]
-    set xtics 0, 90, 360
-    set yrange [*:*]
-    set offsets 0, 0, graph 0.35, graph 0.05
-    set key top left Left reverse samplen 2 maxrows 2 font ',13'
-    # The curves under 250 N would coincide: their differences are drawn.
-    if (c == 1) {
-      set ylabel 'displacement less that of Newmark (nm)'
-      stats 'results/cylinder_waveforms.csv' using (wave(0) == wave(0) ? newmark[sample(0)] = wave(0) : NaN) nooutput
-      plot for [i=2:4] 'results/cylinder_waveforms.csv' \
-        using (57.29578*column('phase_rad')):(1e3*(wave(word('0 1 5 25', i) + 0) - newmark[sample(0)])) \
-        with lines ls 20+i title word(names, i)
-    } else {
-      set ylabel 'displacement at the damper (µm)'
-      plot for [i=1:4] 'results/cylinder_waveforms.csv' \
-        using (57.29578*column('phase_rad')):(wave(word('0 1 5 25', i) + 0)) with lines ls 20+i title word(names, i)
-    }
+@set_terminal
+set multiplot layout 2, 2
+do for [c=1:2] {
+  f = frequency[3*(c-1) + 2]
+  unset logscale
+  set title sprintf('damper at %g N, %g Hz', normal_force[c], f)
+  set xlabel 'phase of the excitation (degrees)'
+  set format '%g'
+  set xrange [0:360]
+  set xtics 0, 90, 360
+  set yrange [*:*]
+  set offsets 0, 0, graph 0.35, graph 0.05
+  set key top left Left reverse samplen 2 maxrows 2 font ',13'
+  # The curves under 250 N would coincide: their differences are drawn.
+  if (c == 1) {
+    set ylabel 'displacement less that of Newmark (nm)'
+    stats 'results/cylinder_waveforms.csv' using (wave(0) == wave(0) ? newmark[sample(0)] = wave(0) : NaN) nooutput
+    plot for [i=2:4] 'results/cylinder_waveforms.csv' \
+      using (57.29578*column('phase_rad')):(1e3*(wave(word('0 1 5 25', i) + 0) - newmark[sample(0)])) \
+      with lines ls 20+i title word(names, i)
+  } else {
+    set ylabel 'displacement at the damper (µm)'
+    plot for [i=1:4] 'results/cylinder_waveforms.csv' \
+      using (57.29578*column('phase_rad')):(wave(word('0 1 5 25', i) + 0)) with lines ls 20+i title word(names, i)
   }
-  set offsets 0, 0, 0, 0
-  set logscale y
-  set format y '10^{%T}'
-  set xlabel 'harmonics of the balance'
-  set ylabel 'largest difference of the tip, relative'
-  set xrange [0:26]
-  set xtics (1, 3, 5, 9, 15, 25)
-  do for [c=1:2] {
-    set title sprintf('damper at %g N', normal_force[c])
-    set yrange [3e-5:10]
-    set key top right Left reverse samplen 3 maxrows 3 font ',13'
-    plot for [i=1:3] differences using 'harmonics':(row(frequency[3*(c-1) + i])) \
-      with linespoints ls 30+i title sprintf('%g Hz', frequency[3*(c-1) + i])
-  }
-  unset multiplot
-  unset output
 }
+set offsets 0, 0, 0, 0
+set logscale y
+set format y '10^{%T}'
+set xlabel 'harmonics of the balance'
+set ylabel 'largest difference of the tip, relative'
+set xrange [0:26]
+set xtics (1, 3, 5, 9, 15, 25)
+do for [c=1:2] {
+  set title sprintf('damper at %g N', normal_force[c])
+  set yrange [3e-5:10]
+  set key top right Left reverse samplen 3 maxrows 3 font ',13'
+  plot for [i=1:3] differences using 'harmonics':(row(frequency[3*(c-1) + i])) \
+    with linespoints ls 30+i title sprintf('%g Hz', frequency[3*(c-1) + i])
+}
+unset multiplot

@@ -16,26 +16,23 @@ array slider_peak[STATS_records]
 stats peaks('spring_slider') using (slider_peak[int(column('load'))] = column('peak_m')) nooutput
 relative(dummy) = column('peak_m') / slider_peak[int(column('load'))]
 
-do for [extension in 'svg png'] {
-  @set_terminal
-  set multiplot layout 1, 2
-  set logscale y
-  set yrange [1:2000]
-  set ylabel 'resonance peak at the blade tip (µm)'
-  unset key
-  plot peaks('cylinder') using 'damper_normal_force_N':(micro(column('peak_m'))) with linespoints ls 1, \
-       peaks('flat') using 'damper_normal_force_N':(micro(column('peak_m'))) with linespoints ls 2, \
-       peaks('spring_slider') using 'damper_normal_force_N':(micro(column('peak_m'))) with linespoints ls 3
-  unset logscale y
-  set yrange [0.5:1.1]
-  set ylabel 'peak relative to that of the spring-slider'
-  set key bottom left Left reverse spacing 1.2 samplen 2.5 font ',12.5'
-  plot peaks('cylinder') using 'damper_normal_force_N':(relative(0)) with linespoints ls 1 \
-         title 'microslip, cylinder', \
-       peaks('flat') using 'damper_normal_force_N':(relative(0)) with linespoints ls 2 \
-         title 'microslip, flat with rounded edges', \
-       peaks('spring_slider') using 'damper_normal_force_N':(relative(0)) with linespoints ls 3 \
-         title 'spring-slider, initial stiffness of the cylinder'
-  unset multiplot
-  unset output
-}
+@set_terminal
+set multiplot layout 1, 2
+set logscale y
+set yrange [1:2000]
+set ylabel 'resonance peak at the blade tip (µm)'
+unset key
+plot peaks('cylinder') using 'damper_normal_force_N':(micro(column('peak_m'))) with linespoints ls 1, \
+     peaks('flat') using 'damper_normal_force_N':(micro(column('peak_m'))) with linespoints ls 2, \
+     peaks('spring_slider') using 'damper_normal_force_N':(micro(column('peak_m'))) with linespoints ls 3
+unset logscale y
+set yrange [0.5:1.1]
+set ylabel 'peak relative to that of the spring-slider'
+set key bottom left Left reverse spacing 1.2 samplen 2.5 font ',12.5'
+plot peaks('cylinder') using 'damper_normal_force_N':(relative(0)) with linespoints ls 1 \
+       title 'microslip, cylinder', \
+     peaks('flat') using 'damper_normal_force_N':(relative(0)) with linespoints ls 2 \
+       title 'microslip, flat with rounded edges', \
+     peaks('spring_slider') using 'damper_normal_force_N':(relative(0)) with linespoints ls 3 \
+       title 'spring-slider, initial stiffness of the cylinder'
+unset multiplot

@@ -23,19 +23,16 @@ set xlabel 'frequency (Hz)'
 responses(law) = sprintf('results/%s_response.csv', law)
 
 at_load(n) = (int(column('load')) == n ? micro(column('peak_m')) : NaN)
-do for [extension in 'svg png'] {
-  @set_terminal
-  set multiplot layout 1, 3
-  set ylabel 'amplitude of the blade tip (µm)'
-  set key top center Left reverse samplen 2 title 'normal force (N)' font ',13'
-  do for [p=1:3] {
-    law = word('cylinder flat spring_slider', p)
-    array titles[3] = ['microslip, cylinder', 'microslip, flat with rounded edges', 'spring-slider']
-    set title titles[p] font ',15'
-    if (p > 1) { unset ylabel; unset key }
-    plot for [i=1:7] responses(law) using 'frequency_hz':(at_load(2*i - 1)) with lines lw width(i) lc rgb colours[i] \
-      title sprintf('%g', normal_force[2*i - 1])
-  }
-  unset multiplot
-  unset output
+@set_terminal
+set multiplot layout 1, 3
+set ylabel 'amplitude of the blade tip (µm)'
+set key top center Left reverse samplen 2 title 'normal force (N)' font ',13'
+do for [p=1:3] {
+  law = word('cylinder flat spring_slider', p)
+  array titles[3] = ['microslip, cylinder', 'microslip, flat with rounded edges', 'spring-slider']
+  set title titles[p] font ',15'
+  if (p > 1) { unset ylabel; unset key }
+  plot for [i=1:7] responses(law) using 'frequency_hz':(at_load(2*i - 1)) with lines lw width(i) lc rgb colours[i] \
+    title sprintf('%g', normal_force[2*i - 1])
 }
+unset multiplot

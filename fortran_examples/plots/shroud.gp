@@ -17,19 +17,16 @@ set xlabel 'frequency (Hz)'
 amplitude(n) = (int(column('load')) == n ? micro(column('peak_m')) / column('excitation_factor') : NaN)
 open(n) = (column('shroud_open_fraction') > 0 ? amplitude(n) : NaN)
 
-do for [extension in 'svg png'] {
-  @set_terminal
-  set multiplot layout 1, 2
-  set ylabel 'amplitude over the excitation (µm/N)'
-  set title 'element; thick if open in a part of the period'
-  set key top right Left reverse samplen 2 title 'excitation (N)' font ',13' maxrows 3
-  plot for [i=2:6] 'results/shroud_response.csv' using 'frequency_hz':(amplitude(i)) with lines lw 1.4 lc rgb colours[i] \
-         title (i > 2 ? '' : sprintf('%g, ', excitation[1])).sprintf('%g', excitation[i]), \
-       for [i=2:6] 'results/shroud_response.csv' using 'frequency_hz':(open(i)) with lines lw 3.2 lc rgb colours[i] notitle
-  set title 'constant normal force'
-  unset ylabel
-  unset key
-  plot for [i=2:6] 'results/shroud_constant_response.csv' using 'frequency_hz':(amplitude(i)) with lines lw 1.4 lc rgb colours[i]
-  unset multiplot
-  unset output
-}
+@set_terminal
+set multiplot layout 1, 2
+set ylabel 'amplitude over the excitation (µm/N)'
+set title 'element; thick if open in a part of the period'
+set key top right Left reverse samplen 2 title 'excitation (N)' font ',13' maxrows 3
+plot for [i=2:6] 'results/shroud_response.csv' using 'frequency_hz':(amplitude(i)) with lines lw 1.4 lc rgb colours[i] \
+       title (i > 2 ? '' : sprintf('%g, ', excitation[1])).sprintf('%g', excitation[i]), \
+     for [i=2:6] 'results/shroud_response.csv' using 'frequency_hz':(open(i)) with lines lw 3.2 lc rgb colours[i] notitle
+set title 'constant normal force'
+unset ylabel
+unset key
+plot for [i=2:6] 'results/shroud_constant_response.csv' using 'frequency_hz':(amplitude(i)) with lines lw 1.4 lc rgb colours[i]
+unset multiplot

@@ -16,12 +16,6 @@ set tics textcolor rgb '#222222'
 
 micro(x) = 1e6 * x
 
-# Terminal and file of one picture: `extension` is svg or png, `name` the picture, sizes in points.
-set_terminal = " \
-  if (extension eq 'svg') { \
-    set terminal svg size wide, high dynamic background rgb 'white' font 'Helvetica,14' \
-  } else { \
-    set terminal pngcairo size 1.6*wide, 1.6*high background rgb 'white' font 'Helvetica,14' \
-      fontscale 1.6 linewidth 1.6 pointscale 1.6 \
-  }; \
-  set output sprintf('results/%s.%s', name, extension)"
+# Terminal and file of a picture: `name`, sizes in points.
+set_terminal = "set terminal svg size wide, high dynamic background rgb 'white' font 'Helvetica,14'; \
+  set output sprintf('results/%s.svg', name)"

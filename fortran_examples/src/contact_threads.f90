@@ -1,4 +1,4 @@
-!> Many contacts on OpenMP threads: bytes, time per contact, and results that are bitwise equal for any number of threads.
+!> Many contacts on OpenMP threads: bytes, time, and results that are bitwise equal for any number of threads.
 !>
 !>     contact_threads [CONTACTS [MAX_THREADS]]
 !>
@@ -11,11 +11,10 @@ program contact_threads
   use omp_lib, only: omp_get_num_threads, omp_get_wtime
   implicit none
 
-  integer(mslip_size), parameter :: harmonics = 5, samples = 128, nodes = 32, reversals = 8
+  integer(mslip_size), parameter :: harmonics = 5, samples = 128, reversals = 8
   integer, parameter :: m = 2 * int(harmonics) + 1
   integer, parameter :: chunk = 64             !! contacts of one call: their Jacobians stay in the cache
   integer, parameter :: steps = 32             !! time steps of a period
-  integer, parameter :: distinct = 1000        !! contacts that differ in geometry or load
   type(mslip_contact), allocatable :: contacts(:)
   real(wp), allocatable :: displacement(:,:), one_thread(:,:), results(:,:)
   real(wp) :: start, seconds, seconds_of_one
@@ -26,16 +25,13 @@ program contact_threads
   allocate (one_thread(2 * m + 1 + steps, n), results(2 * m + 1 + steps, n))
   call progress('bytes: contact '//text(storage_size(contacts) / 8)//', state for '//text(int(reversals))//' reversals '// &
                 text(8 * int(mslip_state_length(reversals)))//', workspace with '//text(int(samples))//' samples '// &
-                text(8 * int(mslip_harmonic_workspace_length(harmonics, samples)))//', event-driven with '// &
-                text(int(nodes))//' nodes '// &
-                text(8 * int(mslip_harmonic_workspace_length(harmonics, nodes, MSLIP_EVENT_DRIVEN))))
+                text(8 * int(mslip_harmonic_workspace_length(harmonics, samples))))
   call cpu_time(start)
   do i = 1, n
     call prepare(i, contacts(i))
   end do
-  call progress('initialisation: '//microseconds(start, n)//' us per contact')
-  call report_calls(0.3_wp, 'in microslip, 0.3 slip_displacement')
-  call report_calls(2.0_wp, 'in gross slip, 2 slip_displacement')
+  call cpu_time(seconds)
+  call progress('initialisation: '//text(1.0e6_wp * (seconds - start) / n, '(f8.3)')//' us per contact')
 
   do i = 1, n
     call set_motion(i, 0.02_wp * 150.0_wp**(real(i - 1, wp) / max(n - 1, 1)))
@@ -72,7 +68,7 @@ contains
     if (status /= 0 .or. number < 1) call fail('argument "'//trim(given)//'": must be a number, 1 or more')
   end function positive_argument
 
-  !> Eight geometries, each under different loads; contacts i and i + distinct are equal.
+  !> Eight geometries, each under different loads.
   subroutine prepare(i, contact)
     integer, intent(in) :: i
     type(mslip_contact), intent(inout) :: contact
@@ -80,7 +76,7 @@ contains
     integer(mslip_int) :: status
 
     p = mslip_parameters(flat_half_width=1.0e-4_wp * mod(i, 8), edge_radius=5.0e-3_wp, length=10.0e-3_wp, &
-                         normal_force=50.0_wp + mod(i, distinct), friction_coefficient=0.4_wp, &
+                         normal_force=50.0_wp + mod(i, 1000), friction_coefficient=0.4_wp, &
                          material=[mslip_material(114.0e9_wp, 0.32_wp), mslip_material(114.0e9_wp, 0.32_wp)], &
                          displacement_reference=MSLIP_RIGID_STRIP)
     call mslip_contact_init(p, contact, status)
@@ -110,7 +106,9 @@ contains
     !$omp parallel num_threads(threads) default(none) shared(threads, n, contacts, displacement, results) &
     !$omp private(workspace, jacobian, states, force, status, first, last, step, i)
     if (omp_get_num_threads() /= threads) call fail(text(threads)//' threads are not available')
-    call new_workspace(samples, MSLIP_UNIFORM_SAMPLING, workspace)
+    allocate (workspace(mslip_harmonic_workspace_length(harmonics, samples)))
+    call mslip_harmonic_workspace_init(harmonics, samples, workspace, status)
+    call require(status)
     allocate (jacobian(m, m, chunk), force(chunk))
     !$omp do schedule(static)
     do first = 1, n, chunk
@@ -135,98 +133,10 @@ contains
     !$omp end parallel
   end subroutine work
 
-  !> Processor time of each call on one thread, all contacts at one amplitude.
-  subroutine report_calls(amplitude, condition)
-    real(wp), intent(in) :: amplitude
-    character(len=*), intent(in) :: condition
-    real(wp), allocatable :: workspace(:), states(:,:), shared_states(:,:)
-    integer :: i
-
-    do i = 1, n
-      call set_motion(i, amplitude)
-    end do
-    call progress(condition//', us per contact:')
-    call new_workspace(samples, MSLIP_UNIFORM_SAMPLING, workspace)
-    call progress('  force and Jacobian              '//microseconds_of_force(workspace))
-    call new_workspace(nodes, MSLIP_EVENT_DRIVEN, workspace)
-    call progress('  the same, event-driven          '//microseconds_of_force(workspace))
-    call cpu_time(start)
-    do i = 1, n, chunk
-      call start_states(min(chunk, n - i + 1), states)
-      call all_steps(states, i, min(i + chunk - 1, n), shared=.false.)
-    end do
-    call progress('  time step of a chunk in cache   '//microseconds(start, n * steps))
-    call start_states(n, states)
-    call cpu_time(start)
-    call all_steps(states, 1, n, shared=.false.)
-    call progress('  time step of all contacts       '//microseconds(start, n * steps))
-    call start_states(n, shared_states)
-    call cpu_time(start)
-    call all_steps(shared_states, 1, n, shared=.true.)
-    call progress('  the same, contacts by index     '//microseconds(start, n * steps))
-    if (.not. bitwise_equal(states, shared_states)) call fail('shared contacts: results differ')
-  end subroutine report_calls
-
-  function microseconds_of_force(workspace) result(string)
-    real(wp), intent(inout), contiguous :: workspace(:)
-    character(len=:), allocatable :: string
-    real(wp) :: force(m, chunk), jacobian(m, m, chunk), dissipated(chunk)
-    integer(mslip_int) :: status
-    integer :: first, last, k
-
-    call cpu_time(start)
-    do first = 1, n, chunk
-      last = min(first + chunk - 1, n)
-      k = last - first + 1
-      call mslip_batch_harmonic_force(contacts(first:last), workspace, displacement(:, first:last), status, &
-                                      force=force(:, :k), jacobian=jacobian(:, :, :k), dissipated=dissipated(:k))
-      call require(status)
-    end do
-    string = microseconds(start, n)
-  end function microseconds_of_force
-
-  !> Each step of the contacts `from` to `to` before the next step. `shared`: equal items share one contact through `index`.
-  subroutine all_steps(states, from, to, shared)
-    real(wp), intent(inout), contiguous :: states(:,:)
-    integer, intent(in) :: from, to
-    logical, intent(in) :: shared
-    real(wp) :: force(chunk), stiffness(chunk), u(chunk)
-    integer(mslip_int) :: status, index(chunk)
-    integer :: step, first, last, k, i
-
-    do step = 1, steps
-      do first = from, to, chunk
-        last = min(first + chunk - 1, to)
-        k = last - first + 1
-        u(:k) = displacement(2, first:last) * phase(step)
-        index(:k) = [(mod(i - 1, distinct) + 1, i=first, last)]
-        if (shared) then
-          call mslip_batch_masing_advance(contacts(:min(distinct, n)), states(:, first - from + 1:last - from + 1), u(:k), &
-                                          status, index=index(:k), force=force(:k), stiffness=stiffness(:k))
-        else
-          call mslip_batch_masing_advance(contacts(first:last), states(:, first - from + 1:last - from + 1), u(:k), &
-                                          status, force=force(:k), stiffness=stiffness(:k))
-        end if
-        call require(status)
-      end do
-    end do
-  end subroutine all_steps
-
   pure real(wp) function phase(step)
     integer, intent(in) :: step
     phase = cos(2.0_wp * pi * step / steps)
   end function phase
-
-  subroutine new_workspace(points, rule, workspace)
-    integer(mslip_size), intent(in) :: points
-    integer(mslip_int), intent(in) :: rule
-    real(wp), allocatable, intent(out) :: workspace(:)
-    integer(mslip_int) :: status
-
-    allocate (workspace(mslip_harmonic_workspace_length(harmonics, points, rule)))
-    call mslip_harmonic_workspace_init(harmonics, points, workspace, status, rule)
-    call require(status)
-  end subroutine new_workspace
 
   subroutine start_states(count, states)
     integer, intent(in) :: count
@@ -245,16 +155,6 @@ contains
     real(wp), intent(in) :: a(:,:), b(:,:)
     bitwise_equal = all(transfer(a, [0_int64]) == transfer(b, [0_int64]))
   end function bitwise_equal
-
-  function microseconds(start, calls) result(string)
-    real(wp), intent(in) :: start
-    integer, intent(in) :: calls
-    character(len=:), allocatable :: string
-    real(wp) :: now
-
-    call cpu_time(now)
-    string = text(1.0e6_wp * (now - start) / calls, '(f8.3)')
-  end function microseconds
 
   subroutine require(status)
     integer(mslip_int), intent(in) :: status

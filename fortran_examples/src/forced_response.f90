@@ -82,7 +82,7 @@ contains
     responses = open_table(prefix//'_response.csv', header)
     peaks = open_table(prefix//'_peaks.csv', header)
     loops = open_table(prefix//'_loops.csv', &
-      'load,contact,phase_rad,displacement_m,force_N,slip_part_m,approach_m,normal_force_N,'// &
+      'load,contact,phase_rad,displacement_m,force_N,approach_m,normal_force_N,'// &
       'displacement_y_m,force_y_N')
     points = 0
     iterations = 0
@@ -191,8 +191,7 @@ contains
                                           sum(point%dissipated) / (4.0_wp * pi * kinetic)])//by_contact
   end subroutine write_row
 
-  !> Hysteresis loops of all contacts. The slip part is the displacement minus that of a contact that sticks everywhere under the
-  !> normal force of the case.
+  !> Hysteresis loops of all contacts.
   subroutine write_loops(table, load, displacement)
     integer, intent(in) :: table, load
     real(wp), intent(in) :: displacement(:,:)
@@ -206,7 +205,7 @@ contains
     call problem%contacts%steady_cycle(u, history, force)
     do contact = 1, size(data%contacts)
       associate (first => problem%contacts%first(contact), last => problem%contacts%last(contact), &
-                 sticking => problem%contacts%sliders(contact)%stiffness, items => data%contacts(contact)%count)
+                 items => data%contacts(contact)%count)
         do i = 0, loop_points      ! the first point again closes the loop
           j = modulo(i, loop_points) + 1
           f = force(j, first) / items
@@ -215,7 +214,7 @@ contains
           if (last > first) normal = [u(j, last), force(j, last) / items]
           if (last > first + 1) second = [u(j, first + 1), force(j, first + 1) / items]
           write (table, '(a)') text(load)//','//trim(data%contacts(contact)%name)// &
-            csv([2.0_wp * pi * i / loop_points, u(j, first), f, u(j, first) - f / max(sticking, tiny(f)), normal, second])
+            csv([2.0_wp * pi * i / loop_points, u(j, first), f, normal, second])
         end do
       end associate
     end do

@@ -7,9 +7,8 @@
 program layered_damper
   use basics, only: argument, fail, pi, text, wp
   use case_input, only: case_data, prepare_problem, read_case
-  use continuation, only: follow_response, refine_peak, response_path
-  use fourier_series, only: series_peak
-  use harmonic_balance, only: balance_point, balance_problem, evaluate, structure_response
+  use continuation, only: find_peak
+  use harmonic_balance, only: balance_point, balance_problem
   use microslip, only: mslip_contact, mslip_contact_init, mslip_int, mslip_layer, MSLIP_OK
   implicit none
 
@@ -33,14 +32,19 @@ contains
   function cells(share, stiffening) result(row)
     real(wp), intent(in) :: share, stiffening
     character(len=:), allocatable :: row
-    real(wp) :: hertz, peak
+    type(balance_problem) :: problem
+    type(balance_point) :: point
+    real(wp), allocatable :: displacement(:,:)
+    real(wp) :: omega, peak
     integer :: i
 
     row = ''
     do i = 1, size(normal_forces)
       call set_layer(normal_forces(i), share, stiffening)
-      call find_peak(hertz, peak)
-      row = row//' '//text(hertz, '(f5.1)')//', '//text(1.0e6_wp * peak, '(f5.2)')//' |'
+      call prepare_problem(data, 1.0_wp, data%harmonics, data%samples, problem)
+      call find_peak(problem, 2.0_wp * pi * [data%frequency_from, data%frequency_to], data%response_dof, omega, peak, &
+                     displacement, point)
+      row = row//' '//text(omega / (2.0_wp * pi), '(f5.1)')//', '//text(1.0e6_wp * peak, '(f5.2)')//' |'
     end do
   end function cells
 
@@ -57,29 +61,4 @@ contains
       p%layer = mslip_layer(0.0_wp, share / contact%initial_stiffness, stiffening * normal_force)
     end associate
   end subroutine set_layer
-
-  subroutine find_peak(hertz, peak)
-    real(wp), intent(out) :: hertz, peak
-    type(balance_problem) :: problem
-    type(balance_point) :: point
-    type(response_path) :: path
-    real(wp), allocatable :: displacement(:,:), amplitude(:)
-    real(wp) :: response(2 * data%harmonics + 1, size(data%model%dof_name))
-    real(wp) :: omega
-    integer :: i
-
-    call prepare_problem(data, 1.0_wp, data%harmonics, data%samples, problem)
-    call follow_response(problem, 2.0_wp * pi * data%frequency_from, 2.0_wp * pi * data%frequency_to, path)
-    allocate (amplitude(path%points), displacement(2 * data%harmonics + 1, size(problem%incidence, 2)))
-    do i = 1, path%points
-      call evaluate(problem, path%omega(i), path%displacement(:, :, i), point)
-      response = structure_response(problem, point)
-      amplitude(i) = series_peak(response(:, data%response_dof))
-    end do
-    call refine_peak(problem, path, amplitude, data%response_dof, omega, displacement)
-    call evaluate(problem, omega, displacement, point)
-    response = structure_response(problem, point)
-    hertz = omega / (2.0_wp * pi)
-    peak = series_peak(response(:, data%response_dof))
-  end subroutine find_peak
 end program layered_damper

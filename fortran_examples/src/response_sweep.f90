@@ -8,10 +8,10 @@
 program response_sweep
   use basics, only: argument, before_exit, csv, fail, open_table, pi, progress, text, wp
   use case_input, only: case_data, prepare_problem, read_case
-  use continuation, only: follow_response, refine_peak, response_path
-  use fourier_series, only: series_basis, series_peak
+  use continuation, only: find_peak
+  use fourier_series, only: series_basis
   use friction_contacts, only: contact_history, law_microslip, max_reversals
-  use harmonic_balance, only: balance_point, balance_problem, evaluate, structure_response
+  use harmonic_balance, only: balance_point, balance_problem
   use microslip
   use mpi_f08
   implicit none
@@ -80,11 +80,10 @@ contains
   !> Frequency and amplitude of the peak, then the states of the contacts there.
   subroutine solve_unit(record)
     real(wp), intent(out) :: record(:)
-    type(response_path) :: path
     type(balance_point) :: point
     type(contact_history) :: history
-    real(wp), allocatable :: amplitude(:), displacement(:,:), basis(:,:), force(:,:)
-    real(wp) :: omega
+    real(wp), allocatable :: displacement(:,:), basis(:,:), force(:,:)
+    real(wp) :: omega, peak
     integer :: i
 
     call prepare(unit)
@@ -94,30 +93,18 @@ contains
         if (status /= MSLIP_OK) call fail('contact from rank 0: '//mslip_status_text(status))
       end do
       problem%contacts%prepared = sent
-      call follow_response(problem, 2.0_wp * pi * data%frequency_from, 2.0_wp * pi * data%frequency_to, path)
-      allocate (amplitude(path%points), displacement(2 * data%harmonics + 1, size(sent)))
-      do i = 1, path%points
-        call evaluate(problem, path%omega(i), path%displacement(:, :, i), point)
-        amplitude(i) = peak_of(structure_response(problem, point), data%response_dof)
-      end do
-      call refine_peak(problem, path, amplitude, data%response_dof, omega, displacement)
-      call evaluate(problem, omega, displacement, point)
+      call find_peak(problem, 2.0_wp * pi * [data%frequency_from, data%frequency_to], data%response_dof, omega, peak, &
+                     displacement, point)
       ! A period that ends when the excitation is largest.
       allocate (force(data%samples, size(sent)))
       basis = cshift(series_basis(data%harmonics, data%samples), 1, dim=1)
       call problem%contacts%steady_cycle(matmul(basis, displacement), history, force)
       record = 0.0_wp
-      record(:2) = [omega / (2.0_wp * pi), peak_of(structure_response(problem, point), data%response_dof)]
+      record(:2) = [omega / (2.0_wp * pi), peak]
       record(3:2 + size(history%states)) = reshape(history%states, [size(history%states)])
     end associate
     call progress('rank '//text(rank)//': unit '//text(unit)//' of '//text(size(case_of)))
   end subroutine solve_unit
-
-  real(wp) function peak_of(response, dof)
-    real(wp), intent(in) :: response(:,:)
-    integer, intent(in) :: dof
-    peak_of = series_peak(response(:, dof))
-  end function peak_of
 
   subroutine write_table()
     integer, parameter :: positions = 201

@@ -1,31 +1,17 @@
-"""Two masses on a contact in JAX: forced response by Newton's method, and a fit of the friction to measured amplitudes.
+"""Two masses on a contact in JAX: forced response by Newton's method, with its derivatives.
 
-The masses are those of fortran_examples/cases/two_dof.nml: M x'' + D x' + K x + B f(B^T x) = F cos(omega t).
+The masses are those of `two_masses`: M x'' + D x' + K x + B f(B^T x) = F cos(omega t).
 """
-
-import sys
 
 import jax
 import jax.numpy as jnp
 import microslip
 import numpy as np
 from jax_microslip import harmonic_force
+from two_masses import CONTACT, DAMPING, MASS, STIFFNESS
 
 jax.config.update("jax_enable_x64", True)
 
-CONTACT = {
-    "flat_half_width": 0.2e-3,
-    "edge_radius": 5e-3,
-    "length": 10e-3,
-    "normal_force": 150.0,
-    "friction_coefficient": 0.4,
-    "young_modulus": 114e9,
-    "poisson_ratio": 0.32,
-    "displacement_reference": "rigid_strip",
-}
-MASS = np.diag([1.0, 0.5])
-DAMPING = np.array([[30.0, -10.0], [-10.0, 10.0]])
-STIFFNESS = np.array([[2.5e7, -2e7], [-2e7, 2.1e7]])
 HARMONICS, FORCE = 5, 15.0
 
 contact_force = harmonic_force(CONTACT, microslip.Workspace(HARMONICS, 128))
@@ -80,45 +66,3 @@ def amplitudes(frequencies, changed):
     """Amplitudes [m] of the first mass at frequencies [Hz]."""
     x = responses(2 * np.pi * frequencies, changed)
     return jnp.hypot(x[:, 0, 1], x[:, 0, 2])
-
-
-def fit(frequencies, measured, start):
-    """Positive parameters of the contact with which the response has the measured amplitudes, by the Gauss-Newton method from
-    `start`, a dictionary: its logarithms are the unknowns.
-    """
-    names = list(start)
-
-    def misfit(logarithms):
-        return amplitudes(frequencies, dict(zip(names, jnp.exp(logarithms)))) / measured - 1
-
-    @jax.jit
-    def gauss_newton_step(unknowns):
-        return jnp.linalg.lstsq(jax.jacfwd(misfit)(unknowns), -misfit(unknowns))[0]
-
-    unknowns = jnp.log(jnp.array([start[name] for name in names]))
-    for _ in range(30):
-        step = gauss_newton_step(unknowns)
-        unknowns += step * jnp.minimum(1, 0.5 / abs(step).max())
-        if abs(step).max() < 1e-10:
-            break
-    return dict(zip(names, np.exp(unknowns).tolist()))
-
-
-def example():
-    """Parameters of a response, and those that are fitted to its amplitudes."""
-    compliance = 1 / microslip.Contact(**CONTACT).initial_stiffness
-    truth = {"friction_coefficient": 0.4, "layer_compliance": 0.3 * compliance}
-    start = {"friction_coefficient": 0.3, "layer_compliance": 0.1 * compliance}
-    frequencies = np.linspace(600, 900, 16)
-    return truth, fit(frequencies, amplitudes(frequencies, truth), start)
-
-
-def main():
-    truth, found = example()
-    for name in truth:
-        print(f"{name}: {truth[name]:.6g}, fitted {found[name]:.6g}")
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -14,8 +14,6 @@ displacement, the library at displacement 0: with `unloaded_at_mean` (default) t
 force, as for tmdsimpy's Jenkins element. The approach keeps its mean.
 """
 
-import sys
-
 import microslip
 import numpy as np
 
@@ -97,32 +95,3 @@ class MicroslipForce(HystereticForce):
         T = self.T.reshape(self.Q.shape[1], self.items, self.components)
         Q = self.Q.reshape(self.items, self.components, self.Q.shape[1])
         return self.T @ force, np.einsum("xia,iab,iby->xy", T, slope, Q)
-
-
-# fortran_examples/cases/two_dof.nml.
-CONTACT = {
-    "flat_half_width": 0.2e-3,
-    "edge_radius": 5e-3,
-    "length": 10e-3,
-    "normal_force": 150.0,
-    "friction_coefficient": 0.4,
-    "young_modulus": 114e9,
-    "poisson_ratio": 0.32,
-    "displacement_reference": "rigid_strip",
-}
-
-
-def main():
-    from spring_slider import harmonic_force, microseconds
-
-    law = microslip.Contact(**CONTACT)
-    force = MicroslipForce(np.eye(1), np.eye(1), law)
-    U, h = law.slip_displacement * np.random.default_rng(1).standard_normal(11), np.arange(6)
-    slider = microseconds(lambda: harmonic_force(law.initial_stiffness, law.slip_force, U, 128), 3)
-    print(f"microslip, aft(): {microseconds(lambda: force.aft(U, 1.0, h), 20):.0f} µs for force and Jacobian")
-    print(f"spring-slider in NumPy: {slider:.0f} µs")
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

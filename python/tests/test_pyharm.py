@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from pyHarm.Maestro import Maestro
-from pyharm_microslip import CONTACT, DAMPING, LENGTH, MASS, STIFFNESS, deviation, response, response_at, two_masses
+from pyharm_two_masses import LENGTH, deviation, response, response_at, two_masses
 from tables import REPOSITORY
 from tmdsimpy_microslip import MicroslipForce
+from two_masses import CONTACT, DAMPING, MASS, STIFFNESS
 
 pytestmark = [
     pytest.mark.filterwarnings("ignore::numba.NumbaPerformanceWarning"),

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 from tables import REPOSITORY, rows_of
-from tmdsimpy_microslip import CONTACT, MicroslipForce
+from tmdsimpy_microslip import MicroslipForce
+from two_masses import CONTACT
 
 contact = microslip.Contact(**CONTACT)
 elements = [microslip.Element(**CONTACT, directions=directions) for directions in (1, 2)]

@@ -3,6 +3,7 @@
 //! The curve is odd: its points are computed on the positive half, and the sign is stored separately.
 
 use crate::constant_load::contact::Contact;
+use crate::constant_load::evaluator::{Response, sign_of};
 use crate::error::Error;
 use crate::limits::check_displacement;
 use crate::numerics::fp_class::{abs_le, is_finite, le};
@@ -113,10 +114,6 @@ impl Contact {
     }
 }
 
-pub(super) fn sign_of(value: f64) -> f64 {
-    if value < 0.0 { -1.0 } else { 1.0 }
-}
-
 impl CurvePoint<'_> {
     /// The stick zone; `None` in gross slip, and without friction.
     pub(crate) fn stick_zone(&self) -> Option<StickZone> {
@@ -127,15 +124,20 @@ impl CurvePoint<'_> {
         }
     }
 
+    fn response(&self) -> Response {
+        match &self.known_by {
+            KnownBy::StickZone(zone) => {
+                Response { force: self.contact.force_of(zone), stiffness: self.contact.stiffness_of(zone) }
+            }
+            KnownBy::Displacement(displacement) => self.contact.response(*displacement),
+            KnownBy::GrossSlip => Response { force: self.contact.slip_force, stiffness: 0.0 },
+        }
+    }
+
     /// Tangential force T \[N\].
     #[must_use]
     pub fn force(&self) -> f64 {
-        self.sign
-            * match &self.known_by {
-                KnownBy::StickZone(zone) => self.contact.force_of(zone),
-                KnownBy::Displacement(displacement) => self.contact.response(*displacement).force,
-                KnownBy::GrossSlip => self.contact.slip_force,
-            }
+        self.force_and_stiffness().0
     }
 
     /// Tangential displacement \[m\]; in gross slip that at its onset.
@@ -152,23 +154,14 @@ impl CurvePoint<'_> {
     /// dT/d(displacement) \[N/m\]; 0 in gross slip.
     #[must_use]
     pub fn stiffness(&self) -> f64 {
-        match &self.known_by {
-            KnownBy::StickZone(zone) => self.contact.stiffness_of(zone),
-            KnownBy::Displacement(displacement) => self.contact.response(*displacement).stiffness,
-            KnownBy::GrossSlip => 0.0,
-        }
+        self.force_and_stiffness().1
     }
 
     /// [`force`](CurvePoint::force) and [`stiffness`](CurvePoint::stiffness).
     #[must_use]
     pub fn force_and_stiffness(&self) -> (f64, f64) {
-        match self.known_by {
-            KnownBy::Displacement(displacement) => {
-                let response = self.contact.response(displacement);
-                (self.sign * response.force, response.stiffness)
-            }
-            KnownBy::StickZone(_) | KnownBy::GrossSlip => (self.force(), self.stiffness()),
-        }
+        let Response { force, stiffness } = self.response();
+        (self.sign * force, stiffness)
     }
 
     /// d(displacement)/dT \[m/N\]; infinite in gross slip, without friction, and at mu N if the stick zone shrinks to a point.
@@ -183,5 +176,33 @@ impl CurvePoint<'_> {
     #[must_use]
     pub fn stick_half_width(&self) -> f64 {
         self.stick_zone().map_or(0.0, |zone| self.contact.half_width * self.contact.stick_zones().size(&zone))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::constant_load::contact::tests::{FLATS, contact};
+
+    #[test]
+    fn curve_ends_at_mu_n_with_a_kink_for_a_flat() {
+        for flat in FLATS.into_iter().chain([1e-80, 1e-250]) {
+            let contact = contact(flat);
+            let end = contact.curve_at_force(contact.slip_force).unwrap();
+            assert_eq!(end.displacement(), contact.slip_displacement);
+            let same = contact.curve_at_displacement(contact.slip_displacement).unwrap();
+            assert_eq!(same.stick_half_width(), end.stick_half_width());
+            assert_eq!(end.stick_half_width() == 0.0, flat == 0.0);
+            // The rounding errors of a quotient, a square root and a product.
+            assert!((end.stick_half_width() - flat).abs() <= 4e-16 * flat, "{flat} {}", end.stick_half_width());
+            assert_eq!(end.compliance().is_infinite(), flat == 0.0);
+            let half = 0.5 * contact.slip_displacement;
+            assert_eq!(contact.curve_at_displacement(-half).unwrap().displacement(), -half);
+            let beyond = contact.curve_at_displacement(-2.0 * contact.slip_displacement).unwrap();
+            assert_eq!((beyond.force(), beyond.stiffness()), (-contact.slip_force, 0.0));
+            assert_eq!((beyond.displacement(), beyond.stick_half_width()), (-contact.slip_displacement, 0.0));
+            for point in [end, beyond, contact.curve_at_displacement(-half).unwrap()] {
+                assert_eq!(point.force_and_stiffness(), (point.force(), point.stiffness()));
+            }
+        }
     }
 }

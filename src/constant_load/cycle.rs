@@ -3,8 +3,7 @@
 use crate::constant_load::contact::Contact;
 use crate::error::Error;
 use crate::numerics::fp_class::in_0_to;
-use crate::shape::stick_zone::ellipse::EllipseZones;
-use crate::shape::stick_zone::{Complement, StickZone, StickZones};
+use crate::shape::stick_zone::{Complement, StickZone};
 
 impl Contact {
     /// Energy \[J\] dissipated per cycle between ± a force amplitude \[N\], at most mu N (Eq. 13-16).
@@ -29,14 +28,18 @@ impl Contact {
     /// amplitude \[N\].
     #[inline(always)]
     pub(crate) fn cycle_energy(&self, amplitude: Complement) -> (f64, f64) {
-        if self.is_layered() {
-            return self.cycle_energy_with_layer(amplitude);
-        }
-        match self.evaluator().load_at(amplitude) {
-            Some(point) if self.is_ellipse() => self.cycle_energy_at(&EllipseZones, point),
-            Some(point) => self.cycle_energy_at(&self.layered_zones().flat, point),
-            None => self.cycle_energy_of_zone(amplitude),
-        }
+        let zones = self.stick_zones();
+        let (load, stiffness) = self.load_at(amplitude).unwrap_or_else(|| {
+            let zone = self.stick_zone_before_slip(amplitude);
+            (zone.load, self.stiffness_of(&zone))
+        });
+        let (dissipation, slope) = if load.consumed <= 0.5 {
+            zones.small_load().dissipation_with_derivative(load.consumed)
+        } else {
+            let compliance = self.stiffness_scale / stiffness.max(f64::MIN_POSITIVE);
+            zones.cycle(load.remaining, compliance - zones.small_load().compliance)
+        };
+        (self.energy_scale() * dissipation, self.displacement_scale * slope * stiffness)
     }
 
     /// Energy \[J\] dissipated per cycle from the interpolant, in the range of its first polynomial.
@@ -47,31 +50,6 @@ impl Contact {
             return None;
         }
         Some(self.initial_stiffness * amplitude * amplitude * self.interpolant().cycle_energy(y)?)
-    }
-
-    #[inline(never)]
-    fn cycle_energy_with_layer(&self, amplitude: Complement) -> (f64, f64) {
-        match self.load_at(amplitude) {
-            Some(point) => self.cycle_energy_at(self.layered_zones(), point),
-            None => self.cycle_energy_of_zone(amplitude),
-        }
-    }
-
-    /// The same at a load and the stiffness there.
-    #[inline(always)]
-    fn cycle_energy_at(&self, zones: &(impl StickZones + ?Sized), (load, stiffness): (Complement, f64)) -> (f64, f64) {
-        let (dissipation, slope) = if load.consumed <= 0.5 {
-            zones.small_load().dissipation_with_derivative(load.consumed)
-        } else {
-            let compliance = self.stiffness_scale / stiffness.max(f64::MIN_POSITIVE);
-            zones.cycle(load.remaining, compliance - zones.small_load().compliance)
-        };
-        (self.energy_scale() * dissipation, self.displacement_scale * slope * stiffness)
-    }
-
-    fn cycle_energy_of_zone(&self, amplitude: Complement) -> (f64, f64) {
-        let (zones, zone) = (self.stick_zones(), self.stick_zone_before_slip(amplitude));
-        self.cycle_energy_at(zones, (zone.load, self.stiffness_of(&zone)))
     }
 
     /// The load at a displacement up to that of gross slip and the stiffness, if there is an interpolant.

@@ -4,17 +4,19 @@
 //! that bends the curve strongly, the stick zone is found by iteration.
 
 use crate::constant_load::contact::Contact;
-use crate::constant_load::curve::sign_of;
 use crate::constant_load::interpolant::{END_OF_PIECES, ForceInterpolant, INNER_FRACTION, Interval, root_of};
 use crate::shape::layer::inverse_of_sum;
 use crate::shape::stick_zone::{Complement, StickZones};
-use crate::simd::dispatch;
 
 /// Force \[N\] and tangent stiffness \[N/m\] at a displacement.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Response {
     pub force: f64,
     pub stiffness: f64,
+}
+
+pub(super) fn sign_of(value: f64) -> f64 {
+    if value < 0.0 { -1.0 } else { 1.0 }
 }
 
 /// Values behind those that are evaluated, so that whole blocks of four can be read and written from any value on.
@@ -40,12 +42,6 @@ impl Contact {
         self.evaluator().at(displacement)
     }
 
-    /// The same, not inlined.
-    #[inline(never)]
-    pub(crate) fn response_at(&self, displacement: f64) -> Response {
-        self.response(displacement)
-    }
-
     /// The evaluator of the curve: the fields of the contact that it needs, loaded once for many displacements.
     #[inline(always)]
     pub(crate) fn evaluator(&self) -> CurveEvaluator<'_> {
@@ -62,35 +58,17 @@ impl Contact {
     }
 
     /// Force and stiffness at displacements of either sign.
-    #[inline(always)]
     pub(crate) fn responses(&self, displacement: &[f64], force: Option<&mut [f64]>, stiffness: Option<&mut [f64]>) {
-        dispatch!(self.responses_kernel(displacement, force, stiffness));
-    }
-
-    #[inline(always)]
-    fn responses_kernel(&self, displacement: &[f64], force: Option<&mut [f64]>, stiffness: Option<&mut [f64]>) {
+        if force.is_none() && stiffness.is_none() {
+            return;
+        }
         let evaluator = self.evaluator();
-        let signed = |displacement: f64| {
+        let mut forces = force.unwrap_or(&mut []).iter_mut();
+        let mut stiffnesses = stiffness.unwrap_or(&mut []).iter_mut();
+        for &displacement in displacement {
             let Response { force, stiffness } = evaluator.at(displacement.abs());
-            Response { force: sign_of(displacement) * force, stiffness }
-        };
-        match (force, stiffness) {
-            (Some(force), Some(stiffness)) => {
-                for ((force, stiffness), &displacement) in force.iter_mut().zip(stiffness).zip(displacement) {
-                    Response { force: *force, stiffness: *stiffness } = signed(displacement);
-                }
-            }
-            (Some(force), None) => {
-                for (force, &displacement) in force.iter_mut().zip(displacement) {
-                    *force = signed(displacement).force;
-                }
-            }
-            (None, Some(stiffness)) => {
-                for (stiffness, &displacement) in stiffness.iter_mut().zip(displacement) {
-                    *stiffness = signed(displacement).stiffness;
-                }
-            }
-            (None, None) => {}
+            forces.next().into_iter().for_each(|place| *place = sign_of(displacement) * force);
+            stiffnesses.next().into_iter().for_each(|place| *place = stiffness);
         }
     }
 
@@ -148,16 +126,16 @@ impl Contact {
         }
         let layer = zones.layer();
         // The layer alone would have more load at this displacement; a shift grows at most like the power 2/3 of the load.
-        let of_layer = alone.slip_shift() * layer.load_remaining(remaining / layer.compliance()).cbrt().powi(2);
+        let of_layer = alone.slip_shift() * layer.load_of_shift(remaining).cbrt().powi(2);
         let start = remaining.min(of_layer).max(f64::MIN_POSITIVE);
         let at = |own: f64| {
             let [left, compliance] = self.without_layer(own);
             let load = Complement { consumed: 1.0 - left, remaining: left };
-            (load, compliance, layer.compliance_at(load))
+            (load, compliance, layer.compliance(left))
         };
         let (load, of_contact, of_layer) = at(inverse_of_sum(remaining, start, alone.slip_shift(), |own| {
             let (load, of_contact, of_layer) = at(own);
-            let sum = own + layer.shift_remaining(load.remaining);
+            let sum = own + layer.shift(load.remaining);
             [sum, own / sum * (1.0 + of_layer / of_contact)]
         }));
         Some((load, self.stiffness_scale / (of_contact + of_layer)))
@@ -169,11 +147,11 @@ impl Contact {
         let (slip_shift, full_stick) = (alone.slip_shift(), alone.small_load().compliance);
         let y = (slip_shift - remaining) / (INNER_FRACTION * slip_shift);
         if y <= 1.0 {
-            let (secant, tangent) = self.interpolant().inner_secant_and_tangent(y);
+            let (secant, tangent) = self.interpolant().secant_and_tangent(y);
             return [1.0 - (slip_shift - remaining) / full_stick * secant, full_stick / tangent];
         }
         let outer = (1.0 - INNER_FRACTION) * slip_shift;
-        match self.interpolant().outer_complement_and_slope(remaining / outer) {
+        match self.interpolant().complement_and_slope(remaining / outer) {
             Some((left, slope)) => [left, outer / slope],
             None => {
                 let zone = alone.at_shift_remaining(remaining);
@@ -230,9 +208,12 @@ impl CurveEvaluator<'_> {
         if remaining < 0.0 {
             return Some(Response { force: self.slip_force, stiffness: 0.0 });
         }
+        if !self.interpolant.is_converged() {
+            return None;
+        }
         let y = displacement * self.inner_scale;
         if y <= 1.0 {
-            let (secant, tangent) = self.interpolant.secant_and_tangent(y)?;
+            let (secant, tangent) = self.interpolant.secant_and_tangent(y);
             let initial = self.initial_stiffness;
             Some(Response { force: initial * displacement * secant, stiffness: initial * tangent })
         } else {
@@ -359,9 +340,12 @@ impl CurveEvaluator<'_> {
     /// interpolant at this displacement.
     #[inline(always)]
     pub fn load_at(&self, displacement: Complement) -> Option<(Complement, f64)> {
+        if !self.interpolant.is_converged() {
+            return None;
+        }
         let y = displacement.consumed * self.inner_scale;
         if y <= 1.0 {
-            let (secant, tangent) = self.interpolant.secant_and_tangent(y)?;
+            let (secant, tangent) = self.interpolant.secant_and_tangent(y);
             let consumed =
                 self.initial_stiffness * displacement.consumed / self.slip_force.max(f64::MIN_POSITIVE) * secant;
             Some((Complement { consumed, remaining: 1.0 - consumed }, self.initial_stiffness * tangent))

@@ -18,7 +18,7 @@
 use crate::numerics::chebyshev::{Interpolant, Polynomial, TERMS, Tangent, powers};
 use crate::numerics::polynomial::{four_values_and_slopes, rows, sum, value_and_slope};
 use crate::shape::rounded_punch::TINY;
-use crate::shape::stick_zone::CurvePoint;
+use crate::shape::stick_zone::LoadPoint;
 
 /// Fraction of x_s that the first polynomial covers.
 pub(crate) const INNER_FRACTION: f64 = 0.4;
@@ -78,7 +78,7 @@ pub(crate) struct ForceInterpolant {
     inner: Polynomial,
     /// 1 - τ over z = 2ʲ⁺² v - 3, from -1 to 1.
     pieces: [Polynomial; PIECES],
-    /// (1 - τ)/ρ over z of a [`Place`].
+    /// (1 - τ)/ρ over z of a [`DyadicPlace`].
     last: [Polynomial; LAST_PIECES],
     /// 1 if all polynomials are accurate to rounding; 0 if the curvature is too strong, for Λ near 0; [`WITHOUT_LAYER`].
     converged: u64,
@@ -92,9 +92,9 @@ impl ForceInterpolant {
         converged: 0,
     };
 
-    /// The same interpolant, marked as that of the curve of the contact without its layer.
-    pub fn without_layer(self) -> ForceInterpolant {
-        ForceInterpolant { converged: WITHOUT_LAYER * self.converged, ..self }
+    /// Marks it as that of the curve of the contact without its layer.
+    pub fn mark_without_layer(&mut self) {
+        self.converged *= WITHOUT_LAYER;
     }
 
     pub fn is_without_layer(&self) -> bool {
@@ -109,11 +109,11 @@ impl ForceInterpolant {
         inner_fraction: f64,
         slip_shift: f64,
         compliance: f64,
-        at_remaining: &mut dyn FnMut(f64) -> CurvePoint,
+        at_remaining: &mut dyn FnMut(f64) -> LoadPoint,
     ) -> ForceInterpolant {
         let (first, remaining) = (inner_fraction * slip_shift, (1.0 - inner_fraction) * slip_shift);
         let mut tangents = Interpolant::<{ TERMS / 2 }>::at_points(|z| {
-            let CurvePoint { compliance_increase: increase, curvature, .. } =
+            let LoadPoint { compliance_increase: increase, curvature, .. } =
                 at_remaining(slip_shift - 0.5 * (1.0 - z) * first);
             let stiffness = 1.0 / (compliance + increase);
             let slope = 0.5 * first * compliance * curvature * stiffness * stiffness * stiffness;
@@ -147,22 +147,7 @@ impl ForceInterpolant {
             converged &= piece_converged;
             scale *= 0.5;
         }
-        let mut last = [[[0.0; 4]; _]; LAST_PIECES];
-        for (piece, polynomial) in last.iter_mut().enumerate() {
-            let tangent = |z: f64| {
-                let rho = END_OF_PIECES * Place { piece, z }.distance();
-                let point = at_remaining(remaining * rho);
-                let value = point.remaining / rho;
-                let tangent = remaining / (compliance + point.compliance_increase);
-                Tangent { value, slope: 8.0 / (3.0 + z) * (tangent - value) }
-            };
-            // The share in an integral is at most a 16th of that of the piece before.
-            *polynomial = match piece {
-                0 | 1 => powers(Interpolant::<20>::osculating(&Interpolant::<10>::at_points(tangent)).terms()),
-                2 | 3 => powers(Interpolant::<16>::osculating(&Interpolant::<8>::at_points(tangent)).terms()),
-                _ => powers(Interpolant::<12>::osculating(&Interpolant::<6>::at_points(tangent)).terms()),
-            };
-        }
+        let last = last_pieces(compliance, remaining, at_remaining);
         ForceInterpolant { inner, pieces, last, converged: converged as u64 }
     }
 
@@ -176,16 +161,9 @@ impl ForceInterpolant {
         &self.inner
     }
 
-    /// Secant and tangent stiffness over the initial one at y = x/(2/5 x_s), at most 1; `None` if not converged.
+    /// Secant and tangent stiffness over the initial one at y = x/(2/5 x_s), at most 1, if converged.
     #[inline(always)]
-    pub fn secant_and_tangent(&self, y: f64) -> Option<(f64, f64)> {
-        let values = self.inner_secant_and_tangent(y);
-        self.is_converged().then_some(values)
-    }
-
-    /// The same without a check.
-    #[inline(always)]
-    pub fn inner_secant_and_tangent(&self, y: f64) -> (f64, f64) {
+    pub fn secant_and_tangent(&self, y: f64) -> (f64, f64) {
         let (secant, slope) = value_and_slope(&self.inner, y);
         (secant, secant + slope * y)
     }
@@ -202,16 +180,9 @@ impl ForceInterpolant {
         self.is_converged().then(|| sum(weighted(&self.inner, &ENERGY_WEIGHTS).into_iter(), y))
     }
 
-    /// 1 - τ and its derivative with respect to ρ; `None` if ρ is below the last interval of v, or if not converged.
+    /// 1 - τ and its derivative with respect to ρ, if converged; `None` if ρ is below the last interval of v.
     #[inline(always)]
     pub fn complement_and_slope(&self, rho: f64) -> Option<(f64, f64)> {
-        let values = self.outer_complement_and_slope(rho)?;
-        self.is_converged().then_some(values)
-    }
-
-    /// The same without a check of the convergence.
-    #[inline(always)]
-    pub fn outer_complement_and_slope(&self, rho: f64) -> Option<(f64, f64)> {
         let v = root_of(rho);
         let Interval(exponent) = Interval::of(v);
         let piece = self.pieces.get((1022 - exponent) as usize)?;
@@ -220,7 +191,7 @@ impl ForceInterpolant {
         Some((remaining, 2.0 * scale * slope / v))
     }
 
-    /// The derivative below the last interval of v, for integrals, if converged.
+    /// The derivatives at places below the last interval of v, for integrals, if converged.
     #[inline(always)]
     pub fn last_slopes<const N: usize>(&self, rho: &[f64; N]) -> [f64; N] {
         // Roots of several take the time of one.
@@ -229,7 +200,8 @@ impl ForceInterpolant {
             roots[k] = eighth_root(rho[k] * (1.0 / END_OF_PIECES));
         }
         for k in 0..N {
-            let place = Place::of(roots[k], LAST_PIECES);
+            let place = DyadicPlace::of(roots[k], LAST_PIECES);
+            // Every place is on a piece; the other polynomial only spares a check that could fail.
             let piece = self.last.get(place.piece).unwrap_or(&self.inner);
             slopes[k] = place.product_slope(value_and_slope(piece, place.z));
         }
@@ -269,19 +241,19 @@ impl ForceInterpolant {
 
 /// The piece and the argument on it of a small distance, by its eighth root u: pieces are the dyadic intervals 2⁻ʲ⁻¹ <= u <= 2⁻ʲ.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Place {
+pub(crate) struct DyadicPlace {
     pub piece: usize,
     /// 4 2ʲ u - 3, from -1 to 1.
     pub z: f64,
 }
 
-impl Place {
+impl DyadicPlace {
     /// The place of u on one of some pieces, that of the end of the last one if u is below.
     #[inline(always)]
-    pub fn of(u: f64, pieces: usize) -> Place {
+    pub fn of(u: f64, pieces: usize) -> DyadicPlace {
         let u = u.max(f64::from_bits((1023 - pieces as u64) << 52));
         let Interval(exponent) = Interval::of(u);
-        Place { piece: (1022 - exponent) as usize, z: 4.0 * (power_of(exponent) * u) - 3.0 }
+        DyadicPlace { piece: (1022 - exponent) as usize, z: 4.0 * (power_of(exponent) * u) - 3.0 }
     }
 
     /// u.
@@ -337,18 +309,43 @@ fn power_of(exponent: u64) -> f64 {
     f64::from_bits((2047 - 2 - exponent) << 52)
 }
 
+/// (1 - τ)/ρ beyond the dyadic intervals of v.
+fn last_pieces(
+    compliance: f64,
+    remaining: f64,
+    at_remaining: &mut dyn FnMut(f64) -> LoadPoint,
+) -> [Polynomial; LAST_PIECES] {
+    let mut last = [[[0.0; 4]; _]; LAST_PIECES];
+    for (piece, polynomial) in last.iter_mut().enumerate() {
+        let tangent = |z: f64| {
+            let rho = END_OF_PIECES * DyadicPlace { piece, z }.distance();
+            let point = at_remaining(remaining * rho);
+            let value = point.remaining / rho;
+            let tangent = remaining / (compliance + point.compliance_increase);
+            Tangent { value, slope: 8.0 / (3.0 + z) * (tangent - value) }
+        };
+        // The share in an integral is at most a 16th of that of the piece before.
+        *polynomial = match piece {
+            0 | 1 => powers(Interpolant::<20>::osculating(&Interpolant::<10>::at_points(tangent)).terms()),
+            2 | 3 => powers(Interpolant::<16>::osculating(&Interpolant::<8>::at_points(tangent)).terms()),
+            _ => powers(Interpolant::<12>::osculating(&Interpolant::<6>::at_points(tangent)).terms()),
+        };
+    }
+    last
+}
+
 /// 1 - τ over a dyadic interval, and whether it has converged: the integral of `unit (3+z)/(Λ + λ)`, with a constant that fits the
 /// values of 1 - τ. The compliance at the first point gives a parabola; the difference from it is interpolated.
 #[inline(never)]
 fn interpolate<const N: usize, const M: usize>(
     compliance: f64,
     unit: f64,
-    at: &mut dyn FnMut(f64) -> CurvePoint,
+    at: &mut dyn FnMut(f64) -> LoadPoint,
     tolerance: f64,
 ) -> (Polynomial, bool) {
     let (mut sum, mut first) = (0.0, None);
     let tangents = Interpolant::<M>::at_points(|z| {
-        let CurvePoint { remaining, compliance_increase: increase, curvature } = at(z);
+        let LoadPoint { remaining, compliance_increase: increase, curvature } = at(z);
         sum += remaining;
         let first = *first.get_or_insert(increase);
         let stiffness = 1.0 / (compliance + increase);

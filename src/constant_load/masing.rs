@@ -5,7 +5,7 @@
 use crate::constant_load::contact::Contact;
 use crate::constant_load::energy::Dissipation;
 use crate::constant_load::evaluator::{BEYOND, CurveEvaluator, Response};
-use crate::constant_load::memory::{Branch, InitialCurve, Memory, Merge, Point, Transition};
+use crate::constant_load::memory::{Branch, InitialCurve, Merge, Point, Transition};
 use crate::constant_load::state;
 use crate::error::Error;
 use crate::limits::check_displacement;
@@ -144,53 +144,22 @@ pub(crate) fn continued(contact: &Contact, state: &[f64], displacement: f64) -> 
     Some(evaluator.on_branch(response))
 }
 
-/// Finds a step by the variant that the state needs, and evaluates an expression of it. The variants, and the expression for each, are
-/// kept apart: a step that may have to be changed would live in memory.
-macro_rules! with_step {
-    ($contact:expr, $state:expr, $displacement:expr, |$step:ident| $result:expr) => {
-        if $crate::constant_load::state::is_full($state) {
-            let $step = $crate::constant_load::masing::step_in_full_state($contact, $state, $displacement);
-            $result
-        } else {
-            let $step = $crate::constant_load::masing::step_with_room($contact, $state, $displacement);
-            $result
-        }
-    };
-}
-
-pub(crate) use with_step;
-
 /// Finds the step of a contact from a state to a displacement \[m\], both checked.
 #[must_use]
 #[inline(always)]
 pub fn step(contact: &Contact, state: &[f64], displacement: f64) -> Step {
-    with_step!(contact, state, displacement, |step| step)
-}
-
-/// The same for a state that is not full.
-#[must_use]
-#[inline(always)]
-pub(crate) fn step_with_room(contact: &Contact, state: &[f64], displacement: f64) -> Step {
     let memory = state::memory(state);
-    let transition = memory.locate(contact, displacement, |_| {});
-    Step::new(contact, &memory, &transition, displacement)
-}
-
-/// The same for a full state, in which a step that reverses merges two reversals.
-#[must_use]
-#[inline(never)]
-pub(crate) fn step_in_full_state(contact: &Contact, state: &[f64], displacement: f64) -> Step {
-    let memory = state::memory(state);
-    let transition = memory.locate(contact, displacement, |_| {});
-    let step = Step::new(contact, &memory, &transition, displacement);
-    if transition.reversed { step.merged(contact, &memory) } else { step }
-}
-
-/// The step, and the energy \[J\] that it dissipates.
-#[must_use]
-#[inline(always)]
-pub fn step_with_energy(contact: &Contact, state: &[f64], displacement: f64) -> (Step, f64) {
-    (step(contact, state, displacement), dissipated(contact, state, displacement))
+    let Transition { branch, reversed } = memory.locate(contact, displacement, |_| {});
+    let Response { force, stiffness } = branch.response(contact, displacement);
+    let initial = memory.initial.after(contact, &branch, displacement);
+    let (mut start, mut end, mut merge) = (memory.now, Point { displacement, force }, None);
+    if reversed && state::is_full(state) {
+        let pair = Merge::new(contact, initial.offset, memory.reversals, start.displacement);
+        let limit = contact.slip_force;
+        [start.force, end.force] = [start.force, force].map(|force| (force + pair.shift).min(limit).max(-limit));
+        merge = Some(pair);
+    }
+    Step { depth: branch.depth, reversed, merge, initial, start, end, stiffness }
 }
 
 /// The energy \[J\] that a step dissipates, not negative.
@@ -207,37 +176,6 @@ pub fn dissipated(contact: &Contact, state: &[f64], displacement: f64) -> f64 {
 }
 
 impl Step {
-    #[inline(always)]
-    fn new(contact: &Contact, memory: &Memory, transition: &Transition, displacement: f64) -> Step {
-        let Transition { branch, reversed } = *transition;
-        let Response { force, stiffness } = branch.response(contact, displacement);
-        Step {
-            depth: branch.depth,
-            reversed,
-            merge: None,
-            initial: memory.initial.after(contact, &branch, displacement),
-            start: memory.now,
-            end: Point { displacement, force },
-            stiffness,
-        }
-    }
-
-    /// The step in a full state, in which the point at which it starts is to be stored.
-    #[cold]
-    #[inline(never)]
-    fn merged(mut self, contact: &Contact, memory: &Memory) -> Step {
-        let merge = Merge::new(contact, self.initial.offset, memory.reversals, self.start.displacement);
-        let limit = contact.slip_force;
-        let shifted = |force: f64| {
-            let force = force + merge.shift;
-            let force = if force > limit { limit } else { force };
-            if force < -limit { -limit } else { force }
-        };
-        (self.start.force, self.end.force) = (shifted(self.start.force), shifted(self.end.force));
-        self.merge = Some(merge);
-        self
-    }
-
     /// Tangential force \[N\] after the step.
     #[must_use]
     #[inline(always)]
@@ -302,12 +240,10 @@ pub fn path(contact: &Contact, state: &mut [f64], path: &[f64], output: PathOutp
         if dissipated.is_some() {
             set(&mut dissipated, i, self::dissipated(contact, state, displacement));
         }
-        let [step_force, step_stiffness] = with_step!(contact, state, displacement, |step| {
-            step.write(state);
-            [step.force(), step.stiffness()]
-        });
-        set(&mut force, i, step_force);
-        set(&mut stiffness, i, step_stiffness);
+        let step = step(contact, state, displacement);
+        step.write(state);
+        set(&mut force, i, step.force());
+        set(&mut stiffness, i, step.stiffness());
     }
 }
 

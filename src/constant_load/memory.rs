@@ -45,15 +45,7 @@ impl InitialCurve {
     pub fn after(self, contact: &Contact, branch: &Branch, displacement: f64) -> InitialCurve {
         if contact.is_frictionless() {
             InitialCurve { offset: displacement, slip_direction: 0.0 }
-        } else {
-            self.after_friction(contact, branch, displacement)
-        }
-    }
-
-    /// The same for a contact with friction.
-    #[inline(always)]
-    pub fn after_friction(self, contact: &Contact, branch: &Branch, displacement: f64) -> InitialCurve {
-        if branch.gross_slip {
+        } else if branch.gross_slip {
             let offset = displacement - branch.direction * contact.slip_displacement;
             InitialCurve { offset, slip_direction: branch.direction }
         } else {
@@ -382,7 +374,7 @@ fn remove(reversals: &mut [Reversal], from: usize, count: usize) -> usize {
 
 /// `F(long) - F(short)` of the branch curve.
 fn branch_force_between(contact: &Contact, short: f64, long: f64) -> f64 {
-    let [short, long] = [short, long].map(|range| contact.response_at(0.5 * range).force);
+    let [short, long] = [short, long].map(|range| contact.response(0.5 * range).force);
     2.0 * (long - short)
 }
 

@@ -50,9 +50,7 @@ pub(crate) fn is_full(state: &[f64]) -> bool {
 }
 
 /// Checks what every call checks of a state: its length, its tag, and the number of reversals.
-///
-/// # Errors
-/// `StateTooShort` for fewer than [`state_length`]`(0)` doubles; `BadState` for an array that was not initialised, was truncated, or
+/// Errors: `StateTooShort` for fewer than [`state_length`]`(0)` doubles; `BadState` for an array that was not initialised, or
 /// belongs to another version.
 #[inline(always)]
 pub(crate) fn check_header(state: &[f64]) -> Result<(), Error> {
@@ -83,9 +81,6 @@ pub(crate) fn memory(state: &[f64]) -> Memory<'_> {
 }
 
 /// Reads a state.
-///
-/// # Errors
-/// Those of [`check_header`].
 pub(crate) fn read(state: &[f64]) -> Result<Memory<'_>, Error> {
     check_header(state)?;
     Ok(memory(state))

@@ -42,7 +42,7 @@ impl<'c, 's> SteadyState<'c, 's> {
         let initial_curve = self.memory(Point { displacement, force: 0.0 }).branch(self.contact, 0, direction);
         let gross_slip = displacement.abs() > self.contact.slip_displacement;
         self.branch = Branch { gross_slip, ..initial_curve };
-        self.initial = self.initial.after_friction(self.contact, &self.branch, displacement);
+        self.initial = self.initial.after(self.contact, &self.branch, displacement);
         self.response(displacement)
     }
 
@@ -88,7 +88,7 @@ impl<'c, 's> SteadyState<'c, 's> {
             push(self.contact, self.initial.offset, self.reversals, self.depth, from);
         }
         self.depth = self.branch.depth;
-        self.initial = self.initial.after_friction(self.contact, &self.branch, displacement);
+        self.initial = self.initial.after(self.contact, &self.branch, displacement);
         transition.reversed
     }
 
@@ -115,7 +115,7 @@ impl<'c, 's> SteadyState<'c, 's> {
 
     /// Adds the energy dissipated along the present branch and, in gross slip, moves the slider.
     pub fn account_for(&mut self, from: f64, to: f64) {
-        self.initial = self.initial.after_friction(self.contact, &self.branch, to);
+        self.initial = self.initial.after(self.contact, &self.branch, to);
         if let Some(energy) = &mut self.energy {
             energy.add(self.branch.segment(self.contact.slip_displacement, from, to));
         }

@@ -20,7 +20,7 @@
 use crate::constant_load::complex_stiffness::{StiffnessOutputs, ValueAndSlope, write_values};
 use crate::constant_load::contact::Contact;
 use crate::constant_load::interpolant::{CYCLE_WEIGHTS, INNER_FRACTION};
-use crate::constant_load::interpolant::{ENERGY_WEIGHTS, Place, eighth_root, weighted};
+use crate::constant_load::interpolant::{DyadicPlace, ENERGY_WEIGHTS, eighth_root, weighted};
 use crate::numerics::chebyshev::{Interpolant, Polynomial, powers};
 use crate::numerics::polynomial::{Rows, rows, sum, value_and_slope};
 use crate::numerics::quadrature::gauss;
@@ -112,7 +112,7 @@ impl<const R: usize> Pieces<R> {
     }
 
     #[inline(always)]
-    fn value_and_slope(&self, place: &Place) -> (f64, f64) {
+    fn value_and_slope(&self, place: &DyadicPlace) -> (f64, f64) {
         match self.others.get(place.piece.wrapping_sub(1)) {
             Some(rows) => value_and_slope(rows, place.z),
             None => match self.first.first_chunk::<FEW_ROWS>() {
@@ -126,7 +126,7 @@ impl<const R: usize> Pieces<R> {
 /// [`Pieces::mean_of`] on a piece; the mean over all pieces below becomes that of the piece besides.
 #[inline(never)]
 fn mean_on(piece: usize, mean_below: &mut Option<f64>, rate: &dyn Fn(f64) -> f64) -> Interpolant<POINTS> {
-    let rates = Interpolant::<POINTS>::at_points(|z| rate(TOP * Place { piece, z }.distance()));
+    let rates = Interpolant::<POINTS>::at_points(|z| rate(TOP * DyadicPlace { piece, z }.distance()));
     let rates: Rows<{ POINTS / 4 }> = powers(Interpolant::<POINTS>::through(&rates).terms());
     let rate = |z| sum(rates.into_iter(), z);
     let below = mean_below.unwrap_or_else(|| rate(-1.0));
@@ -254,7 +254,7 @@ impl StiffnessTable {
             [part(has_real, real), part(has_imaginary, imaginary)]
         } else {
             // The compiler may divide before the comparison.
-            let (per_xi, place) = (1.0 / xi.max(1.0 - TOP), Place::of(u, PIECES));
+            let (per_xi, place) = (1.0 / xi.max(1.0 - TOP), DyadicPlace::of(u, PIECES));
             let real = if has_real { self.outer_real(xi, per_xi, e, &place) } else { (0.0, 0.0) };
             [real, if has_imaginary { self.outer_imaginary(per_xi, e, &place) } else { (0.0, 0.0) }]
         }
@@ -262,7 +262,7 @@ impl StiffnessTable {
 
     /// K' beyond the first polynomial.
     #[inline(always)]
-    fn outer_real(&self, xi: f64, per_xi: f64, e: f64, place: &Place) -> ValueAndSlope {
+    fn outer_real(&self, xi: f64, per_xi: f64, e: f64, place: &DyadicPlace) -> ValueAndSlope {
         if xi > NEAR {
             let (value, slope) = value_and_slope(&self.far, FAR * per_xi);
             let factor = per_xi * per_xi.sqrt();
@@ -276,7 +276,7 @@ impl StiffnessTable {
 
     /// K'' beyond the first polynomial.
     #[inline(always)]
-    fn outer_imaginary(&self, per_xi: f64, e: f64, place: &Place) -> ValueAndSlope {
+    fn outer_imaginary(&self, per_xi: f64, e: f64, place: &DyadicPlace) -> ValueAndSlope {
         let (value, rate) = if e > 0.0 {
             let r = self.energy.value_and_slope(place);
             (r.0, place.product_slope(r))
@@ -369,7 +369,7 @@ mod tests {
     fn pieces_join() {
         fn check<const R: usize>(pieces: &Pieces<R>) {
             for piece in 1..PIECES {
-                let [end, start] = [Place { piece, z: 1.0 }, Place { piece: piece - 1, z: -1.0 }];
+                let [end, start] = [DyadicPlace { piece, z: 1.0 }, DyadicPlace { piece: piece - 1, z: -1.0 }];
                 let [one, other] = [end, start].map(|place| {
                     let values = pieces.value_and_slope(&place);
                     (values.0, place.product_slope(values))
@@ -385,7 +385,7 @@ mod tests {
             check(&table.above);
             check(&table.energy);
             // G is continuous at gross slip.
-            let last = Place { piece: PIECES - 1, z: -1.0 };
+            let last = DyadicPlace { piece: PIECES - 1, z: -1.0 };
             let (below, above) = (table.below.value_and_slope(&last).0, table.above.value_and_slope(&last).0);
             assert!((below - table.slope_at_slip).abs() < 1e-8 && (above - table.slope_at_slip).abs() < 1e-8);
         }

@@ -1,23 +1,28 @@
 //! Batches of contacts and of elements: all items are checked before the first output is written.
 
-use super::constant_load::history;
-use super::pointers::{self, call, check_alignment, check_length, input, optional_input, output, outputs, with_law};
-use super::{element, mslip_contact, mslip_element};
+use super::pointers::{
+    self, call, check_alignment, check_length, input, item, optional_input, output, outputs, state_input, with_law,
+    write,
+};
+use super::{mslip_contact, mslip_element};
 use crate::constant_load::complex_stiffness::check_amplitude;
 use crate::constant_load::contact::Contact;
+use crate::constant_load::evaluator::Response;
 use crate::constant_load::harmonic_force::{HarmonicOutput, harmonic_force};
+use crate::constant_load::masing;
+use crate::constant_load::memory::Point;
 use crate::constant_load::state;
 use crate::element::{Directions, Element};
 use crate::error::Error;
-use crate::law::ElementLaw;
+use crate::law::{ElementLaw, Requested};
 use crate::limits::{check_coefficients, check_displacement};
-use core::ptr;
+use core::{ptr, slice};
 use libc::size_t;
 
 /// The law of contacts, or of elements with a number of directions.
-trait Law {
+pub(super) trait StepLaw {
     /// A contact or an element.
-    type Item;
+    type Item: Copy;
     /// A displacement; a force has as many components.
     type Vector;
     /// Derivative of the force by the displacement.
@@ -31,10 +36,6 @@ trait Law {
     fn check_step(item: &Self::Item, tag: f64, state_length: usize, displacement: &Self::Vector) -> Result<(), Error>;
 
     /// Evaluates and writes one step.
-    ///
-    /// # Safety
-    /// Tag and displacement are checked; `state_old` is valid for state_length doubles; `state_new` is NULL, equal to it, or valid
-    /// for as many doubles without overlap; the outputs, force, tangent and energy, are NULL, or aligned and valid.
     unsafe fn update(
         item: &Self::Item,
         state_length: usize,
@@ -45,7 +46,7 @@ trait Law {
     );
 }
 
-impl Law for Contact {
+impl StepLaw for Contact {
     type Item = Contact;
     type Vector = f64;
     type Tangent = f64;
@@ -75,11 +76,25 @@ impl Law for Contact {
         [force, stiffness, dissipated]: [*mut f64; 3],
     ) {
         let state_old = ptr::slice_from_raw_parts(state_old, state_length);
-        history::update(contact, state_old, *displacement, state_new, force, stiffness, dissipated);
+        let energy = (!dissipated.is_null()).then(|| masing::dissipated(contact, &*state_old, *displacement));
+        if let Some(Response { force: value, stiffness: slope }) =
+            masing::continued(contact, &*state_old, *displacement)
+        {
+            write(force, value);
+            write(stiffness, slope);
+            if !state_new.is_null() {
+                copy(state_old, state_new);
+                let now = Point { displacement: *displacement, force: value };
+                state::set_point(slice::from_raw_parts_mut(state_new, state_length), now);
+            }
+        } else {
+            general_update(contact, state_old, *displacement, state_new, [force, stiffness]);
+        }
+        energy.into_iter().for_each(|energy| write(dissipated, energy));
     }
 }
 
-impl<L: ElementLaw> Law for L {
+impl<L: ElementLaw> StepLaw for L {
     type Item = Element;
     type Vector = L::Vector;
     type Tangent = L::Tangent;
@@ -98,20 +113,79 @@ impl<L: ElementLaw> Law for L {
         <L as ElementLaw>::check_step(element, displacement)
     }
 
-    #[inline(always)]
+    #[inline(never)]
     unsafe fn update(
         element: &Element,
         state_length: usize,
         state_old: *const f64,
         displacement: &L::Vector,
         state_new: *mut f64,
-        outputs: [*mut f64; 3],
+        [force, tangent, dissipated]: [*mut f64; 3],
     ) {
-        element::update::<L>(element, state_length, state_old, displacement, state_new, outputs);
+        let requested = Requested { tangent: !tangent.is_null(), energy: !dissipated.is_null() };
+        // No reference to the old state is left when the new one, which may be the same memory, is written.
+        let step = if state_new.is_null() {
+            L::trial(element, slice::from_raw_parts(state_old, state_length), *displacement, requested)
+        } else {
+            let state = slice::from_raw_parts_mut(state_new, state_length);
+            if !ptr::eq(state_old, state_new) {
+                L::copy_used(slice::from_raw_parts(state_old, state_length), state);
+            }
+            L::advance(element, state, *displacement, requested)
+        };
+        write(force.cast(), step.force);
+        write(tangent.cast(), step.tangent);
+        write(dissipated, step.dissipated);
     }
 }
 
+/// A step of a contact that does not continue its branch: it may call other functions before its results are written.
+#[inline(never)]
+unsafe fn general_update(
+    contact: &Contact,
+    state_old: *const [f64],
+    displacement: f64,
+    state_new: *mut f64,
+    [force, stiffness]: [*mut f64; 2],
+) {
+    let step = masing::step(contact, &*state_old, displacement);
+    if !state_new.is_null() {
+        copy(state_old, state_new);
+        step.write(slice::from_raw_parts_mut(state_new, state_old.len()));
+    }
+    write(force, step.force());
+    write(stiffness, step.stiffness());
+}
+
+/// Copies a state unless the new one is the same memory.
+#[inline(always)]
+unsafe fn copy(state_old: *const [f64], state_new: *mut f64) {
+    if !ptr::eq(state_old.cast(), state_new) {
+        ptr::copy_nonoverlapping(state_old.cast(), state_new, state_old.len());
+    }
+}
+
+/// Advances the state of one contact or element, which is checked.
+#[inline(always)]
+pub(super) unsafe fn update_one<L: StepLaw>(
+    law: &L::Item,
+    state_length: usize,
+    state_old: *const f64,
+    displacement: *const f64,
+    state_new: *mut f64,
+    outputs: [*mut f64; 3],
+) -> Result<(), Error> {
+    let displacement = item(displacement.cast::<L::Vector>())?;
+    check_alignment(state_new)?;
+    outputs.iter().try_for_each(|output| check_alignment(*output))?;
+    let tag = state_input(state_length, state_old)?.first().copied().unwrap_or(0.0);
+    L::check_step(law, tag, state_length, displacement)?;
+    L::update(law, state_length, state_old, displacement, state_new, outputs);
+    Ok(())
+}
+
 /// Items of a batch: their contacts or elements, and the flags of the active items.
+#[derive(Clone, Copy)]
 struct Items<'a, T> {
     n: usize,
     laws: &'a [T],
@@ -119,17 +193,7 @@ struct Items<'a, T> {
     active: Option<&'a [i32]>,
 }
 
-impl<T> Clone for Items<'_, T> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<T> Copy for Items<'_, T> {}
-
-impl<'a, T> Items<'a, T> {
-    /// # Safety
-    /// `laws` is NULL or valid for n_laws of them, which any bytes are; `index` and `active` are NULL or valid for n integers.
+impl<'a, T: Copy> Items<'a, T> {
     #[inline(never)]
     unsafe fn new(
         n: usize,
@@ -146,7 +210,7 @@ impl<'a, T> Items<'a, T> {
 
     /// Checks the contacts or elements of all active items, and with each what else belongs to the item.
     #[inline(always)]
-    fn check<L: Law<Item = T>>(self, mut item: impl FnMut(usize, &T) -> Result<(), Error>) -> Result<(), Error> {
+    fn check<L: StepLaw<Item = T>>(self, mut item: impl FnMut(usize, &T) -> Result<(), Error>) -> Result<(), Error> {
         self.active().try_for_each(|i| {
             let law = self.law(i).ok_or(Error::BadIndex)?;
             L::check(law)?;
@@ -184,11 +248,8 @@ impl Items<'_, Element> {
 }
 
 /// Advances the states of all active items.
-///
-/// # Safety
-/// That of the interface.
 #[inline(never)]
-unsafe fn update<L: Law>(
+unsafe fn update<L: StepLaw>(
     items: Items<L::Item>,
     state_length: usize,
     states_old: *const f64,
@@ -198,16 +259,15 @@ unsafe fn update<L: Law>(
 ) -> Result<(), Error> {
     let length = items.n.checked_mul(state_length).ok_or(Error::BadArraySize)?;
     check_length::<L::Tangent>(items.n)?;
-    // SAFETY: by the function's contract; vectors are doubles, or arrays of them.
-    let displacement = unsafe { input(displacement.cast::<L::Vector>(), items.n) }?;
+    let displacement = input(displacement.cast::<L::Vector>(), items.n)?;
     check_alignment(states_new)?;
     outputs.iter().try_for_each(|output| check_alignment(*output))?;
     if items.n > 0 && states_old.is_null() {
         return Err(Error::NullPointer);
     }
     {
-        // SAFETY: by the function's contract; the reference ends before the new states, which may be the same memory, are written.
-        let states = unsafe { input(states_old, length) }?;
+        // The reference ends before the new states, which may be the same memory, are written.
+        let states = input(states_old, length)?;
         items.check::<L>(|i, law| {
             prefetch::<1>(states_old.wrapping_add((i + CHECKED_AHEAD) * state_length));
             let displacement = displacement.get(i).ok_or(Error::BadArraySize)?;
@@ -225,8 +285,7 @@ unsafe fn update<L: Law>(
             item_of(dissipated, i),
         ];
         let (state_old, state_new) = (states_old.wrapping_add(i * state_length), item_of(states_new, i * state_length));
-        // SAFETY: checked, aligned; those of item i are valid by the function's contract.
-        unsafe { L::update(law, state_length, state_old, displacement, state_new, outputs) };
+        L::update(law, state_length, state_old, displacement, state_new, outputs);
     }
     Ok(())
 }
@@ -256,10 +315,7 @@ fn prefetch<const LINES: usize>(state: *const f64) {
 }
 
 /// Harmonic forces of all active items, with displacements of `one` coefficients.
-///
-/// # Safety
-/// That of the interface.
-unsafe fn harmonic_forces<L: Law, W>(
+unsafe fn harmonic_forces<L: StepLaw, W>(
     items: Items<L::Item>,
     workspace: &mut W,
     one: usize,
@@ -413,14 +469,11 @@ pub unsafe extern "C" fn mslip_batch_element_update(
     dissipated: *mut f64,
 ) -> i32 {
     call(|| {
-        // SAFETY: by the function's contract; an element consists of doubles and integers.
-        unsafe {
-            let items = Items::new(n, n_elements, elements.cast::<Element>(), index, active)?;
-            let outputs = [force, tangent, dissipated];
-            with_law!(items.directions(), L => {
-                update::<L>(items, state_length, states_old, displacement, states_new, outputs)
-            })
-        }
+        let items = Items::new(n, n_elements, elements.cast::<Element>(), index, active)?;
+        let outputs = [force, tangent, dissipated];
+        with_law!(items.directions(), L => {
+            update::<L>(items, state_length, states_old, displacement, states_new, outputs)
+        })
     })
 }
 
@@ -445,16 +498,13 @@ pub unsafe extern "C" fn mslip_batch_element_harmonic_force(
     drift: *mut f64,
 ) -> i32 {
     call(|| {
-        // SAFETY: by the function's contract; an element consists of doubles and integers.
-        unsafe {
-            let items = Items::new(n, n_elements, elements.cast::<Element>(), index, active)?;
-            let outputs = [force, jacobian, dissipated, drift];
-            with_law!(pointers::element_workspace_size(workspace)?.0, L => {
-                let mut workspace = pointers::element_workspace::<L>(workspace)?;
-                let one = L::COMPONENTS * L::coefficients(&workspace);
-                let (check, compute) = (L::check_motion, L::harmonic_force);
-                harmonic_forces::<L, _>(items, &mut workspace, one, displacement, outputs, check, compute)
-            })
-        }
+        let items = Items::new(n, n_elements, elements.cast::<Element>(), index, active)?;
+        let outputs = [force, jacobian, dissipated, drift];
+        with_law!(pointers::element_workspace_size(workspace)?.0, L => {
+            let mut workspace = pointers::element_workspace::<L>(workspace)?;
+            let one = L::COMPONENTS * L::coefficients(&workspace);
+            let (check, compute) = (L::check_motion, L::harmonic_force);
+            harmonic_forces::<L, _>(items, &mut workspace, one, displacement, outputs, check, compute)
+        })
     })
 }

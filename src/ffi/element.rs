@@ -1,17 +1,17 @@
 //! Friction contact elements: initialisation, the normal law, load histories and tractions under a normal force that varies.
 
+use super::batch::update_one;
 use super::pointers::{
-    self, call, check_alignment, input, item, memory, output, outputs, requested, set, state_input, status, with_law,
+    self, call, check_alignment, input, item, memory, new_state, output, outputs, set, state_input, status, with_law,
 };
 use super::{MSLIP_INPUT_APPROACH, MSLIP_INPUT_NORMAL_FORCE, mslip_element};
 use crate::element::{Directions, Element, NormalInput, NormalPoint};
 use crate::error::Error;
-use crate::law::{ElementLaw, PathOutput, Requested};
+use crate::law::{ElementLaw, PathOutput};
 use crate::one_direction::tractions::tractions;
 use crate::one_direction::{self, OneDirection};
 use crate::parameters::{EllipticParameters, Parameters};
 use crate::two_directions;
-use core::{ptr, slice};
 use libc::size_t;
 
 /// The number of tangential directions of a constant of the C interface.
@@ -24,9 +24,6 @@ pub(super) fn directions_of(constant: i32) -> Result<Directions, Error> {
 }
 
 /// Initialises an element in place.
-///
-/// # Safety
-/// Both pointers are NULL or valid for their types.
 unsafe fn initialise<P>(
     parameters: *const P,
     directions: i32,
@@ -37,8 +34,8 @@ unsafe fn initialise<P>(
     call(|| {
         let parameters = item(parameters)?;
         check_alignment(element)?;
-        // SAFETY: aligned; valid by the function's contract. It may be uninitialised, and is written before it is read.
-        let element = unsafe { element.cast::<Element>().as_mut() }.ok_or(Error::NullPointer)?;
+        // It may be uninitialised, and is written before it is read.
+        let element = element.cast::<Element>().as_mut().ok_or(Error::NullPointer)?;
         let directions = directions_of(directions)?;
         let normal_input = match normal_input {
             MSLIP_INPUT_APPROACH => NormalInput::Approach,
@@ -183,9 +180,6 @@ pub unsafe extern "C" fn mslip_element_displacement(
 
 /// One direction of the normal law, four values at a time; `normal_force` selects the normal force from the given quantity and the
 /// one that is computed.
-///
-/// # Safety
-/// Each pointer is NULL or valid for n doubles, the first one for an element; outputs must not alias any other argument.
 #[inline(always)]
 unsafe fn normal_law(
     element: *const mslip_element,
@@ -308,69 +302,9 @@ pub unsafe extern "C" fn mslip_element_update(
     call(|| {
         let (element, outputs) = (pointers::element(element)?, [force, tangent, dissipated]);
         with_law!(element.tangential_directions(), L => {
-            checked_update::<L>(element, state_length, state_old, displacement, state_new, outputs)
+            update_one::<L>(element, state_length, state_old, displacement, state_new, outputs)
         })
     })
-}
-
-/// Checks all inputs of an update, then evaluates it.
-///
-/// # Safety
-/// That of the interface.
-#[inline(always)]
-unsafe fn checked_update<L: ElementLaw>(
-    element: &Element,
-    state_length: usize,
-    state_old: *const f64,
-    displacement: *const f64,
-    state_new: *mut f64,
-    outputs: [*mut f64; 3],
-) -> Result<(), Error> {
-    // SAFETY: by the function's contract; vectors are arrays of doubles.
-    let displacement = unsafe { item(displacement.cast::<L::Vector>()) }?;
-    check_alignment(state_new)?;
-    outputs.iter().try_for_each(|output| check_alignment(*output))?;
-    {
-        // SAFETY: by the function's contract; the reference ends before the new state, which may be the same memory, is written.
-        check_header::<L>(unsafe { state_input(state_length, state_old) }?)?;
-    }
-    L::check_step(element, displacement)?;
-    // SAFETY: checked, aligned; valid by the function's contract.
-    unsafe { update::<L>(element, state_length, state_old, displacement, state_new, outputs) };
-    Ok(())
-}
-
-/// One update with checked inputs: evaluates the step, then writes.
-///
-/// # Safety
-/// `state_old` is valid for state_length doubles; `state_new` is NULL, equal to it, or valid for as many doubles without overlap;
-/// the outputs are NULL, or aligned and valid for a vector, a tangent and a double.
-#[inline(never)]
-pub(super) unsafe fn update<L: ElementLaw>(
-    element: &Element,
-    state_length: usize,
-    state_old: *const f64,
-    displacement: &L::Vector,
-    state_new: *mut f64,
-    [force, tangent, dissipated]: [*mut f64; 3],
-) {
-    let requested = Requested { tangent: !tangent.is_null(), energy: !dissipated.is_null() };
-    // SAFETY: by the function's contract; no reference to the old state is left when the new one, which may be the same memory, is
-    // written.
-    unsafe {
-        let step = if state_new.is_null() {
-            L::trial(element, slice::from_raw_parts(state_old, state_length), *displacement, requested)
-        } else {
-            let state = slice::from_raw_parts_mut(state_new, state_length);
-            if !ptr::eq(state_old, state_new) {
-                L::copy_used(slice::from_raw_parts(state_old, state_length), state);
-            }
-            L::advance(element, state, *displacement, requested)
-        };
-        force.cast::<L::Vector>().as_mut().into_iter().for_each(|force| *force = step.force);
-        tangent.cast::<L::Tangent>().as_mut().into_iter().for_each(|tangent| *tangent = step.tangent);
-        dissipated.as_mut().into_iter().for_each(|dissipated| *dissipated = step.dissipated);
-    }
 }
 
 /// Advances the state of an element through n displacements. With m = 2 components for one tangential direction, \[u, w\], and m =
@@ -399,8 +333,6 @@ pub unsafe extern "C" fn mslip_element_path(
     })
 }
 
-/// # Safety
-/// That of the interface.
 unsafe fn path<L: ElementLaw>(
     element: &Element,
     state_length: usize,
@@ -417,8 +349,8 @@ unsafe fn path<L: ElementLaw>(
     let output = PathOutput { force, tangent, dissipated };
     check_alignment(state_new)?;
     {
-        // SAFETY: by the function's contract; the reference ends before the new state, which may be the same memory, is written.
-        let start = unsafe { state_input(state_length, state_old) }?;
+        // The reference ends before the new state, which may be the same memory, is written.
+        let start = state_input(state_length, state_old)?;
         check_header::<L>(start)?;
         L::check_path(element, path)?;
         if state_new.is_null() {
@@ -426,13 +358,7 @@ unsafe fn path<L: ElementLaw>(
             return Ok(());
         }
     }
-    if !ptr::eq(state_old, state_new) {
-        // SAFETY: aligned; valid by the function's contract.
-        unsafe { ptr::copy(state_old, state_new, state_length) };
-    }
-    // SAFETY: as above.
-    let state = unsafe { requested(state_new, state_length) }.ok_or(Error::StateTooShort)?;
-    L::path(element, state, path, output);
+    L::path(element, new_state(state_length, state_old, state_new)?, path, output);
     Ok(())
 }
 

@@ -1,14 +1,16 @@
 //! Harmonic balance: workspaces and harmonic force.
 
+use super::batch::{mslip_batch_element_harmonic_force, mslip_batch_harmonic_force};
 use super::element::directions_of;
-use super::pointers::{self, call, check_alignment, input, memory, output, outputs, with_law};
+use super::pointers::{self, call, check_alignment, input, memory, output, with_law};
 use super::{MSLIP_EVENT_DRIVEN, MSLIP_UNIFORM_SAMPLING, mslip_contact, mslip_element};
 use crate::constant_load::harmonic_force::{self, HarmonicOutput, Rule, harmonic_sensitivity, workspace_size};
-use crate::element::{Directions, Element};
+use crate::element::Directions;
 use crate::error::Error;
 use crate::fourier::workspace::{Size, WorkspaceLayout};
 use crate::law::ElementLaw;
 use crate::parameters::PARAMETERS;
+use core::ptr;
 use libc::size_t;
 
 /// The rule of a constant of the C interface.
@@ -64,17 +66,14 @@ pub unsafe extern "C" fn mslip_harmonic_workspace_size(
         let header = pointers::workspace_header(workspace)?;
         [harmonics, samples].iter().try_for_each(|output| check_alignment(*output))?;
         check_alignment(rule)?;
-        let (harmonics_found, samples_found, rule_found) = workspace_size(&header)?;
-        let constant = match rule_found {
+        let (found, size, _) = workspace_size(&header)?;
+        let constant = match found {
             Rule::UniformSampling => MSLIP_UNIFORM_SAMPLING,
             Rule::EventDriven => MSLIP_EVENT_DRIVEN,
         };
-        // SAFETY: aligned; NULL or valid for one item by the function's contract.
-        unsafe {
-            harmonics.as_mut().into_iter().for_each(|output| *output = harmonics_found);
-            samples.as_mut().into_iter().for_each(|output| *output = samples_found);
-            rule.as_mut().into_iter().for_each(|output| *output = constant);
-        }
+        pointers::write(harmonics, size.harmonics);
+        pointers::write(samples, size.samples);
+        pointers::write(rule, constant);
         Ok(())
     })
 }
@@ -147,14 +146,11 @@ pub unsafe extern "C" fn mslip_element_workspace_size(
         [harmonics, samples, periods].iter().try_for_each(|output| check_alignment(*output))?;
         [directions, rule].iter().try_for_each(|output| check_alignment(*output))?;
         let (found, size, _) = pointers::element_workspace_size(workspace)?;
-        // SAFETY: aligned; NULL or valid for one item by the function's contract.
-        unsafe {
-            directions.as_mut().into_iter().for_each(|output| *output = found as i32);
-            harmonics.as_mut().into_iter().for_each(|output| *output = size.harmonics);
-            samples.as_mut().into_iter().for_each(|output| *output = size.samples);
-            rule.as_mut().into_iter().for_each(|output| *output = MSLIP_UNIFORM_SAMPLING);
-            periods.as_mut().into_iter().for_each(|output| *output = size.periods);
-        }
+        pointers::write(directions, found as i32);
+        pointers::write(harmonics, size.harmonics);
+        pointers::write(samples, size.samples);
+        pointers::write(rule, MSLIP_UNIFORM_SAMPLING);
+        pointers::write(periods, size.periods);
         Ok(())
     })
 }
@@ -188,29 +184,20 @@ pub unsafe extern "C" fn mslip_element_harmonic_force(
     dissipated: *mut f64,
     drift: *mut f64,
 ) -> i32 {
-    call(|| {
-        let (element, outputs) = (pointers::element(element)?, [force, jacobian, dissipated, drift]);
-        with_law!(element.tangential_directions(), L => {
-            element_harmonic_force::<L>(element, workspace, displacement, outputs)
-        })
-    })
-}
-
-/// # Safety
-/// That of the interface.
-unsafe fn element_harmonic_force<L: ElementLaw>(
-    element: &Element,
-    workspace: *mut f64,
-    displacement: *const f64,
-    [force, jacobian, dissipated, drift]: [*mut f64; 4],
-) -> Result<(), Error> {
-    let mut workspace = pointers::element_workspace::<L>(workspace)?;
-    let n = L::COMPONENTS * L::coefficients(&workspace);
-    let (force, jacobian) = (output(force, n)?, output(jacobian, n * n)?);
-    let [dissipated, drift] = outputs([dissipated, drift], 1)?.map(|output| output.and_then(<[f64]>::first_mut));
-    let output = HarmonicOutput { force, jacobian, dissipated, drift };
-    let displacement = input(displacement, n)?;
-    L::harmonic_force(element, &mut workspace, displacement, output)
+    let (one, all) = (1, ptr::null());
+    mslip_batch_element_harmonic_force(
+        one,
+        one,
+        element,
+        all,
+        all,
+        workspace,
+        displacement,
+        force,
+        jacobian,
+        dissipated,
+        drift,
+    )
 }
 
 /// Harmonic force in steady state (the second of two periods from the initial, unloaded state), by alternating frequency/time (AFT)
@@ -234,15 +221,8 @@ pub unsafe extern "C" fn mslip_harmonic_force(
     jacobian: *mut f64,
     dissipated: *mut f64,
 ) -> i32 {
-    call(|| {
-        let (contact, mut workspace) = (pointers::contact(contact)?, pointers::workspace(workspace)?);
-        let n = workspace.coefficients();
-        let (displacement, force, jacobian, dissipated) =
-            (input(displacement, n)?, output(force, n)?, output(jacobian, n * n)?, output(dissipated, 1)?);
-        let output =
-            HarmonicOutput { force, jacobian, dissipated: dissipated.and_then(<[f64]>::first_mut), drift: None };
-        harmonic_force::harmonic_force(contact, &mut workspace, displacement, output)
-    })
+    let (one, all) = (1, ptr::null());
+    mslip_batch_harmonic_force(one, one, contact, all, all, workspace, displacement, force, jacobian, dissipated)
 }
 
 /// Derivatives of the harmonic force with respect to the parameters at fixed coefficients of the displacement: displacement \[m\] and

@@ -1,8 +1,13 @@
 //! Conversion of pointers to slices, and of results to status codes.
+//!
+//! # Safety
+//! Each pointer is NULL or valid for its type, times the given number of items, which are not accessed otherwise during the lifetime of
+//! the reference. A workspace and a table are valid for their header, and as a whole if this is that of an initialised one. All bit
+//! patterns are valid for these types, also those of memory that the application has not initialised.
 
 use super::{MSLIP_OK, mslip_contact, mslip_element};
 use crate::constant_load::contact::Contact;
-use crate::constant_load::harmonic_force::{Workspace, workspace_extent};
+use crate::constant_load::harmonic_force::{Workspace, workspace_size};
 use crate::constant_load::stiffness_table::{StiffnessTable, TABLE_LENGTH};
 use crate::element::{Directions, Element};
 use crate::fourier::workspace::{Size, TAGS, WorkspaceLayout};
@@ -38,22 +43,13 @@ pub fn check_alignment<T>(pointer: *const T) -> Result<(), Error> {
 }
 
 /// One item: a contact or parameters.
-///
-/// All bit patterns are valid for these types, also those of memory that the application has not initialised.
-///
-/// # Safety
-/// `pointer` is NULL or valid for its type, and the item is not written during the lifetime of the reference.
 #[inline(always)]
 pub unsafe fn item<'a, T>(pointer: *const T) -> Result<&'a T, Error> {
     check_alignment(pointer)?;
-    // SAFETY: aligned; valid by the function's contract.
-    unsafe { pointer.as_ref() }.ok_or(Error::NullPointer)
+    pointer.as_ref().ok_or(Error::NullPointer)
 }
 
 /// An input of n items.
-///
-/// # Safety
-/// `pointer` is NULL or valid for n items that are not written during the lifetime of the slice.
 #[inline(always)]
 pub unsafe fn input<'a, T>(pointer: *const T, n: usize) -> Result<&'a [T], Error> {
     check_length::<T>(n)?;
@@ -64,14 +60,10 @@ pub unsafe fn input<'a, T>(pointer: *const T, n: usize) -> Result<&'a [T], Error
     if pointer.is_null() {
         return Err(Error::NullPointer);
     }
-    // SAFETY: aligned, not NULL, and of admissible length; valid by the function's contract.
-    Ok(unsafe { slice::from_raw_parts(pointer, n) })
+    Ok(slice::from_raw_parts(pointer, n))
 }
 
 /// An optional input of n items.
-///
-/// # Safety
-/// As for [`input`].
 pub unsafe fn optional_input<'a, T>(pointer: *const T, n: usize) -> Result<Option<&'a [T]>, Error> {
     if pointer.is_null() {
         return Ok(None);
@@ -80,9 +72,6 @@ pub unsafe fn optional_input<'a, T>(pointer: *const T, n: usize) -> Result<Optio
 }
 
 /// A state as an input; not NULL.
-///
-/// # Safety
-/// `state` is NULL or valid for state_length doubles.
 #[inline(always)]
 pub unsafe fn state_input<'a>(state_length: usize, state: *const f64) -> Result<&'a [f64], Error> {
     if state.is_null() {
@@ -91,22 +80,23 @@ pub unsafe fn state_input<'a>(state_length: usize, state: *const f64) -> Result<
     input(state, state_length)
 }
 
+/// The new state, which is checked and not NULL, with the values of the old one, which it may be.
+pub unsafe fn new_state<'a>(length: usize, old: *const f64, new: *mut f64) -> Result<&'a mut [f64], Error> {
+    if !ptr::eq(old, new) {
+        ptr::copy(old, new, length);
+    }
+    requested(new, length).ok_or(Error::StateTooShort)
+}
+
 /// An output of n items; `None` if it is not requested. It may be uninitialised, and is not read.
-///
-/// # Safety
-/// `pointer` is NULL or valid for n items that are not accessed otherwise during the lifetime of the slice.
 #[inline(always)]
 pub unsafe fn output<'a, T>(pointer: *mut T, n: usize) -> Result<Option<&'a mut [T]>, Error> {
     check_length::<T>(n)?;
     check_alignment(pointer)?;
-    // SAFETY: aligned, and of admissible length; valid by the function's contract.
-    Ok(unsafe { requested(pointer, n) })
+    Ok(requested(pointer, n))
 }
 
 /// Memory of the given number of doubles to be initialised; not NULL.
-///
-/// # Safety
-/// As for [`output`].
 pub unsafe fn memory<'a>(length: usize, pointer: *mut f64) -> Result<&'a mut [f64], Error> {
     check_length::<f64>(length)?;
     if pointer.is_null() {
@@ -116,9 +106,6 @@ pub unsafe fn memory<'a>(length: usize, pointer: *mut f64) -> Result<&'a mut [f6
 }
 
 /// Outputs of n doubles each.
-///
-/// # Safety
-/// As for [`output`], for each pointer.
 #[inline(always)]
 pub unsafe fn outputs<'a, const K: usize>(
     pointers: [*mut f64; K],
@@ -126,27 +113,19 @@ pub unsafe fn outputs<'a, const K: usize>(
 ) -> Result<[Option<&'a mut [f64]>; K], Error> {
     check_length::<f64>(n)?;
     pointers.iter().try_for_each(|pointer| check_alignment(*pointer))?;
-    // SAFETY: aligned, and of admissible length; valid by the function's contract.
-    Ok(pointers.map(|pointer| unsafe { requested(pointer, n) }))
+    Ok(pointers.map(|pointer| requested(pointer, n)))
 }
 
 /// An output of n items whose alignment and length are checked; `None` if it is NULL or empty.
-///
-/// # Safety
-/// As for [`output`]; aligned, and of admissible length.
 #[inline(always)]
 pub unsafe fn requested<'a, T>(pointer: *mut T, n: usize) -> Option<&'a mut [T]> {
     if pointer.is_null() || n == 0 { None } else { Some(slice::from_raw_parts_mut(pointer, n)) }
 }
 
 /// An initialised contact.
-///
-/// # Safety
-/// `pointer` is NULL or valid for a contact.
 #[inline(always)]
 pub unsafe fn contact<'a>(pointer: *const mslip_contact) -> Result<&'a Contact, Error> {
-    // SAFETY: by the function's contract; both types consist of the same doubles and 64-bit words, for which all bit patterns are valid.
-    let contact = unsafe { item(pointer.cast::<Contact>()) }?;
+    let contact = item(pointer.cast::<Contact>())?;
     if contact.is_initialised() { Ok(contact) } else { Err(Error::BadContact) }
 }
 
@@ -181,41 +160,27 @@ impl From<Contact> for mslip_contact {
 }
 
 /// Sum of all 64-bit words.
-///
-/// # Safety
-/// The type has the alignment of a double and no padding.
 unsafe fn sum<T>(value: &T) -> u64 {
     let words = slice::from_raw_parts(ptr::from_ref(value).cast::<u64>(), size_of::<T>() / size_of::<u64>());
     words.iter().fold(0, |sum, word| sum.wrapping_add(*word))
 }
 
 /// An initialised element.
-///
-/// # Safety
-/// `pointer` is NULL or valid for an element.
 #[inline(always)]
 pub unsafe fn element<'a>(pointer: *const mslip_element) -> Result<&'a Element, Error> {
-    // SAFETY: by the function's contract; both types consist of the same doubles and integers, for which all bit patterns are valid.
-    let element = unsafe { item(pointer.cast::<Element>()) }?;
+    let element = item(pointer.cast::<Element>())?;
     if element.is_initialised() { Ok(element) } else { Err(Error::BadElement) }
 }
 
 /// An initialised table of the complex stiffness.
-///
-/// # Safety
-/// `pointer` is NULL or valid for a table if the first double is the tag of one.
 pub unsafe fn stiffness_table<'a>(pointer: *const f64) -> Result<&'a StiffnessTable, Error> {
     if !StiffnessTable::is_tag(*item(pointer)?) {
         return Err(Error::BadTable);
     }
-    // SAFETY: a table consists of doubles; valid by the function's contract.
-    unsafe { item(pointer.cast()) }
+    item(pointer.cast())
 }
 
 /// Memory for a table of the complex stiffness.
-///
-/// # Safety
-/// `pointer` is NULL or valid for `length` doubles.
 pub unsafe fn stiffness_table_output<'a>(
     length: usize,
     pointer: *mut f64,
@@ -228,8 +193,15 @@ pub unsafe fn stiffness_table_output<'a>(
     if length < TABLE_LENGTH {
         return Err(Error::TableTooShort);
     }
-    // SAFETY: aligned, not NULL; long enough by the function's contract.
-    Ok(unsafe { &mut *pointer.cast() })
+    Ok(&mut *pointer.cast())
+}
+
+/// Writes one value whose alignment is checked, if requested.
+#[inline(always)]
+pub unsafe fn write<T>(output: *mut T, value: T) {
+    if !output.is_null() {
+        output.write(value);
+    }
 }
 
 /// Sets element i of an output, if requested.
@@ -241,35 +213,24 @@ pub fn set(output: &mut Option<&mut [f64]>, i: usize, value: impl FnOnce() -> f6
 }
 
 /// Header of a workspace.
-///
-/// # Safety
-/// `pointer` is NULL or valid for three doubles.
 #[inline(always)]
 pub unsafe fn workspace_header(pointer: *const f64) -> Result<[f64; TAGS], Error> {
     check_alignment(pointer)?;
     if pointer.is_null() {
         return Err(Error::NullPointer);
     }
-    // SAFETY: aligned, and valid for three doubles by the function's contract.
-    Ok(unsafe { pointer.cast::<[f64; TAGS]>().read() })
+    Ok(pointer.cast::<[f64; TAGS]>().read())
 }
 
 /// An initialised workspace.
-///
-/// # Safety
-/// `pointer` is NULL or valid for three doubles, and for the whole workspace if these are the header of one.
 #[inline(never)]
 pub unsafe fn workspace<'a>(pointer: *mut f64) -> Result<Workspace<'a>, Error> {
     let header = workspace_header(pointer)?;
-    let extent = workspace_extent(&header)?;
-    // SAFETY: the header of a workspace of that extent, by the function's contract.
-    Workspace::new(unsafe { output(pointer, extent) }?.ok_or(Error::BadWorkspace)?)
+    let (_, _, extent) = workspace_size(&header)?;
+    Workspace::new(output(pointer, extent)?.ok_or(Error::BadWorkspace)?)
 }
 
 /// Directions and size of a workspace of elements, and its number of doubles, from its header.
-///
-/// # Safety
-/// As for [`workspace_header`].
 pub unsafe fn element_workspace_size(pointer: *const f64) -> Result<(Directions, Size, usize), Error> {
     let header = workspace_header(pointer)?;
     let read_as = |directions| {
@@ -282,17 +243,13 @@ pub unsafe fn element_workspace_size(pointer: *const f64) -> Result<(Directions,
 }
 
 /// An initialised workspace of elements with the number of directions of a law.
-///
-/// # Safety
-/// As for [`workspace`].
 #[inline(never)]
 pub unsafe fn element_workspace<'a, L: ElementLaw>(pointer: *mut f64) -> Result<L::Workspace<'a>, Error> {
     let (directions, _, extent) = element_workspace_size(pointer)?;
     if directions != L::DIRECTIONS {
         return Err(Error::BadDirections);
     }
-    // SAFETY: the header of a workspace of that extent, by the function's contract.
-    L::workspace(unsafe { output(pointer, extent) }?.ok_or(Error::BadWorkspace)?)
+    L::workspace(output(pointer, extent)?.ok_or(Error::BadWorkspace)?)
 }
 
 /// Evaluates an expression in which `$law` is the law for a number of directions.

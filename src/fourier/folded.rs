@@ -54,9 +54,6 @@ pub(crate) struct FoldedFourier<'a> {
 
 impl<'a> FoldedFourier<'a> {
     /// For all orders up to an even number.
-    ///
-    /// # Errors
-    /// `BadWorkspace` if fewer doubles remain.
     pub fn take(parts: &mut Parts<'a>, samples: usize, orders: usize) -> Result<FoldedFourier<'a>, Error> {
         let blocks = position_blocks(samples);
         let weights = parts.take_blocks(blocks)?;
@@ -126,13 +123,7 @@ impl<'a> FoldedFourier<'a> {
 
     /// Sums of a function whose samples from `first` on are evaluated, in an array of two periods. Under half-wave symmetry these are
     /// half a period of samples, after which the function keeps (+1) or changes (-1) its sign.
-    #[inline(always)]
     pub fn sum_from(&mut self, first: usize, half_wave: Option<f64>, values: &mut [f64], sums: &mut [f64]) {
-        dispatch!(self.sum_from_kernel(first, half_wave, values, sums));
-    }
-
-    #[inline(always)]
-    fn sum_from_kernel(&mut self, first: usize, half_wave: Option<f64>, values: &mut [f64], sums: &mut [f64]) {
         let samples = self.samples;
         if let Some(sign) = half_wave
             && let Some(period) = values.get_mut(first..first + samples)
@@ -143,7 +134,7 @@ impl<'a> FoldedFourier<'a> {
         if let Some((period, next)) = values.split_at_mut_checked(samples) {
             period.iter_mut().zip(next).take(first).for_each(|(value, next)| *value = *next);
         }
-        self.sum_kernel(values.get_mut(..sample_length(samples)).unwrap_or(&mut []), sums);
+        self.sum(values.get_mut(..sample_length(samples)).unwrap_or(&mut []), sums);
     }
 
     /// Sums of the samples times 1, cos t, sin t, cos 2t, ..., one for each of `sums`. Continues the values periodically.
@@ -153,7 +144,7 @@ impl<'a> FoldedFourier<'a> {
     }
 
     #[inline(always)]
-    pub fn sum_kernel(&mut self, values: &mut [f64], sums: &mut [f64]) {
+    fn sum_kernel(&mut self, values: &mut [f64], sums: &mut [f64]) {
         continue_periodically(values, self.samples);
         self.fold(values);
         let FoldedFourier { quads, folded, totals, .. } = self;

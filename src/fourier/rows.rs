@@ -58,8 +58,6 @@ pub(crate) struct RowStrips<'a, const N: usize> {
 }
 
 impl<'a> Rows<'a> {
-    /// # Errors
-    /// `BadWorkspace` if fewer doubles remain.
     pub fn take(parts: &mut Parts<'a>, harmonics: usize, samples: usize) -> Result<Rows<'a>, Error> {
         let blocks = row_blocks(harmonics) * samples;
         let (phi, antiderivatives) = (parts.take_blocks(blocks)?, parts.take_blocks(blocks)?);
@@ -183,8 +181,6 @@ impl<const N: usize, const D: usize> Terms<'_, N, D> {
 }
 
 impl<'a, const D: usize> OuterProducts<'a, D> {
-    /// # Errors
-    /// `BadWorkspace` if fewer doubles remain.
     pub fn take(parts: &mut Parts<'a>, harmonics: usize, capacity: usize) -> Result<OuterProducts<'a, D>, Error> {
         let blocks = row_blocks(harmonics) * capacity;
         let (y, phi) = (parts.take_blocks(D * blocks)?, parts.take_blocks(blocks)?);

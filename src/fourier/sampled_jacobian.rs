@@ -26,8 +26,6 @@ pub(crate) struct Assembly<'a> {
 }
 
 impl<'a> Assembly<'a> {
-    /// # Errors
-    /// `BadWorkspace` if fewer doubles remain.
     pub fn take(parts: &mut Parts<'a>, harmonics: usize, weight: f64) -> Result<Assembly<'a>, Error> {
         let sums = parts.take(4 * harmonics + 1)?;
         let mut pairs = || parts.take(2 * (3 * harmonics + 2));
@@ -72,13 +70,8 @@ impl<'a> Assembly<'a> {
     /// half a period, and only rows and columns of equal (+1) or opposite (-1) parity remain.
     #[inline(always)]
     pub fn write(&mut self, symmetry: Option<f64>, columns: &mut [f64], stride: usize) {
-        dispatch!(self.kernel(symmetry, columns, stride));
-    }
-
-    #[inline(always)]
-    fn kernel(&mut self, symmetry: Option<f64>, columns: &mut [f64], stride: usize) {
-        self.sums_kernel(columns, stride, 0);
-        self.products_kernel(symmetry, columns, stride);
+        self.write_sums(columns, stride, 0);
+        dispatch!(self.products_kernel(symmetry, columns, stride));
     }
 
     /// Sets the outer products to those of the rows Y of an index.

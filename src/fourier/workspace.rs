@@ -55,7 +55,9 @@ pub(crate) trait WorkspaceLayout: Sized {
     fn size(&self) -> Size;
 
     /// Upper bound on the number of rows over all orders up to 2H.
-    fn max_rows(&self) -> usize;
+    fn max_rows(&self) -> usize {
+        2 * self.size().samples + 16
+    }
 
     /// Number of doubles in tables that are filled before the other parts are taken.
     fn tables_length(&self) -> usize {
@@ -66,12 +68,8 @@ pub(crate) trait WorkspaceLayout: Sized {
     fn length(&self) -> usize;
 
     /// Fills the tables of a workspace whose memory behind the header is all zeros.
-    ///
-    /// # Errors
-    /// Those of [`Parts::take`].
     fn fill_tables(&self, parts: &mut Parts) -> Result<(), Error>;
 
-    /// # Errors
     /// `BadHarmonics` unless 1 <= H <= 2^24, `BadSamples` unless 2H < samples <= 2^24, `BadPeriods` for more than 65536 periods.
     fn new(size: Size) -> Result<Self, Error> {
         const LARGEST: usize = 1 << 24;
@@ -97,9 +95,7 @@ pub(crate) trait WorkspaceLayout: Sized {
     }
 
     /// Initialises a workspace.
-    ///
-    /// # Errors
-    /// `WorkspaceTooShort`, and those of [`WorkspaceLayout::new`].
+    /// Errors: `WorkspaceTooShort`, and those of [`WorkspaceLayout::new`].
     fn init(size: Size, workspace: &mut [f64]) -> Result<(), Error> {
         let layout = Self::new(size)?;
         let memory = workspace.get_mut(..layout.length()).ok_or(Error::WorkspaceTooShort)?;
@@ -112,9 +108,6 @@ pub(crate) trait WorkspaceLayout: Sized {
     }
 
     /// Layout of an initialised workspace, from its header.
-    ///
-    /// # Errors
-    /// `BadWorkspace` if uninitialised.
     #[inline(always)]
     fn read(&[first, second, third]: &[f64; TAGS]) -> Result<Self, Error> {
         let counts = (Self::KIND.count(first), Kind::Samples.count(second), Kind::Periods.count(third));
@@ -123,9 +116,6 @@ pub(crate) trait WorkspaceLayout: Sized {
     }
 
     /// Layout of an initialised workspace, and the memory behind its header.
-    ///
-    /// # Errors
-    /// `BadWorkspace` if uninitialised.
     #[inline(always)]
     fn open(workspace: &mut [f64]) -> Result<(Self, Parts<'_>), Error> {
         let (header, buffers) = workspace.split_first_chunk_mut::<HEADER>().ok_or(Error::BadWorkspace)?;
@@ -159,8 +149,6 @@ impl<'a> Parts<'a> {
         if let (Parts::Counting(doubles), Ok(_)) = (parts, taken) { doubles } else { 0 }
     }
 
-    /// # Errors
-    /// `BadWorkspace` if fewer doubles remain.
     #[inline(always)]
     pub fn take(&mut self, length: usize) -> Result<&'a mut [f64], Error> {
         match self {
@@ -177,15 +165,11 @@ impl<'a> Parts<'a> {
         }
     }
 
-    /// # Errors
-    /// Those of [`Parts::take`].
     #[inline(always)]
     pub fn take_blocks(&mut self, blocks: usize) -> Result<&'a mut Blocks, Error> {
         Ok(self.take(4 * blocks)?.as_chunks_mut().0)
     }
 
-    /// # Errors
-    /// Those of [`Parts::take`].
     #[inline(always)]
     pub fn take_records<T: Record>(&mut self, count: usize) -> Result<&'a mut [T], Error> {
         const { assert!(align_of::<T>() <= align_of::<f64>() && size_of::<T>().is_multiple_of(size_of::<f64>())) };

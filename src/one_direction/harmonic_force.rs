@@ -60,10 +60,6 @@ impl WorkspaceLayout for Layout {
         self.0
     }
 
-    fn max_rows(&self) -> usize {
-        2 * self.0.samples + 16
-    }
-
     fn length(&self) -> usize {
         HEADER + Parts::count(|parts| Workspace::take(self.0, parts))
     }
@@ -230,9 +226,6 @@ fn lower(column: &mut [f64], coefficients: usize) -> &mut [f64] {
 
 impl Workspace<'_> {
     /// Checks a motion: all of a batch are checked before the first output is written.
-    ///
-    /// # Errors
-    /// Those of [`harmonic_force`].
     pub(crate) fn check(&mut self, element: &Element, displacement: &[f64]) -> Result<(), Error> {
         check_coefficients(displacement)?;
         let (tangential, input) = displacement.split_at_checked(self.coefficients()).ok_or(Error::BadArraySize)?;
@@ -245,9 +238,7 @@ impl Workspace<'_> {
     }
 
     /// Evaluates the normal states of the samples.
-    ///
-    /// # Errors
-    /// `BadNormalForce`, `LengthTooShort`.
+    /// Errors: `BadNormalForce`, `LengthTooShort`.
     fn press(
         &mut self,
         element: &Element,

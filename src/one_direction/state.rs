@@ -42,9 +42,7 @@ pub fn state_init(state: &mut [f64]) -> Result<(), Error> {
 }
 
 /// Checks the length, the tag and the number of knots of a state.
-///
-/// # Errors
-/// `StateTooShort` for fewer than [`state_length`]`(0)` doubles; `BadState` for a tag that no state of that length has.
+/// Errors: `StateTooShort` for fewer than [`state_length`]`(0)` doubles; `BadState` for a tag that no state of that length has.
 #[inline(always)]
 pub(crate) fn check_header(state: &[f64]) -> Result<(), Error> {
     if state.len() < state_length(0) {

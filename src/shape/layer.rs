@@ -17,8 +17,8 @@ use crate::numerics::chebyshev::{Interpolant, Tangent};
 use crate::parameters::{self, Common};
 use crate::shape::stick_zone::ellipse::EllipseZones;
 use crate::shape::stick_zone::rounded_flat::RoundedFlatZones;
-use crate::shape::stick_zone::small_load::{RETAINED_TERMS, SmallLoadSeries};
-use crate::shape::stick_zone::{Complement, CurvePoint, StickZone, StickZones, SurfacePoint};
+use crate::shape::stick_zone::small_load::{RETAINED_TERMS, SmallLoadSeries, curvature_series};
+use crate::shape::stick_zone::{Complement, LoadPoint, StickZone, StickZones, SurfacePoint};
 use crate::shape::{ORDER, Plane, Quantity, Reversed, Series, Shape, TINY, identity};
 
 /// The layer of a contact, in absolute terms.
@@ -106,6 +106,11 @@ impl Layer {
         if x < 1e-8 { extent * (1.0 + 0.5 * x) } else { x.min(345.0).exp_m1() / self.stiffening.max(TINY) }
     }
 
+    /// The load at which a layer that is compliant in the tangential direction has a shift.
+    pub fn load_of_shift(&self, shift: f64) -> f64 {
+        self.load_of_extent(shift / self.tangential)
+    }
+
     /// dU2/dN and dS2/dN over the compliance without load.
     fn softness(&self, load: f64) -> f64 {
         1.0 / (1.0 + self.stiffening * load)
@@ -149,145 +154,84 @@ impl Layer {
     }
 }
 
-/// The layer in the curve under a constant normal force N, in the units of stick zones: the stick zone with `s = 1 - τ` leaves
+/// The layer in the curve under a constant normal force, which is the unit of loads: the stick zone with `s = 1 - τ` leaves, with
+/// `σ = N/N_c` and `z = τ/(1 + σ s)`, the ratio of the load that it has lost to `1 + σ s`,
 ///
 /// ```text
-/// x2 = (ζ/η) ln(1/(1-y)),   x_s - x2 = (ζ/η) ln(1 + η s/ε),   λ2 = ζ y/(1-y),     y = ητ,   η = N/(N + N_c),   ε = 1 - η,
+/// x2 = S2(1) - S2(s) = S2(z),      x_s - x2 = S2(s),      λ2 = c σ z/(1 + σ),      ∫ t dλ2 = σ M2(z)
 /// ```
 ///
-/// with the compliance ζ of the layer in units of that for which Λ + λ is 1; ζτ, ζs and 0 if its stiffness is constant.
-#[repr(C)]
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct LayerCurve {
-    /// ζ.
-    compliance: f64,
-    /// η and ε.
-    stiffening: f64,
-    softest: f64,
-}
-
-impl LayerCurve {
-    const NONE: LayerCurve = LayerCurve { compliance: 0.0, stiffening: 0.0, softest: 1.0 };
-
-    /// y/τ and 1 - y.
-    fn rest(&self, load: Complement) -> f64 {
-        self.softest + self.stiffening * load.remaining
-    }
-
-    /// x2/ζ.
-    fn consumed(&self, load: Complement) -> f64 {
-        let y = self.stiffening * load.consumed;
-        if y < 1e-8 {
-            return load.consumed * (1.0 + 0.5 * y);
-        }
-        let logarithm = if y < 0.5 { -(-y).ln_1p() } else { -self.rest(load).ln() };
-        logarithm / self.stiffening.max(TINY)
-    }
-
-    /// (x_s - x2)/ζ.
-    fn remaining(&self, remaining: f64) -> f64 {
-        let x = self.stiffening / self.softest * remaining;
-        if x < 1e-8 { remaining / self.softest * (1.0 - 0.5 * x) } else { x.ln_1p() / self.stiffening.max(TINY) }
-    }
-
-    /// The load 1 - τ at which [`LayerCurve::remaining`] has a value.
-    pub fn load_remaining(&self, value: f64) -> f64 {
-        let x = self.stiffening * value;
-        if x < 1e-8 {
-            self.softest * value * (1.0 + 0.5 * x)
-        } else {
-            self.softest * x.min(345.0).exp_m1() / self.stiffening.max(TINY)
-        }
-    }
-
-    /// λ2.
-    pub fn increase(&self, load: Complement) -> f64 {
-        self.compliance * (self.stiffening * load.consumed / self.rest(load))
-    }
-
-    /// dλ2/dτ.
-    fn curvature(&self, load: Complement) -> f64 {
-        self.compliance * self.stiffening / self.rest(load) / self.rest(load)
-    }
-
-    /// `4 ∫ t (τ-t) dλ2`.
-    fn dissipation(&self, load: Complement) -> f64 {
-        let (tau, y) = (load.consumed, self.stiffening * load.consumed);
-        // [(2-y) ln(1/(1-y)) - 2y]/y³, with ln(1/(1-y)) = 2 artanh(y/(2-y)).
-        let factor = if y > 0.6 {
-            -((2.0 - y) * self.rest(load).ln() + 2.0 * y) / (y * y * y)
-        } else {
-            2.0 * artanh_remainder(y / (2.0 - y)) / ((2.0 - y) * (2.0 - y))
-        };
-        4.0 * self.compliance * (self.stiffening * tau) * (tau * tau) * factor
-    }
-
-    /// `∫ t dλ2 = τ λ2 - (x2 - ζτ)`.
-    fn first_moment(&self, load: Complement) -> f64 {
-        let ratio = load.consumed / self.rest(load);
-        self.compliance * (self.stiffening * ratio) * ratio * logarithm_remainder(self.stiffening * ratio)
-    }
-
-    /// ζ.
-    pub fn compliance(&self) -> f64 {
-        self.compliance
-    }
-
-    /// x_s - x2.
-    pub fn shift_remaining(&self, remaining: f64) -> f64 {
-        self.compliance * self.remaining(remaining)
-    }
-
-    /// The compliance at a load.
-    pub fn compliance_at(&self, load: Complement) -> f64 {
-        self.compliance / self.rest(load)
-    }
-
-    /// The derivative by ζ of a force over μN at a fixed displacement, given the compliance of the contact at this force.
-    pub fn share_of_compliance(&self, load: Complement, of_contact: f64) -> f64 {
-        -self.consumed(load) / (of_contact + self.compliance_at(load))
-    }
-
-    /// The parts of the layer in the derivatives by N, of the same layer under another load, and by μ.
-    pub fn shares(&self, load: Complement, of_contact: f64) -> [f64; 2] {
-        [self.increase(load), self.first_moment(load)].map(|part| part / (of_contact + self.compliance_at(load)))
-    }
-
-    /// dλ2/dτ as a polynomial in τ up to 1/2, with its pole at 1/η > 1.
-    fn curvature_series(&self) -> [f64; RETAINED_TERMS] {
-        let tangents = Interpolant::<{ RETAINED_TERMS / 2 }>::at_points(|z| {
-            let consumed = 0.25 * (1.0 + z);
-            let load = Complement { consumed, remaining: 1.0 - consumed };
-            let value = self.curvature(load);
-            Tangent { value, slope: 0.5 * value * self.stiffening / self.rest(load) }
-        });
-        let mut scale = 1.0;
-        Interpolant::<RETAINED_TERMS>::osculating(&tangents).powers_from_end().map(|power| {
-            let coefficient = scale * power;
-            scale *= 2.0;
-            coefficient
-        })
-    }
-}
-
+/// free of cancellation, with the compliance c without load in units of that for which Λ + λ is 1.
 impl Layer {
     /// The layer in units of the stick zones under a normal force, whose compliance 1 is the inverse of `stiffness_scale`, given the
     /// compliance of the contact in these units.
     ///
     /// # Errors
     /// `BadTangentialCompliance` if the layer hides the contact, or its compliance in these units is not representable.
-    pub fn relative(&self, normal_force: f64, stiffness_scale: f64, of_contact: f64) -> Result<LayerCurve, Error> {
+    pub fn relative(&self, normal_force: f64, stiffness_scale: f64, of_contact: f64) -> Result<Layer, Error> {
         if self.tangential > 0.0 {
             in_range(&[self.tangential, stiffness_scale], &[]).map_err(|_| Error::BadTangentialCompliance)?;
         }
-        let softest = self.softness(normal_force);
-        let stiffening = self.stiffening * normal_force * softest;
-        let compliance = self.tangential * softest * stiffness_scale;
-        if compliance > MOST_COMPLIANT * of_contact {
+        let (tangential, stiffening) = (self.tangential * stiffness_scale, self.stiffening * normal_force);
+        let relative = Layer { normal: 0.0, tangential, stiffening };
+        if relative.compliance(1.0) > MOST_COMPLIANT * of_contact {
             Err(Error::BadTangentialCompliance)
         } else {
-            Ok(LayerCurve { compliance, stiffening, softest })
+            Ok(relative)
         }
+    }
+
+    /// z.
+    fn lost(&self, load: Complement) -> f64 {
+        load.consumed * self.softness(load.remaining)
+    }
+
+    /// λ2.
+    pub fn increase(&self, load: Complement) -> f64 {
+        self.compliance(1.0) * (self.stiffening * self.lost(load))
+    }
+
+    /// dλ2/dτ.
+    fn curvature(&self, load: Complement) -> f64 {
+        self.stiffening * self.compliance(load.remaining) * self.softness(load.remaining)
+    }
+
+    /// `4 ∫ t (τ-t) dλ2`.
+    fn dissipation(&self, load: Complement) -> f64 {
+        let y = self.stiffening * self.softness(1.0) * load.consumed;
+        // [(2-y) ln(1/(1-y)) - 2y]/y³, with ln(1/(1-y)) = ln(1 + σz) = 2 artanh(y/(2-y)).
+        let factor = if y > 0.6 {
+            ((2.0 - y) * (self.stiffening * self.lost(load)).ln_1p() - 2.0 * y) / (y * y * y)
+        } else {
+            2.0 * artanh_remainder(y / (2.0 - y)) / ((2.0 - y) * (2.0 - y))
+        };
+        4.0 * self.compliance(1.0) * y * (load.consumed * load.consumed) * factor
+    }
+
+    /// `∫ t dλ2`.
+    fn first_moment(&self, load: Complement) -> f64 {
+        self.stiffening * self.potential(self.lost(load))
+    }
+
+    /// The derivative of a force over μN by the compliance under N at a fixed displacement, given the compliance of the contact at this
+    /// force.
+    pub fn share_of_compliance(&self, load: Complement, of_contact: f64) -> f64 {
+        -self.extent(self.lost(load)) * (1.0 + self.stiffening) / (of_contact + self.compliance(load.remaining))
+    }
+
+    /// The parts of the layer in the derivatives by N, of the same layer under another load, and by μ.
+    pub fn shares(&self, load: Complement, of_contact: f64) -> [f64; 2] {
+        [self.increase(load), self.first_moment(load)].map(|part| part / (of_contact + self.compliance(load.remaining)))
+    }
+
+    /// dλ2/dτ as a polynomial in τ up to 1/2, with its pole at 1 + 1/σ.
+    fn curvature_series(&self) -> [f64; RETAINED_TERMS] {
+        curvature_series(&Interpolant::at_points(|z| {
+            let consumed = 0.25 * (1.0 + z);
+            let load = Complement { consumed, remaining: 1.0 - consumed };
+            let value = self.curvature(load);
+            Tangent { value, slope: 0.5 * value * self.stiffening * self.softness(load.remaining) }
+        }))
     }
 }
 
@@ -300,7 +244,7 @@ pub(crate) struct LayeredZones {
     pub flat: RoundedFlatZones,
     /// 1 for an ellipse.
     elliptic: u64,
-    layer: LayerCurve,
+    layer: Layer,
     slip_shift: f64,
     small_load: SmallLoadSeries,
 }
@@ -310,7 +254,7 @@ impl LayeredZones {
     pub const EMPTY: LayeredZones = LayeredZones {
         flat: RoundedFlatZones::EMPTY,
         elliptic: 0,
-        layer: LayerCurve::NONE,
+        layer: Layer::NONE,
         slip_shift: 0.0,
         small_load: SmallLoadSeries::new(0.0, [0.0; RETAINED_TERMS]),
     };
@@ -326,12 +270,12 @@ impl LayeredZones {
     }
 
     /// Adds a layer, unless it has no compliance.
-    pub fn set_layer(&mut self, layer: &LayerCurve) {
+    pub fn set_layer(&mut self, layer: &Layer) {
         self.layer = *layer;
-        if layer.compliance > 0.0 {
+        if self.has_layer() {
             let contact = self.contact();
-            let slip_shift = contact.slip_shift() + layer.shift_remaining(1.0);
-            let small_load = contact.small_load().plus(layer.compliance, layer.curvature_series());
+            let slip_shift = contact.slip_shift() + layer.shift(1.0);
+            let small_load = contact.small_load().plus(layer.compliance(1.0), layer.curvature_series());
             (self.slip_shift, self.small_load) = (slip_shift, small_load);
         }
     }
@@ -347,16 +291,16 @@ impl LayeredZones {
 
     #[inline(always)]
     pub fn has_layer(&self) -> bool {
-        self.layer.compliance > 0.0
+        self.layer.tangential > 0.0
     }
 
     /// Whether the layer bends the curve strongly near gross slip: N_c is less than a quarter of N. The curve is then singular, as a
     /// function of the displacement, at complex displacements near gross slip.
     pub fn has_knee(&self) -> bool {
-        self.layer.stiffening > 4.0 * self.layer.softest
+        self.layer.stiffening > 4.0
     }
 
-    pub fn layer(&self) -> &LayerCurve {
+    pub fn layer(&self) -> &Layer {
         &self.layer
     }
 
@@ -379,7 +323,7 @@ impl LayeredZones {
 
     /// Finds the points of the curve at a sequence of decreasing remaining shifts, the first of which is close to x_s: Newton's method
     /// in the logarithm of the remaining shift of the contact, from its tangent at the point before.
-    pub fn sequence(&self) -> impl FnMut(f64) -> CurvePoint {
+    pub fn sequence(&self) -> impl FnMut(f64) -> LoadPoint {
         let mut in_contact = self.sequence_of_contact();
         let contact = self.contact();
         let (shift, full_stick) = (contact.slip_shift(), contact.small_load().compliance);
@@ -390,20 +334,20 @@ impl LayeredZones {
             if consumed <= self.small_load.half_shift {
                 // For Λ near 0 the remaining shift of the contact has too few digits for a small load.
                 let zone = self.small_load.at_shift(Complement { consumed, remaining });
-                return CurvePoint {
+                return LoadPoint {
                     remaining: zone.load.remaining,
                     compliance_increase: zone.compliance_increase,
                     curvature: self.small_load.evaluate(zone.load.consumed).curvature,
                 };
             }
             let [of_contact, of_both, power] = last;
-            let mut found = CurvePoint { remaining: 0.0, compliance_increase: 0.0, curvature: 0.0 };
+            let mut found = LoadPoint { remaining: 0.0, compliance_increase: 0.0, curvature: 0.0 };
             let mut sum = |own: f64| {
                 found = in_contact(own);
                 let load = found.load();
-                let sum = own + self.layer.shift_remaining(load.remaining);
+                let sum = own + self.layer.shift(load.remaining);
                 let compliance = full_stick + found.compliance_increase;
-                last = [own, sum, own / sum * (1.0 + self.layer.compliance_at(load) / compliance)];
+                last = [own, sum, own / sum * (1.0 + self.layer.compliance(load.remaining) / compliance)];
                 [sum, last[2]]
             };
             let start = of_contact * ((remaining / of_both).ln() / power).exp();
@@ -411,7 +355,7 @@ impl LayeredZones {
             let own = inverse_of_sum(remaining, start, shift, &mut sum);
             sum(own);
             let load = found.load();
-            CurvePoint {
+            LoadPoint {
                 compliance_increase: found.compliance_increase + self.layer.increase(load),
                 curvature: found.curvature + self.layer.curvature(load),
                 ..found
@@ -421,7 +365,7 @@ impl LayeredZones {
 
     /// Finds the points of the curve of the contact alone at a sequence of decreasing remaining shifts, the first of which is close to the
     /// shift of gross slip.
-    pub fn sequence_of_contact(&self) -> impl FnMut(f64) -> CurvePoint {
+    pub fn sequence_of_contact(&self) -> impl FnMut(f64) -> LoadPoint {
         let mut of_flat = self.flat.sequence();
         move |remaining| if self.is_elliptic() { EllipseZones::at(remaining) } else { of_flat(remaining) }
     }
@@ -439,11 +383,10 @@ impl StickZones for LayeredZones {
     fn at_load_remaining(&self, remaining: f64) -> StickZone {
         let zone = self.contact().at_load_remaining(remaining);
         let Complement { consumed, remaining } = zone.shift;
-        let compliance = self.layer.compliance;
         StickZone {
             shift: Complement {
-                consumed: consumed + compliance * self.layer.consumed(zone.load),
-                remaining: remaining + compliance * self.layer.remaining(zone.load.remaining),
+                consumed: consumed + self.layer.shift(self.layer.lost(zone.load)),
+                remaining: remaining + self.layer.shift(zone.load.remaining),
             },
             compliance_increase: zone.compliance_increase + self.layer.increase(zone.load),
             ..zone
@@ -459,7 +402,7 @@ impl StickZones for LayeredZones {
         let contact = self.contact();
         let half = contact.slip_shift() - contact.small_load().half_shift;
         let alone = if remaining < half { contact.at_shift_remaining(remaining).load.remaining } else { 0.5 };
-        let start = alone.min(self.layer.load_remaining(remaining / self.layer.compliance)).max(TINY);
+        let start = alone.min(self.layer.load_of_shift(remaining)).max(TINY);
         let load = inverse_of_sum(remaining, start, 1.0, |load| {
             let zone = self.at_load_remaining(load);
             let sum = zone.shift.remaining.max(TINY);
@@ -679,115 +622,4 @@ fn composed(y: &Series, powers: &[Series; ORDER]) -> Series {
 }
 
 #[cfg(test)]
-pub(crate) mod tests {
-    use super::*;
-    use crate::constant_load::contact::tests::{FLATS, TITANIUM, parameters};
-    use crate::parameters::EllipticParameters;
-    use crate::shape::{HertzEllipse, RoundedFlat};
-    use std::vec::Vec;
-
-    /// Compliances in units of those of the contact, and N_c in units of the normal force: linear, hardly and strongly stiffening, and in
-    /// one direction only.
-    pub(crate) const LAYERS: [[f64; 3]; 5] =
-        [[0.3, 0.3, 0.0], [3.0, 2.0, f64::INFINITY], [1.0, 1.0, 0.3], [0.0, 3.0, 1e-3], [100.0, 30.0, 0.01]];
-
-    /// A layer of the parameters with compliances in units of those of a shape under a load of 150 N.
-    fn layer_of(shape: &dyn Shape, [normal, tangential, ratio]: [f64; 3]) -> parameters::Layer {
-        let w = shape.at_load(150.0);
-        parameters::Layer {
-            normal_compliance: normal * shape.compliance(Quantity::Approach, w),
-            tangential_compliance: tangential * shape.compliance(Quantity::Shift, w),
-            stiffening_load: ratio * 150.0,
-            reference_load: 0.0,
-        }
-    }
-
-    fn with_layers<S: Shape + Copy + 'static>(shape: S) -> impl Iterator<Item = std::boxed::Box<dyn Shape>> {
-        LAYERS.into_iter().chain([[0.0; 3]]).map(move |layer| {
-            let layer = Layer::new(&layer_of(&shape, layer), 150.0).unwrap().0;
-            std::boxed::Box::new(Layered { shape, layer }) as std::boxed::Box<dyn Shape>
-        })
-    }
-
-    /// The shapes of all kinds, each with all layers.
-    fn shapes() -> Vec<std::boxed::Box<dyn Shape>> {
-        let ellipse = EllipticParameters {
-            semi_axis_x: 1e-4,
-            semi_axis_y: 2e-4,
-            normal_force: 150.0,
-            friction_coefficient: 0.4,
-            material: [TITANIUM; 2],
-            ..EllipticParameters::default()
-        };
-        let flats = FLATS.into_iter().map(|flat| RoundedFlat::new(&parameters(flat)).unwrap());
-        flats.flat_map(with_layers).chain(with_layers(HertzEllipse::new(&ellipse).unwrap())).collect()
-    }
-
-    /// The logarithms and their series for a small argument, on both sides of the place where one takes over.
-    #[test]
-    fn logarithms_join_their_series() {
-        let layer = LayerCurve { compliance: 1.0, stiffening: 0.4, softest: 0.6 };
-        let joins = |middle: f64, ratio: &dyn Fn(f64) -> f64| {
-            let [below, above] = [1.0 - 1e-12, 1.0 + 1e-12].map(|part| ratio(part * middle));
-            assert!((above / below - 1.0).abs() < 1e-15, "{middle:e}: {below:e} {above:e}");
-        };
-        joins(1e-8 / 0.4, &|tau| layer.consumed(Complement { consumed: tau, remaining: 1.0 - tau }) / tau);
-        joins(1e-8 / 0.4 * 0.6, &|s| layer.remaining(s) / s);
-        joins(1e-8 / 0.4, &|value| layer.load_remaining(value) / value);
-    }
-
-    #[test]
-    fn quantities_are_integrals_of_the_compliances() {
-        for shape in shapes() {
-            for load in [1e-3, 0.1, 1.0, 150.0, 400.0] {
-                let (w, h) = (shape.at_load(load), 1e-4);
-                // Central differences in ln w, relative error h².
-                let (low, high) = (w * (1.0 - h), w * (1.0 + h));
-                let difference = |f: &dyn Fn(f64) -> f64| (f(high) - f(low)) / (shape.load(high) - shape.load(low));
-                for quantity in Quantity::ALL {
-                    let ratio = difference(&|w| shape.value(quantity, w)) / shape.compliance(quantity, w);
-                    assert!((ratio - 1.0).abs() < 1e-7, "{load} {quantity:?}: {ratio}");
-                }
-                let exact = shape.compliance(Quantity::Shift, w) * shape.load(w);
-                let ratio = difference(&|w| shape.potential(w)) / exact;
-                assert!((ratio - 1.0).abs() < 1e-7, "{load}: {ratio}");
-            }
-        }
-    }
-
-    /// A ninth of the argument beside the middle, as in the tables.
-    #[test]
-    fn series_are_the_functions() {
-        for shape in shapes() {
-            for load in [1e-3, 0.1, 1.0, 30.0, 150.0] {
-                let sizes = [load, 1.05 * load].map(|load| shape.at_load(load));
-                for argument in Quantity::ALL {
-                    let [x, other] = sizes.map(|w| shape.value(argument, w));
-                    for (quantity, series) in Quantity::ALL.into_iter().zip(shape.series(sizes[0], argument)) {
-                        let sum = series.iter().rev().fold(0.0, |sum, term| sum * (other / x - 1.0) + term);
-                        let error = sum / shape.value(quantity, sizes[1]) - 1.0;
-                        // The argument has rounding errors, of which one enters with the power of a nearly flat contact.
-                        assert!(error.abs() < 1e-14, "{load} {quantity:?} of {argument:?}: {error}");
-                    }
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn remainders_have_no_cancellation() {
-        for k in -30..=3 {
-            let x = 10f64.powi(k);
-            // ∫ t/(1 + t x) dt, t from 0 to 1, is the remainder.
-            let panels = |f: &dyn Fn(f64) -> f64| -> f64 {
-                (0..256).map(|i| crate::numerics::quadrature::gauss(1.0 / 256.0, |t| f(f64::from(i) / 256.0 + t))).sum()
-            };
-            let exact = panels(&|t| t / (1.0 + t * x));
-            assert!((logarithm_remainder(x) / exact - 1.0).abs() < 4e-15, "{x}");
-        }
-        for z in [0.0, 1e-9, 0.1, 0.3, 0.5_f64] {
-            let exact = if z > 0.05 { (z.atanh() - z) / (z * z * z) } else { 1.0 / 3.0 + z * z / 5.0 };
-            assert!((artanh_remainder(z) / exact - 1.0).abs() < 3e-14, "{z}");
-        }
-    }
-}
+mod tests;

@@ -59,7 +59,7 @@ pub(crate) struct SurfacePoint {
 
 /// A point of the monotonic curve.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct CurvePoint {
+pub(crate) struct LoadPoint {
     /// 1 - τ.
     pub remaining: f64,
     /// λ.
@@ -68,7 +68,7 @@ pub(crate) struct CurvePoint {
     pub curvature: f64,
 }
 
-impl CurvePoint {
+impl LoadPoint {
     /// τ and 1 - τ.
     pub fn load(&self) -> Complement {
         Complement { consumed: 1.0 - self.remaining, remaining: self.remaining }

@@ -64,7 +64,8 @@ pub fn step(contact: &Contact, state: &[f64], displacement: f64) -> masing::Step
 /// Advances a state; force, stiffness and dissipated energy.
 #[inline(never)]
 pub fn advance(contact: &Contact, state: &mut [f64], displacement: f64) -> (f64, f64, f64) {
-    let (step, dissipated) = masing::step_with_energy(contact, state, displacement);
+    let (step, dissipated) =
+        (masing::step(contact, state, displacement), masing::dissipated(contact, state, displacement));
     step.write(state);
     (step.force(), step.stiffness(), dissipated)
 }

@@ -1,6 +1,7 @@
 /* all_calls.c: see all_calls.h. Inputs are computed by + - * / only, so that they are the same with every compiler. */
 #include "all_calls.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -227,22 +228,6 @@ static mslip_elliptic_parameters elliptic_parameters(void)
     return p;
 }
 
-/* The values that a call has written; of contacts and elements, the named ones. */
-static void print_outputs(const struct sequence *s, const function *f, const arguments *call)
-{
-    for (const argument *a = f->arguments; a->name != NULL; ++a) {
-        const size_t extent = a->kind == ARG_OUTPUT ? extent_of(a->extents, takes(f, ARG_ELEMENT) ? 2 : 1)
-            : a->kind == ARG_NEW_CONTACT            ? offsetof(mslip_contact, reserved) / sizeof(double)
-            : a->kind == ARG_NEW_ELEMENT            ? offsetof(mslip_element, directions) / sizeof(double)
-                                                    : 0;
-        const double *values;
-        memcpy(&values, (const char *)call + a->field, sizeof values);
-        for (size_t i = 0; i < extent; ++i) {
-            fprintf(s->values, "%s %s %.17g\n", f->name, a->name, values[i]);
-        }
-    }
-}
-
 /* All items of a batch share one contact. */
 static void make_function(struct sequence *s, const function *f, int rule)
 {
@@ -283,9 +268,6 @@ static void make_function(struct sequence *s, const function *f, int rule)
     }
     if (status != MSLIP_NOT_AVAILABLE) {
         accept(status);
-        if (s->values != NULL) {
-            print_outputs(s, f, &call);
-        }
     }
 }
 
@@ -350,7 +332,6 @@ void initialise(int which, mslip_contact *contact, mslip_element *element)
 void begin_sequence(struct sequence *s)
 {
     s->arrays = 0;
-    s->values = NULL;
     s->hash = UINT64_C(0xcbf29ce484222325);
     s->workspace[0] = workspace(0, MSLIP_UNIFORM_SAMPLING);
     s->workspace[1] = workspace(0, MSLIP_EVENT_DRIVEN);
@@ -376,7 +357,7 @@ uint64_t hash_of_one(struct sequence *s, const mslip_contact *contact, const msl
     return s->hash;
 }
 
-static uint64_t all(FILE *values)
+uint64_t hash_of_all(void)
 {
     struct sequence s;
     uint64_t hash = 0;
@@ -385,7 +366,6 @@ static uint64_t all(FILE *values)
         abort();
     }
     begin_sequence(&s);
-    s.values = values;
     for (int which = 0; which < CONTACTS; ++which) {
         mslip_contact contact;
         initialise(which, &contact, element);
@@ -395,14 +375,4 @@ static uint64_t all(FILE *values)
     end_sequence(&s);
     free(element);
     return hash;
-}
-
-uint64_t hash_of_all(void)
-{
-    return all(NULL);
-}
-
-void print_all(FILE *values)
-{
-    all(values);
 }

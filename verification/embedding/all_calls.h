@@ -4,8 +4,6 @@
 
 #include "../../c_tests/outputs.h"
 
-#include <stdio.h>
-
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -20,7 +18,6 @@ struct sequence {
     double *workspace[RULES];
     double *element_workspace;
     uint64_t hash;
-    FILE *values; /* for the outputs as text; may be NULL */
     double *array[MOST_ARRAYS];
     size_t length[MOST_ARRAYS];
     size_t arrays;
@@ -35,9 +32,6 @@ void make_call(struct sequence *sequence, size_t call);
 /* The hash of all calls with one contact and element, and with all of them. */
 uint64_t hash_of_one(struct sequence *sequence, const mslip_contact *contact, const mslip_element *element);
 uint64_t hash_of_all(void);
-
-/* Prints all outputs but states and workspaces, a line for each value: function, argument, value. */
-void print_all(FILE *values);
 
 #ifdef __cplusplus
 }

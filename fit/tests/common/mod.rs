@@ -84,9 +84,7 @@ pub fn flat() -> Contact {
 /// The same contact as the library takes it.
 pub fn library_parameters(contact: &Contact, normal_force: f64) -> Parameters {
     let Geometry::Flat { flat_half_width, edge_radius, length, .. } = contact.geometry else { panic!("a flat") };
-    let material = contact
-        .material
-        .map(|Material { young_modulus, poisson_ratio }| microslip::Material { young_modulus, poisson_ratio });
+    let material = contact.material;
     let friction_coefficient = contact.friction_coefficient;
     Parameters {
         flat_half_width,

@@ -104,9 +104,6 @@ struct Buffers<'a> {
 
 impl<'a> Workspace<'a> {
     /// Opens an initialised workspace.
-    ///
-    /// # Errors
-    /// `BadWorkspace` if uninitialised or too short.
     #[inline(always)]
     pub fn new(workspace: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
         let (layout, mut parts) = Layout::open(workspace)?;
@@ -247,7 +244,6 @@ struct Period<'m, 'c, 's> {
 
 impl Period<'_, '_, '_> {
     /// Integrates a period, or half of it if it is half-wave symmetric, from the farthest reversal. Returns which it is.
-    #[inline(always)]
     fn integrate(&mut self, buffers: &mut Buffers) -> bool {
         let (count, half_wave_symmetric) = self.motion.find_reversals(&mut buffers.grid, buffers.instants);
         let span = if half_wave_symmetric { PI } else { 2.0 * PI };
@@ -353,6 +349,25 @@ impl Period<'_, '_, '_> {
         }
     }
 
+    /// Adds a segment to the integrals of the derivatives with respect to the parameters.
+    fn integrate_sensitivity(&mut self, buffers: &mut Buffers, segment: Segment) {
+        let coefficients = buffers.coefficients();
+        if let Some(sums) = &mut self.sensitivity {
+            let stack = ReversalSensitivities::new(buffers.gradients.as_flattened_mut());
+            buffers.nodes.for_each_panel(&self.motion, segment, buffers.harmonics, |nodes, displacement, weights| {
+                let mut derivatives: [Nodes; PARAMETERS] = [[[0.0; 4]; _]; _];
+                for (node, displacement) in displacement.as_flattened().iter().enumerate() {
+                    for (values, derivative) in derivatives.iter_mut().zip(stack.at(&self.law, *displacement)) {
+                        values.as_flattened_mut().iter_mut().skip(node).take(1).for_each(|value| *value = derivative);
+                    }
+                }
+                for (values, column) in derivatives.iter().zip(sums.chunks_exact_mut(coefficients)) {
+                    nodes.add(weights, values, column);
+                }
+            });
+        }
+    }
+
     /// Adds a segment of the present branch to the integrals and the energy. `to_slip`: gross slip starts at its end.
     fn integrate_segment(&mut self, buffers: &mut Buffers, from: Instant, to: Instant, to_slip: bool) {
         self.law.account_for(from.displacement, to.displacement);
@@ -375,20 +390,8 @@ impl Period<'_, '_, '_> {
             return;
         }
         let segment = Segment { from: from.t, to: to.t, to_slip };
-        if let Some(sums) = &mut self.sensitivity {
-            let stack = ReversalSensitivities::new(buffers.gradients.as_flattened_mut());
-            buffers.nodes.for_each_panel(&self.motion, segment, buffers.harmonics, |nodes, displacement, weights| {
-                let mut derivatives: [Nodes; PARAMETERS] = [[[0.0; 4]; _]; _];
-                for (node, displacement) in displacement.as_flattened().iter().enumerate() {
-                    for (values, derivative) in derivatives.iter_mut().zip(stack.at(&self.law, *displacement)) {
-                        values.as_flattened_mut().iter_mut().skip(node).take(1).for_each(|value| *value = derivative);
-                    }
-                }
-                for (values, column) in derivatives.iter().zip(sums.chunks_exact_mut(coefficients)) {
-                    nodes.add(weights, values, column);
-                }
-            });
-            return;
+        if self.sensitivity.is_some() {
+            return self.integrate_sensitivity(buffers, segment);
         }
         let evaluator = self.law.evaluator();
         let orders = if stiffness { 2 * buffers.harmonics } else { buffers.harmonics };

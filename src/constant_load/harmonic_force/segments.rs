@@ -75,9 +75,6 @@ pub(super) struct NodalFourier<'a> {
 
 impl<'a> NodalFourier<'a> {
     /// For orders up to 2H.
-    ///
-    /// # Errors
-    /// `BadWorkspace` if fewer doubles remain.
     #[inline(always)]
     pub fn take(parts: &mut Parts<'a>, size: Size) -> Result<NodalFourier<'a>, Error> {
         let rows = parts.take_blocks(4 * size.harmonics * MAX_GAUSS_BLOCKS)?.as_chunks_mut().0.as_chunks_mut().0;

@@ -35,10 +35,6 @@ impl WorkspaceLayout for Layout {
         self.0
     }
 
-    fn max_rows(&self) -> usize {
-        2 * self.0.samples + 16
-    }
-
     fn length(&self) -> usize {
         HEADER + Parts::count(|parts| Workspace::take(self.0, parts))
     }
@@ -67,9 +63,6 @@ pub(super) struct Workspace<'a> {
 
 impl<'a> Workspace<'a> {
     /// Opens an initialised workspace.
-    ///
-    /// # Errors
-    /// `BadWorkspace` if uninitialised or too short.
     pub fn new(workspace: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
         let (layout, mut parts) = Layout::open(workspace)?;
         Workspace::take(layout.0, &mut parts)

@@ -17,8 +17,8 @@ use libc::size_t;
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_parameters_default(p: *mut Parameters) {
     if !p.is_null() {
-        // SAFETY: valid by the function's contract; a misaligned pointer cannot be reported.
-        unsafe { p.write_unaligned(Parameters::default()) }
+        // A misaligned pointer cannot be reported.
+        p.write_unaligned(Parameters::default());
     }
 }
 
@@ -26,8 +26,8 @@ pub unsafe extern "C" fn mslip_parameters_default(p: *mut Parameters) {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_elliptic_parameters_default(p: *mut EllipticParameters) {
     if !p.is_null() {
-        // SAFETY: valid by the function's contract; a misaligned pointer cannot be reported.
-        unsafe { p.write_unaligned(EllipticParameters::default()) }
+        // A misaligned pointer cannot be reported.
+        p.write_unaligned(EllipticParameters::default());
     }
 }
 
@@ -38,8 +38,7 @@ unsafe fn text_of<P: Copy, W: Iterator<Item = &'static CStr>>(
     warnings: fn(&P, Option<f64>) -> W,
 ) -> *const c_char {
     let Some(i) = usize::try_from(i).ok().filter(|_| !p.is_null()) else { return ptr::null() };
-    // SAFETY: valid by the function's contract.
-    let parameters = unsafe { p.read_unaligned() };
+    let parameters = p.read_unaligned();
     warnings(&parameters, None).nth(i).map_or(ptr::null(), CStr::as_ptr)
 }
 
@@ -58,9 +57,6 @@ pub unsafe extern "C" fn mslip_elliptic_parameters_warning(p: *const EllipticPar
 }
 
 /// Initialises a contact with a constructor.
-///
-/// # Safety
-/// Both pointers are NULL or valid for their types.
 unsafe fn initialise<P>(
     parameters: *const P,
     contact: *mut mslip_contact,
@@ -72,9 +68,7 @@ unsafe fn initialise<P>(
             return Err(Error::NullPointer);
         }
         check_alignment(contact)?;
-        let initialised = construct(parameters)?.into();
-        // SAFETY: aligned, not NULL, and valid by the function's contract.
-        unsafe { contact.write(initialised) };
+        contact.write(construct(parameters)?.into());
         Ok(())
     })
 }

@@ -2,16 +2,13 @@
 
 use super::contact::check_positions;
 use crate::constant_load::contact::Contact;
-use crate::constant_load::masing::{self, PathOutput, Step, with_step};
-use crate::constant_load::memory::Point;
+use crate::constant_load::masing::{self, PathOutput};
 use crate::constant_load::state;
-use crate::error::Error;
-use crate::ffi::MSLIP_OK;
+use crate::ffi::batch::update_one;
 use crate::ffi::mslip_contact;
 use crate::ffi::pointers::{
-    self, call, check_alignment, input, memory, output, outputs, requested, set, state_input, status,
+    self, call, check_alignment, input, memory, new_state, output, outputs, set, state_input, status,
 };
-use core::{ptr, slice};
 use libc::size_t;
 
 /// Number of doubles in a state with a capacity of `reversals` nested reversals, at least 2. A state is never full: if the capacity
@@ -66,126 +63,10 @@ pub unsafe extern "C" fn mslip_masing_update(
     stiffness: *mut f64,
     dissipated: *mut f64,
 ) -> i32 {
-    let checked = || {
-        let contact = pointers::contact(contact)?;
-        [state_new, force, stiffness, dissipated].iter().try_for_each(|output| check_alignment(*output))?;
-        // SAFETY: by the function's contract; the reference ends before the new state, which may be the same memory, is written.
-        masing::check_step(unsafe { state_input(state_length, state_old) }?, displacement)?;
-        Ok(contact)
-    };
-    match checked() {
-        // SAFETY: checked, aligned; valid by the function's contract.
-        Ok(contact) => unsafe {
-            let state_old = ptr::slice_from_raw_parts(state_old, state_length);
-            update(contact, state_old, displacement, state_new, force, stiffness, dissipated)
-        },
-        Err::<_, Error>(error) => error.code(),
-    }
-}
-
-/// One update with checked inputs: evaluates the step, then writes. Returns `MSLIP_OK`.
-///
-/// # Safety
-/// `state_old` is valid; `state_new` is NULL, equal to it, or valid for as many doubles without overlap; the outputs are NULL, or aligned
-/// and valid for one double.
-#[inline(always)]
-pub(in crate::ffi) unsafe fn update(
-    contact: &Contact,
-    state_old: *const [f64],
-    displacement: f64,
-    state_new: *mut f64,
-    force: *mut f64,
-    stiffness: *mut f64,
-    dissipated: *mut f64,
-) -> i32 {
-    if dissipated.is_null() {
-        return update_without_energy(contact, state_old, displacement, state_new, force, stiffness);
-    }
-    let energy = masing::dissipated(contact, &*state_old, displacement);
-    let status = update_without_energy(contact, state_old, displacement, state_new, force, stiffness);
-    write(dissipated, energy);
-    status
-}
-
-/// A step that continues its branch is inlined, and calls no other function before its results are written; all others are left to
-/// [`general_update`].
-///
-/// # Safety
-/// As for [`update`].
-#[inline(always)]
-unsafe fn update_without_energy(
-    contact: &Contact,
-    state_old: *const [f64],
-    displacement: f64,
-    state_new: *mut f64,
-    force: *mut f64,
-    stiffness: *mut f64,
-) -> i32 {
-    let Some(response) = masing::continued(contact, &*state_old, displacement) else {
-        return general_update(contact, state_old, displacement, state_new, [force, stiffness]);
-    };
-    write(force, response.force);
-    write(stiffness, response.stiffness);
-    if !state_new.is_null() {
-        copy(state_old, state_new);
-        let now = Point { displacement, force: response.force };
-        state::set_point(slice::from_raw_parts_mut(state_new, state_old.len()), now);
-    }
-    MSLIP_OK
-}
-
-/// # Safety
-/// As for [`update`].
-#[inline(never)]
-unsafe fn general_update(
-    contact: &Contact,
-    state_old: *const [f64],
-    displacement: f64,
-    state_new: *mut f64,
-    results: [*mut f64; 2],
-) -> i32 {
-    let state = &*state_old;
-    with_step!(contact, state, displacement, |step| write_step(&step, state_old, state_new, results));
-    MSLIP_OK
-}
-
-/// Copies a state unless the new one is the same memory.
-///
-/// # Safety
-/// As for [`update`]; `state_new` is not NULL.
-#[inline(always)]
-unsafe fn copy(state_old: *const [f64], state_new: *mut f64) {
-    if !ptr::eq(state_old.cast(), state_new) {
-        ptr::copy_nonoverlapping(state_old.cast(), state_new, state_old.len());
-    }
-}
-
-/// Writes a step: the new state, and force and stiffness.
-///
-/// # Safety
-/// As for [`update`].
-#[inline(always)]
-unsafe fn write_step(step: &Step, state_old: *const [f64], state_new: *mut f64, [force, stiffness]: [*mut f64; 2]) {
-    // SAFETY: by the function's contract; the states are different memory if one is copied.
-    unsafe {
-        if !state_new.is_null() {
-            copy(state_old, state_new);
-            step.write(slice::from_raw_parts_mut(state_new, state_old.len()));
-        }
-        write(force, step.force());
-        write(stiffness, step.stiffness());
-    }
-}
-
-/// Writes one value if it is requested.
-///
-/// # Safety
-/// `output` is NULL, or aligned and valid for one double.
-#[inline(always)]
-unsafe fn write(output: *mut f64, value: f64) {
-    if !output.is_null() {
-        output.write(value);
-    }
+    call(|| {
+        let (contact, outputs) = (pointers::contact(contact)?, [force, stiffness, dissipated]);
+        update_one::<Contact>(contact, state_length, state_old, &raw const displacement, state_new, outputs)
+    })
 }
 
 /// Advances the contact state through n displacements \[m\]; force\[n\] \[N\], stiffness\[n\] \[N/m\] and dissipated\[n\] \[J\] are those
@@ -216,13 +97,8 @@ pub unsafe extern "C" fn mslip_masing_path(
             masing::path_in_copy(contact, start, path, output);
             return Ok(());
         }
-        if !ptr::eq(state_old, state_new) {
-            // SAFETY: aligned; valid by the function's contract.
-            unsafe { ptr::copy(state_old, state_new, state_length) };
-        }
-        // SAFETY: as above; the reference to the old state, which may be the same memory, is not used any more.
-        let state = unsafe { requested(state_new, state_length) }.ok_or(Error::StateTooShort)?;
-        masing::path(contact, state, path, output);
+        // The reference to the old state, which may be the same memory, is not used any more.
+        masing::path(contact, new_state(state_length, state_old, state_new)?, path, output);
         Ok(())
     })
 }

@@ -194,7 +194,7 @@ struct Gathering<'c, const N: usize> {
 impl<const N: usize> Gathering<'_, N> {
     #[inline(always)]
     fn gather(&mut self, runs: &[Run], by_u: &mut [f64], by_input: &mut [f64]) {
-        let Context { element, samples, .. } = *self.context;
+        let samples = self.context.samples;
         let mut now = 0;
         for run in runs.iter().chain([&Run::EMPTY]) {
             let range = run.samples();
@@ -204,13 +204,11 @@ impl<const N: usize> Gathering<'_, N> {
                 Kind::STUCK => run.kept().saturating_sub(1),
                 _ => 0,
             };
-            self.remove_beyond(kept, now);
+            self.remove_beyond(kept, run.kind == Kind::SLIP, now);
             let by_u = by_u.get_mut(range.clone()).unwrap_or(&mut []);
-            let by_input = by_input.get_mut(range.clone()).unwrap_or(&mut []);
-            let mu = run.sign * element.friction_coefficient;
-            let made = if run.sign > 0.0 { Made::FORWARDS } else { Made::BACKWARDS };
+            self.write_own(run, by_u, by_input.get_mut(range).unwrap_or(&mut []));
             let line = Piece {
-                made,
+                made: if run.sign > 0.0 { Made::FORWARDS } else { Made::BACKWARDS },
                 sample: last as u64,
                 weights: [at(samples.stiffness, last), 0.0],
                 since: (now + count) as u64,
@@ -219,44 +217,51 @@ impl<const N: usize> Gathering<'_, N> {
                 stored: 0,
             };
             match run.kind {
-                Kind::OPEN => {
-                    by_u.fill(0.0);
-                    by_input.fill(0.0);
-                }
-                Kind::GROSS_SLIP => {
-                    by_u.fill(0.0);
-                    let slopes = samples.load_slope.get(range).unwrap_or(&[]);
-                    by_input.iter_mut().zip(slopes).for_each(|(weight, slope)| *weight = mu * slope);
-                    self.push(&line);
-                }
-                Kind::STUCK => {
-                    by_input.fill(0.0);
-                    let stiffnesses = samples.stiffness.get(range).unwrap_or(&[]);
-                    by_u.iter_mut().zip(stiffnesses).for_each(|(weight, stiffness)| *weight = *stiffness);
-                    self.stick(run, now);
-                }
+                Kind::OPEN => {}
+                Kind::GROSS_SLIP => self.push(&line),
+                Kind::STUCK => self.stick(run, now),
                 _ => {
-                    let cuts = self.cuts.stiffnesses.get(run.cuts()).unwrap_or(&[]);
-                    let stiffnesses = samples.stiffness.get(range.clone()).unwrap_or(&[]);
-                    let slopes = samples.shift_slope.get(range).unwrap_or(&[]);
-                    for ((((by_u, by_input), cut), stiffness), slope) in
-                        by_u.iter_mut().zip(by_input).zip(cuts).zip(stiffnesses).zip(slopes)
-                    {
-                        *by_u = *cut;
-                        *by_input = mu * slope * (stiffness - cut);
-                    }
+                    let packed = run.cuts();
                     if self.depth < run.kept() {
                         self.push(&Piece { made: Made::NEVER, ..line });
                     }
-                    self.cut(
-                        self.depth.saturating_sub(1),
-                        Cut { step: now as u64, count: count as u64, packed: run.cuts().start as u64 },
-                    );
-                    let cut = cuts.last().copied().unwrap_or(0.0);
+                    if let Some(piece) = self.depth.checked_sub(1).and_then(|top| self.pieces.get_mut(top)) {
+                        piece.cut = Cut { step: now as u64, count: count as u64, packed: packed.start as u64 };
+                    }
+                    let cut = at(self.cuts.stiffnesses, packed.end.saturating_sub(1));
                     self.push(&Piece { weights: [line.weights[0] - cut, 0.0], parameter: cut, ..line });
                 }
             }
             now += count;
+        }
+    }
+
+    /// Writes the weights of φ ⊗ φ of the samples of a run.
+    #[inline(always)]
+    fn write_own(&self, run: &Run, by_u: &mut [f64], by_input: &mut [f64]) {
+        let Context { element, samples, .. } = *self.context;
+        let mu = run.sign * element.friction_coefficient;
+        match run.kind {
+            Kind::OPEN => {
+                by_u.fill(0.0);
+                by_input.fill(0.0);
+            }
+            Kind::GROSS_SLIP => {
+                by_u.fill(0.0);
+                by_input.iter_mut().zip(run.of(samples.load_slope)).for_each(|(weight, slope)| *weight = mu * slope);
+            }
+            Kind::STUCK => {
+                by_input.fill(0.0);
+                by_u.iter_mut().zip(run.of(samples.stiffness)).for_each(|(weight, stiffness)| *weight = *stiffness);
+            }
+            _ => {
+                let cuts = self.cuts.stiffnesses.get(run.cuts()).unwrap_or(&[]);
+                let values = cuts.iter().zip(run.of(samples.stiffness)).zip(run.of(samples.shift_slope));
+                for ((by_u, by_input), ((cut, stiffness), slope)) in by_u.iter_mut().zip(by_input).zip(values) {
+                    *by_u = *cut;
+                    *by_input = mu * slope * (stiffness - cut);
+                }
+            }
         }
     }
 
@@ -338,61 +343,62 @@ impl<const N: usize> Gathering<'_, N> {
         sums
     }
 
-    /// Cuts a piece by a run of slip.
+    /// Removes the pieces beyond those that stay. The last one of these, if it is cut again, stores its sums.
     #[inline(always)]
-    fn cut(&mut self, index: usize, cut: Cut) {
-        let Some(mut piece) = self.pieces.get(index).copied() else { return };
-        if piece.made == Made::NEVER {
-            return;
-        }
-        if piece.cut.count > 0 {
-            let sums = self.sums(index, &mut piece, cut.step as usize);
-            if let Some(place) = self.stored.get_mut(index) {
-                *place = sums;
+    fn remove_beyond(&mut self, kept: usize, is_cut: bool, now: usize) {
+        while let Some(index) = self.depth.checked_sub(1)
+            && let Some(mut piece) = self.pieces.get(index).copied()
+        {
+            let (removes, was_cut) = (self.depth > kept, piece.cut.count > 0);
+            if !(removes || is_cut && was_cut && self.depth == kept) {
+                return;
             }
-            (piece.stored, piece.since) = (1, cut.step);
-        }
-        piece.cut = cut;
-        if let Some(place) = self.pieces.get_mut(index) {
-            *place = piece;
-        }
-    }
-
-    #[inline(always)]
-    fn remove_beyond(&mut self, kept: usize, now: usize) {
-        while self.depth > kept {
-            self.depth -= 1;
-            self.remove(self.depth, now);
+            let has_sums = piece.stored > 0 || was_cut || now > piece.since as usize;
+            if piece.made != Made::NEVER && has_sums {
+                let sums = self.sums(index, &mut piece, now);
+                if removes {
+                    self.distribute(&piece, &sums);
+                } else if let Some(place) = self.stored.get_mut(index) {
+                    *place = sums;
+                    (piece.stored, piece.since, piece.cut) = (1, now as u64, NO_CUT);
+                }
+            }
+            if removes {
+                self.depth = index;
+            } else {
+                self.pieces.iter_mut().skip(index).take(1).for_each(|place| *place = piece);
+                return;
+            }
         }
     }
 
     /// Adds the sums of a piece that is removed to those of the samples that made it: `dT = -V_1 e_i - V_2 (e_j - e_i)`.
     #[inline(always)]
-    fn remove(&mut self, index: usize, now: usize) {
+    fn distribute(&mut self, piece: &Piece, [constant, linear]: &[Strip<N>; 2]) {
         let Context { element, samples, .. } = *self.context;
-        let Some(mut piece) = self.pieces.get(index).copied() else { return };
-        if piece.made == Made::NEVER || (piece.stored == 0 && piece.cut.count == 0 && now <= piece.since as usize) {
-            return;
-        }
-        let [constant, linear] = self.sums(index, &mut piece, now);
         let (made, sample) = (piece.made, piece.sample as usize);
         let shift_slope = at(samples.shift_slope, sample);
-        if !piece.is_stuck() {
+        let mut difference = *linear;
+        add_scaled(&mut difference, -1.0, constant);
+        let (before, slope) = (samples.before(sample), at(self.cuts.slopes, sample));
+        let own = (sample, linear, [-1.0, slope * shift_slope]);
+        // One call in a loop: the function is long, and inlined.
+        let (parts, count) = if !piece.is_stuck() {
             let mu = element.friction_coefficient * if made == Made::FORWARDS { 1.0 } else { -1.0 };
-            self.add(sample, &constant, [-1.0, mu * shift_slope]);
-            return;
-        }
-        let slope = at(self.cuts.slopes, sample);
-        self.add(sample, &linear, [-1.0, slope * shift_slope]);
-        let mut difference = linear;
-        add_scaled(&mut difference, -1.0, &constant);
-        let before = samples.before(sample);
-        if made == Made::BY_STICKING {
-            self.add(before, &difference, [1.0, -slope * at(samples.shift_slope, before)]);
+            ([(sample, constant, [-1.0, mu * shift_slope]), own, own], 1)
+        } else if made == Made::BY_STICKING {
+            let inner = (before, &difference, [1.0, -slope * at(samples.shift_slope, before)]);
+            ([own, inner, own], 2)
         } else {
             let Crossing { fraction, rest, slope, .. } = closing(samples, element, sample);
-            self.add(before, &difference, [rest, -rest * slope]);
-            self.add(sample, &difference, [fraction, -fraction * slope]);
+            let [inner, outer] = [rest, fraction].map(
+                #[inline(always)]
+                |share| [share, -share * slope],
+            );
+            ([own, (before, &difference, inner), (sample, &difference, outer)], 3)
+        };
+        for (sample, row, factors) in parts.into_iter().take(count) {
+            self.add(sample, row, factors);
         }
     }
 

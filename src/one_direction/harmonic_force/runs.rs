@@ -93,6 +93,12 @@ impl Run {
         self.first as usize..(self.first + self.count) as usize
     }
 
+    /// The values of the samples.
+    #[inline(always)]
+    pub fn of<'v>(&self, values: &'v [f64]) -> &'v [f64] {
+        values.get(self.samples()).unwrap_or(&[])
+    }
+
     /// Slip: the packed boundaries.
     pub fn cuts(&self) -> Range<usize> {
         self.packed as usize..(self.packed + self.count) as usize

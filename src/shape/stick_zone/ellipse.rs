@@ -9,7 +9,7 @@
 
 use crate::shape::rounded_punch::TINY;
 use crate::shape::stick_zone::small_load::{SmallLoadSeries, TERMS, economized};
-use crate::shape::stick_zone::{Complement, CurvePoint, StickZone, StickZones, SurfacePoint};
+use crate::shape::stick_zone::{Complement, LoadPoint, StickZone, StickZones, SurfacePoint};
 use core::f64::consts::PI;
 
 /// The stick zones of every elliptical contact.
@@ -33,10 +33,10 @@ const SLIP_SHIFT: f64 = 1.5;
 
 impl EllipseZones {
     /// The point of the curve at a remaining shift.
-    pub(crate) fn at(remaining: f64) -> CurvePoint {
+    pub(crate) fn at(remaining: f64) -> LoadPoint {
         let size = (remaining / SLIP_SHIFT).max(0.0).sqrt();
         let per_size = 1.0 / size.max(TINY);
-        CurvePoint {
+        LoadPoint {
             remaining: size * size * size,
             compliance_increase: per_size - 1.0,
             curvature: 1.0 / 3.0 * (per_size * per_size) * (per_size * per_size),
@@ -55,26 +55,12 @@ impl StickZones for EllipseZones {
 
     fn at_load_remaining(&self, remaining: f64) -> StickZone {
         let size = remaining.cbrt();
-        let remaining_shift = SLIP_SHIFT * size * size;
-        let compliance_increase = if size > 0.0 { 1.0 / size.max(TINY) - 1.0 } else { f64::INFINITY };
-        StickZone {
-            load: Complement { consumed: 1.0 - remaining, remaining },
-            shift: Complement { consumed: SLIP_SHIFT - remaining_shift, remaining: remaining_shift },
-            compliance_increase,
-            size_parameter: Some(size),
-        }
+        zone(size, remaining, SLIP_SHIFT * size * size)
     }
 
     fn at_shift_remaining(&self, remaining: f64) -> StickZone {
         let size = (remaining / SLIP_SHIFT).max(0.0).sqrt();
-        let load = size * size * size;
-        let compliance_increase = if size > 0.0 { 1.0 / size.max(TINY) - 1.0 } else { f64::INFINITY };
-        StickZone {
-            load: Complement { consumed: 1.0 - load, remaining: load },
-            shift: Complement { consumed: SLIP_SHIFT - remaining, remaining },
-            compliance_increase,
-            size_parameter: Some(size),
-        }
+        zone(size, size * size * size, remaining)
     }
 
     /// `(4/3) ∫ (1-u) (u-s) u^(-4/3) du` from s to 1.
@@ -116,6 +102,16 @@ impl StickZones for EllipseZones {
 
     fn slip(&self, _point: &SurfacePoint, _zone: &StickZone) -> Option<f64> {
         None
+    }
+}
+
+/// The stick zone of a size, with its load and the remaining shift.
+fn zone(size: f64, load: f64, shift: f64) -> StickZone {
+    StickZone {
+        load: Complement { consumed: 1.0 - load, remaining: load },
+        shift: Complement { consumed: SLIP_SHIFT - shift, remaining: shift },
+        compliance_increase: if size > 0.0 { 1.0 / size.max(TINY) - 1.0 } else { f64::INFINITY },
+        size_parameter: Some(size),
     }
 }
 

@@ -14,8 +14,8 @@
 
 use crate::numerics::chebyshev::{Interpolant, Tangent};
 use crate::shape::rounded_punch::{InversePower, RoundedPunch, TINY};
-use crate::shape::stick_zone::small_load::{RETAINED_TERMS, SmallLoadSeries};
-use crate::shape::stick_zone::{Complement, CurvePoint, StickZone, StickZones, SurfacePoint};
+use crate::shape::stick_zone::small_load::{RETAINED_TERMS, SmallLoadSeries, curvature_series};
+use crate::shape::stick_zone::{Complement, LoadPoint, StickZone, StickZones, SurfacePoint};
 use crate::shape::tractions;
 use core::f64::consts::PI;
 
@@ -72,19 +72,19 @@ impl RoundedFlatZones {
             beta,
             gamma: contact.gamma(load),
             slip_shift: compliance + beta,
-            small_load: SmallLoadSeries::new(compliance, curvature_series(contact, load)),
+            small_load: SmallLoadSeries::new(compliance, curvature_of(contact, load)),
         }
     }
 
     /// Finds the points of the curve at a sequence of decreasing remaining shifts, the first of which is close to x_s. Each starts from
     /// the expansion about the one before, so that the closed forms are nearly always evaluated once.
-    pub(crate) fn sequence(&self) -> impl FnMut(f64) -> CurvePoint {
+    pub(crate) fn sequence(&self) -> impl FnMut(f64) -> LoadPoint {
         let mut last: Option<InversePower> = None;
         move |remaining| {
             let w = last.as_ref().map_or(self.w, |last| last.w(remaining));
             let (zone, punch, inverse) = self.refine_shift_remaining(remaining, RoundedPunch::new(self.flat, w));
             last = Some(inverse);
-            CurvePoint {
+            LoadPoint {
                 remaining: zone.load.remaining,
                 compliance_increase: zone.compliance_increase,
                 curvature: curvature(&punch, self.load),
@@ -302,7 +302,7 @@ fn curvature(punch: &RoundedPunch, load: f64) -> f64 {
 }
 
 /// h'' as a polynomial in τ up to 1/2: positive, with its singularity as far beyond as the interval is long.
-fn curvature_series(contact: &RoundedPunch, load: f64) -> [f64; RETAINED_TERMS] {
+fn curvature_of(contact: &RoundedPunch, load: f64) -> [f64; RETAINED_TERMS] {
     let mut last: Option<InversePower> = None;
     let mut tangents = Interpolant::<{ RETAINED_TERMS / 2 }>::at_points(|z| {
         let remaining = (0.75 + 0.25 * z) * load;
@@ -317,11 +317,5 @@ fn curvature_series(contact: &RoundedPunch, load: f64) -> [f64; RETAINED_TERMS] 
     });
     // From τ = 0 on; the points are symmetric.
     tangents.reverse();
-    let interpolant = Interpolant::<RETAINED_TERMS>::osculating(&tangents);
-    let mut scale = 1.0;
-    interpolant.powers_from_end().map(|power| {
-        let coefficient = scale * power;
-        scale *= 2.0;
-        coefficient
-    })
+    curvature_series(&tangents)
 }

@@ -9,7 +9,7 @@
 //!
 //! Each is `Σ c_m f_m τᵐ` times a power of τ, with factors f_m independent of the shape.
 
-use crate::numerics::chebyshev::monic_powers;
+use crate::numerics::chebyshev::{Interpolant, Tangent, monic_powers};
 use crate::numerics::polynomial::{self, Rows, rows};
 use crate::shape::stick_zone::{Complement, StickZone};
 
@@ -44,6 +44,16 @@ pub(crate) const fn economized(mut series: [f64; TERMS]) -> [f64; RETAINED_TERMS
         k += 1;
     }
     retained
+}
+
+/// Coefficients of h'' from values and slopes over z at τ = (1+z)/4.
+pub(crate) fn curvature_series(tangents: &[Tangent; RETAINED_TERMS / 2]) -> [f64; RETAINED_TERMS] {
+    let mut scale = 1.0;
+    Interpolant::<RETAINED_TERMS>::osculating(tangents).powers_from_end().map(|power| {
+        let coefficient = scale * power;
+        scale *= 2.0;
+        coefficient
+    })
 }
 
 /// The factors f_m of integrals of τᵐ: `numerator` divided by the product of `m + offset` over all offsets.

@@ -17,12 +17,15 @@ functions! {
     atan2(y, x) __wrap_atan2
     cbrt(x) __wrap_cbrt
     cos(x) __wrap_cos
+    cosh(x) __wrap_cosh
     exp(x) __wrap_exp
     expm1(x) __wrap_expm1
     fma(x, y, z) __wrap_fma
+    hypot(x, y) __wrap_hypot
     log(x) __wrap_log
     log1p(x) __wrap_log1p
     sin(x) __wrap_sin
+    sinh(x) __wrap_sinh
 }
 
 #[unsafe(no_mangle)]

@@ -84,7 +84,8 @@ pub fn constant(history: &History) -> Vec<Point> {
         };
         let (start, low, high) = (now.displacement, now.displacement - reach, now.displacement + reach);
         let displacement = displacement_at(row.tangential_force, start, low, high, trial);
-        let (step, dissipated) = masing::step_with_energy(&contact, &memory, displacement);
+        let (step, dissipated) =
+            (masing::step(&contact, &memory, displacement), masing::dissipated(&contact, &memory, displacement));
         step.write(&mut memory);
         now = Point { tangential_force: step.force(), displacement, dissipated: now.dissipated + dissipated };
         now

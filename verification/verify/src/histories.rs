@@ -54,7 +54,7 @@ pub fn of_contact(sampler: &mut Sampler, slip: f64, kind: usize, steps: usize) -
                 };
                 size.copysign(random) + if sampler.chance(0.02) { 0.0 } else { last }
             }
-            // Exactly to a reversal, its opposite, the ends of the elastic range or the origin, or beside it.
+            // Exactly to a reversal, its opposite, the onset of gross slip on either branch or zero; or to a neighbouring double.
             6 => {
                 let old = if i == 0 { 0.0 } else { path[sampler.below(i)] };
                 let targets = [
