@@ -1,4 +1,4 @@
-//! The springs under a present load: the shell at the edge, which ends at the present size, and the compliance of the points.
+//! The springs under a present load: the shell at the edge, which ends at the present size, and the springs by the tractions.
 
 use super::scalar::{Dual, Real, both};
 use super::tables::{
@@ -103,9 +103,15 @@ impl Contact<f64> {
         under_flat: 0,
     };
 
-    /// The contact under a load, and its compliance.
-    pub fn press(rows: &Rows, now: &Pressed<f64>, under_flat: usize, compliance: &mut Both<Matrix>) -> Contact<f64> {
-        dispatch!(press_kernel(rows, now, under_flat, compliance))
+    /// The contact under a load, and C⁻¹ as `[spring][point]`.
+    pub fn press(rows: &Rows, now: &Pressed<f64>, under_flat: usize, inverse: &mut Both<Matrix>) -> Contact<f64> {
+        dispatch!(press_kernel(rows, now, under_flat, inverse))
+    }
+
+    /// G of a shell.
+    #[inline(always)]
+    pub fn row<'a>(&'a self, t: &'a Rows, k: usize, j: usize) -> &'a Row<f64> {
+        t.get(MAP + k * N + j).filter(|_| j < self.last).unwrap_or(&self.edge[k])
     }
 
     /// The contact with derivatives.
@@ -126,29 +132,29 @@ fn derive_kernel(contact: &Contact<f64>, tables: [&Rows; 2], slopes: &Pressed<f6
 }
 
 #[inline(always)]
-fn press_kernel(rows: &Rows, now: &Pressed<f64>, under_flat: usize, compliance: &mut Both<Matrix>) -> Contact<f64> {
+fn press_kernel(rows: &Rows, now: &Pressed<f64>, under_flat: usize, inverse: &mut Both<Matrix>) -> Contact<f64> {
     let contact = Contact::new(&rows, now, at_edge(rows, under_flat, now.inside[1]), under_flat);
     let last = contact.last.min(N - 1);
-    // A = C w⁻¹ C', C_ij = (G_ij - G_i,j-1)/p_i.
     for k in 0..2 {
-        let (mut a, mut before) = ([[0.0; N]; N], [0.0; N]);
-        for j in 0..=last {
-            let g = if j < last { &rows[MAP + k * N + j] } else { &contact.edge[k] };
-            let w = if j < last { rows[STIFFNESS + k][j] } else { contact.stiffness[k] };
-            let mut column = [0.0; N];
-            for i in 0..N {
-                column[i] = (g[i] - before[i]) * contact.per_pressure[i];
-            }
-            before = *g;
-            let flexibility = 1.0 / w;
-            for m in 0..=j {
-                let scale = column[m] * flexibility;
-                for i in 0..N {
-                    a[m][i] += scale * column[i];
+        inverse[k] = [[0.0; N]; N];
+        for i in (0..=last).rev() {
+            // v_i = [p_i r_i + Σ_{j>i} (G_i,j-1 - G_ij) v_j]/G_ii: all positive.
+            let mut row = [0.0; N];
+            row[i] = 1.0 / contact.per_pressure[i];
+            let mut before = contact.map(&rows, k, i, i);
+            for j in i + 1..=last {
+                let g = contact.map(&rows, k, j, i);
+                let fall = before - g;
+                for m in 0..N {
+                    row[m] += fall * inverse[k][j][m];
                 }
+                before = g;
+            }
+            let per_map = contact.per_map(&rows, k, i);
+            for m in 0..N {
+                inverse[k][i][m] = row[m] * per_map;
             }
         }
-        compliance[k] = a;
     }
     contact
 }

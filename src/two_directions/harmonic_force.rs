@@ -248,7 +248,7 @@ struct Walk<'a> {
     normal: Normal,
     springs: Values,
     slip: Slips,
-    compliance: Both<super::tables::Matrix>,
+    inverse: Both<super::tables::Matrix>,
 }
 
 /// What a step gives besides the state.
@@ -285,7 +285,7 @@ impl Walk<'_> {
         }
         let motion = path.motion(&from, &self.contact, same);
         let trial = trial(self.tables[0], &self.contact, &motion, &old);
-        self.slip.find(self.tables[0], &self.contact, &self.compliance, &motion, &trial, requested.tangent);
+        self.slip.find(self.tables[0], &self.contact, &self.inverse, &motion, (&trial, &old), requested.tangent);
         let contacts = [&from, &self.contact];
         let (force, dissipated) =
             advance(self.tables[0], contacts, &motion, &self.slip, requested.energy, &mut self.springs);
@@ -298,7 +298,7 @@ impl Walk<'_> {
         let now;
         [now, self.slopes] = Pressed::new(self.element, &self.units, input, &self.normal);
         let under_flat = under_flat(self.element, &self.units);
-        self.contact = Contact::press(self.tables[0], &now, under_flat, &mut self.compliance);
+        self.contact = Contact::press(self.tables[0], &now, under_flat, &mut self.inverse);
         self.derived = None;
     }
 
@@ -428,7 +428,7 @@ fn walk(element: &Element, workspace: &mut Workspace, output: HarmonicOutput) {
             normal: Normal::OPEN,
             springs: [[0.0; N]; SPRINGS / N],
             slip: Slips::NONE,
-            compliance: [[[0.0; N]; N]; 2],
+            inverse: [[[0.0; N]; N]; 2],
         };
         walk.press(top);
         // Of the logarithm of the reference size by the normal component.

@@ -4,13 +4,14 @@
 //! where the second time returns the tractions to their limits: the midpoint rule. A contact that slides far takes the end for the middle.
 //!
 //! With K the inverse of A among the points that slip and e the direction of r, `σ = K (r* - l e)`, and the residual is `e × σ`: Newton's
-//! method for the angles of e. σ is the minimum of the strictly convex `σ'Aσ/2 - σ·r* + Σ l |σ|`: there is one, it depends continuously on
+//! method for the angles of e. Slip without gaps, of all points from one on to the edge, has the springs `v = C⁻¹ l e` there, and
+//! `K = C⁻¹' w C⁻¹`, free of cancellation. σ is the minimum of the strictly convex `σ'Aσ/2 - σ·r* + Σ l |σ|`: there is one, it depends continuously on
 //! r* and l, and sweeps of the points, each to its own minimum, find the points that slip if Newton's method does not.
 
 use super::contact::Contact;
 use super::scalar::both;
-use super::tables::{Both, MAP, Matrix, N, Row, Rows};
-use super::trial::{Motion, ROUNDING, Trial, limits_before, slid};
+use super::tables::{Both, Matrix, N, Row, Rows};
+use super::trial::{Motion, ROUNDING, Trial, Values, limits_before, slid, tractions};
 use crate::shape::TINY;
 use crate::simd::dispatch;
 
@@ -24,6 +25,8 @@ const CHANGES: usize = 12;
 const CONVERGED: f64 = 1e-14;
 const RENEWED: f64 = 1e-2;
 const LARGEST_TURN: f64 = 0.8;
+/// A change over that before from which on, with a new inverse each, it is a rounding error.
+const STALLED: f64 = 0.5;
 /// Beyond this a guess is lost.
 const LOST: f64 = 1e4;
 /// Sweeps of the points before Newton's method is tried again, at first, and the most: the first ones have always been enough.
@@ -75,13 +78,15 @@ struct Guess {
     set: Set,
 }
 
-/// r without slip, A, and the load.
+/// Springs and r without slip, and what relates them: the contact and C⁻¹.
 #[derive(Clone, Copy)]
 struct Problem<'a> {
+    v: Both<Row<f64>>,
     r: Both<Row<f64>>,
-    compliance: &'a Both<Matrix>,
+    t: &'a Rows,
+    contact: &'a Contact<f64>,
+    inverse: &'a Both<Matrix>,
     end: usize,
-    load: f64,
 }
 
 impl Slips {
@@ -93,18 +98,18 @@ impl Slips {
         self.middle.set | self.end.set == 0
     }
 
-    /// The slip of a step from its trial state, and what derivatives need if they are requested.
+    /// The slip of a step from its trial state and the springs at its start, and what derivatives need if they are requested.
     pub fn find(
         &mut self,
         t: &Rows,
         contact: &Contact<f64>,
-        compliance: &Both<Matrix>,
+        inverse: &Both<Matrix>,
         motion: &Motion<f64, f64>,
-        trial: &Trial,
+        from: (&Trial, &Values),
         derivatives: bool,
     ) {
         let slips = self;
-        dispatch!(find_kernel(slips, t, contact, compliance, motion, trial, derivatives));
+        dispatch!(find_kernel(slips, t, contact, inverse, motion, from, derivatives));
     }
 
     /// Guesses for the middle: a contact that slips on hardly turns; otherwise slip begins from the trial state.
@@ -151,9 +156,9 @@ fn find_kernel(
     slips: &mut Slips,
     t: &Rows,
     contact: &Contact<f64>,
-    compliance: &Both<Matrix>,
+    inverse: &Both<Matrix>,
     motion: &Motion<f64, f64>,
-    trial: &Trial,
+    (trial, old): (&Trial, &Values),
     derivatives: bool,
 ) {
     let (end, start) = ((contact.last + 1).min(N), &trial.start);
@@ -170,78 +175,59 @@ fn find_kernel(
             slips.middle.level[i] = if i < end { before[i] + theta * (1.0 - before[i]) } else { 1.0 };
         }
     }
-    let mut r = *start;
+    let mut problem = Problem { v: trial.v, r: *start, t, contact, inverse, end };
     for k in 0..2 {
         for i in 0..N {
-            r[k][i] += theta * (trial.r[k][i] - start[k][i]);
+            problem.r[k][i] += theta * (trial.r[k][i] - start[k][i]);
+            problem.v[k][i] = old[k][i] + theta * (trial.v[k][i] - old[k][i]);
         }
     }
-    let mut v = trial.v;
-    let mut guesses = slips.guesses(&r, start, &motion.by, end);
+    let mut guesses = slips.guesses(&problem.r, start, &motion.by, end);
     for stage in 0..2 {
         let middle = stage == 0;
         let [slip, other] =
             if middle { [&mut slips.middle, &mut slips.end] } else { [&mut slips.end, &mut slips.middle] };
         if !middle {
-            // The rest of the step slips as the middle did.
-            (r, guesses[0].set) = (trial.r, 0);
-            other.relax(&mut r, compliance, end, 1.0 / theta);
             for i in 0..end {
-                let square = r[0][i] * r[0][i] + r[1][i] * r[1][i];
+                let (x, y) = (problem.r[0][i], problem.r[1][i]);
+                let square = x * x + y * y;
                 let length = (if square > TINY { square } else { TINY }).sqrt();
-                (guesses[0].e[0][i], guesses[0].e[1][i]) = (r[0][i] / length, r[1][i] / length);
+                (guesses[0].e[0][i], guesses[0].e[1][i]) = (x / length, y / length);
                 guesses[0].set |= Set::from(square > ROUNDING) << i;
             }
             guesses[1] = guesses[0];
             guesses[0].set |= other.set;
         }
-        if guesses[1].set == 0 {
-            continue;
-        }
-        let problem = Problem { r, compliance, end, load: contact.now.load };
-        let mut converged = false;
-        for guess in &guesses {
-            converged = converged || slip.solve(other, &problem, guess, derivatives);
-        }
-        if !converged {
-            slip.descend(other, &problem, derivatives);
-        }
-        if middle && theta >= 1.0 && slip.set.count_ones() as usize == end {
-            // The middle of a contact that slides far is its end. Tractions give the springs without cancellation.
-            for k in 0..2 {
-                let (mut d, mut above) = ([0.0; N], 0.0);
-                for j in (0..end).rev() {
-                    let mut sum = slip.level[j] * slip.e[k][j] / contact.per_pressure[j].max(TINY);
-                    for m in j + 1..end {
-                        sum -= d[m] * contact.map(&t, k, m, j);
-                    }
-                    d[j] = sum * contact.per_map(&t, k, j);
-                    above += d[j];
-                    v[k][j] = above;
-                }
+        if guesses[1].set != 0 {
+            let mut converged = false;
+            for guess in &guesses {
+                converged = converged || slip.solve(other, &problem, guess, derivatives);
             }
+            if !converged {
+                slip.descend(other, &problem, derivatives);
+            }
+        }
+        slips.v = slip.springs(&problem);
+        if !middle || (theta >= 1.0 && slip.set.count_ones() as usize == end) {
+            // The middle of a contact that slides far is its end.
             break;
         }
+        // The rest of the step slips as the middle did.
+        guesses[0].set = 0;
+        let per = 1.0 / theta;
         for k in 0..2 {
-            let mut sigma = [0.0; N];
-            for i in 0..N {
-                let scale = contact.per_pressure[i] / if middle { theta } else { 1.0 };
-                sigma[i] = if slip.set >> i & 1 == 1 { slip.sigma[k][i] * scale } else { 0.0 };
+            let mut relaxed = [0.0; N];
+            for j in 0..N {
+                relaxed[j] = (problem.v[k][j] - slips.v[k][j]) * per;
+                problem.v[k][j] = trial.v[k][j] - relaxed[j];
             }
-            let mut before = 0.0;
-            for j in 0..end {
-                let row = if j < contact.last { &t[MAP + k * N + j] } else { &contact.edge[k] };
-                let mut products = [0.0; N];
-                for i in 0..N {
-                    products[i] = row[i] * sigma[i];
-                }
-                let sum = products.iter().sum::<f64>();
-                v[k][j] -= (sum - before) * contact.flexibility(&t, k, j);
-                before = sum;
+            let relaxed = tractions(t, contact, k, &relaxed);
+            for i in 0..N {
+                let slipped = start[k][i] + (slip.level[i] * slip.e[k][i] - start[k][i]) * per;
+                problem.r[k][i] = if slip.contains(i) { slipped } else { trial.r[k][i] - relaxed[i] };
             }
         }
     }
-    slips.v = v;
 }
 
 impl Slip {
@@ -260,25 +246,84 @@ impl Slip {
         self.set >> i & 1 == 1
     }
 
-    /// Takes what slips, times a factor, from the tractions of all points.
+    /// Whether all points from the first one that slips to the edge do.
     #[inline(always)]
-    fn relax(&self, r: &mut Both<Row<f64>>, compliance: &Both<Matrix>, end: usize, factor: f64) {
-        for k in 0..2 {
-            for m in 0..end.min(N) {
-                if self.contains(m) {
-                    let sigma = self.sigma[k][m] * factor;
-                    for i in 0..N {
-                        r[k][i] -= compliance[k][m][i] * sigma;
-                    }
+    pub fn without_gaps(&self, end: usize) -> bool {
+        let first = self.set.trailing_zeros();
+        (self.set >> first.min(31)).trailing_ones() as usize + first as usize == end
+    }
+
+    /// The springs after slip.
+    #[inline(always)]
+    fn springs(&self, problem: &Problem) -> Both<Row<f64>> {
+        let Problem { mut v, t, contact, inverse, end, .. } = *problem;
+        let end = end.min(N);
+        let first = (self.set.trailing_zeros() as usize).min(end);
+        if self.without_gaps(end) {
+            for k in 0..2 {
+                let mut limits = [0.0; N];
+                for i in 0..N {
+                    limits[i] = if self.contains(i) { self.level[i] * self.e[k][i] } else { 0.0 };
+                }
+                for j in first..end {
+                    v[k][j] = dot(&inverse[k][j], &limits);
                 }
             }
+            return v;
+        }
+        for k in 0..2 {
+            let mut per_slip = [0.0; N];
+            for i in 0..N {
+                per_slip[i] = if self.contains(i) { self.sigma[k][i] * contact.per_pressure[i] } else { 0.0 };
+            }
+            let mut before = 0.0;
+            for j in first..end {
+                let row = contact.row(t, k, j);
+                let sum = dot(row, &per_slip);
+                v[k][j] -= (sum - before) * contact.flexibility(&t, k, j);
+                before = sum;
+            }
+        }
+        v
+    }
+
+    /// K of the points that slip.
+    #[inline(always)]
+    fn stiffen(&mut self, problem: &Problem) {
+        let &Problem { t, contact, inverse, end, .. } = problem;
+        let end = end.min(N);
+        let first = (self.set.trailing_zeros() as usize).min(end);
+        if self.without_gaps(end) {
+            for k in 0..2 {
+                let mut sum = [[0.0; N]; N];
+                for j in first..end {
+                    let w = contact.stiffness(&t, k, j);
+                    for m in j..end {
+                        let scale = w * inverse[k][j][m];
+                        for i in 0..N {
+                            sum[m][i] += scale * inverse[k][j][i];
+                        }
+                    }
+                }
+                self.k[k] = sum;
+            }
+            return;
+        }
+        for k in 0..2 {
+            let a = compliance(problem, k, first);
+            for i in first..end {
+                for m in 0..N {
+                    self.k[k][i][m] = if self.contains(i) && self.contains(m) { a[i][m] } else { 0.0 };
+                }
+            }
+            invert(&mut self.k[k], self.set, [first, end]);
         }
     }
 
     /// Newton's method from a guess; whether it converged. What derivatives need is computed if they are requested.
     #[inline(always)]
     fn solve(&mut self, other: &Slip, problem: &Problem, guess: &Guess, derivatives: bool) -> bool {
-        let Problem { r: r_trial, compliance, end, load } = problem;
+        let Problem { r: r_trial, contact, end, .. } = problem;
         let end = (*end).min(N);
         (self.set, self.e) = (guess.set, guess.e);
         let mut steps = 0;
@@ -289,23 +334,17 @@ impl Slip {
             for i in 0..N {
                 slips[i] = if set >> i & 1 == 1 { 1.0 } else { 0.0 };
             }
-            if self.known != (set, *load) {
-                self.known = (set, *load);
+            if self.known != (set, contact.now.load) {
+                self.known = (set, contact.now.load);
                 if other.known == self.known {
                     self.k = other.k;
                 } else {
-                    for k in 0..2 {
-                        for i in first..end {
-                            for m in 0..N {
-                                self.k[k][i][m] = compliance[k][i][m] * (slips[i] * slips[m]);
-                            }
-                        }
-                        invert(&mut self.k[k], set, [first, end]);
-                    }
+                    self.stiffen(problem);
                 }
             }
             let constant = both!(|k| times(&self.k[k], [first, end], &r_trial[k]));
             let (mut turn, mut reviewed, mut done, mut fresh) = (9.0f64, false, false, false);
+            let mut renewed = [false; 2];
             loop {
                 let ([e_x, e_y], level) = (self.e, self.level);
                 for k in 0..2 {
@@ -330,7 +369,8 @@ impl Slip {
                         continue 'sets;
                     }
                 }
-                if (done && derivatives) || (!done && (turn > RENEWED || !fresh)) {
+                renewed = [renewed[1], turn > RENEWED || !fresh];
+                if (done && derivatives) || (!done && renewed[1]) {
                     for m in first..end {
                         for i in 0..N {
                             let own = if i == m { diagonal[i] } else { 0.0 };
@@ -371,7 +411,8 @@ impl Slip {
                 // Quadratic with a new inverse, linear with an old one.
                 let linear = turn / if before > TINY { before } else { TINY };
                 let rate = if turn > RENEWED || before > RENEWED { turn } else { linear };
-                done = turn * (if rate < 1.0 { rate } else { 1.0 }) <= CONVERGED;
+                let stalled = renewed == [true; 2] && before <= 1e-9 && turn >= STALLED * before;
+                done = stalled || turn * (if rate < 1.0 { rate } else { 1.0 }) <= CONVERGED;
                 fresh = turn <= 0.1 * before && turn <= RENEWED;
             }
         }
@@ -382,7 +423,8 @@ impl Slip {
     #[cold]
     #[inline(never)]
     fn descend(&mut self, other: &Slip, problem: &Problem, derivatives: bool) {
-        let Problem { r, compliance, end, .. } = problem;
+        let Problem { r, end, .. } = problem;
+        let compliance = both!(|k| compliance(problem, k, 0));
         let (mut guess, mut sigma, mut sweeps, mut r) = (Guess { e: *r, set: 0 }, [[0.0; N]; 2], SWEEPS, *r);
         while sweeps < MOST_SWEEPS {
             for _ in 0..sweeps {
@@ -417,7 +459,19 @@ impl Slip {
     #[inline(always)]
     fn review(&mut self, problem: &Problem, done: bool) -> bool {
         let (before, mut r) = (self.set, problem.r);
-        self.relax(&mut r, problem.compliance, problem.end, 1.0);
+        if !(self.contains(0) && self.without_gaps(problem.end)) {
+            let v = self.springs(problem);
+            for k in 0..2 {
+                let mut relaxed = v[k];
+                for j in 0..N {
+                    relaxed[j] = problem.v[k][j] - v[k][j];
+                }
+                let relaxed = tractions(problem.t, problem.contact, k, &relaxed);
+                for i in 0..N {
+                    r[k][i] -= relaxed[i];
+                }
+            }
+        }
         for i in 0..problem.end.min(N) {
             let (x, y, limit) = (r[0][i], r[1][i], self.level[i]);
             let square = x * x + y * y;
@@ -433,6 +487,40 @@ impl Slip {
         }
         self.set != before
     }
+}
+
+/// A = C w⁻¹ C' of the points from one on, `C_ij = (G_ij - G_i,j-1)/p_i`.
+#[inline(always)]
+fn compliance(problem: &Problem, k: usize, first: usize) -> Matrix {
+    let &Problem { t, contact, end, .. } = problem;
+    let (mut a, mut before) = ([[0.0; N]; N], [0.0; N]);
+    for j in 0..end.min(N) {
+        let row = contact.row(t, k, j);
+        let mut column = [0.0; N];
+        for i in 0..N {
+            column[i] = (row[i] - before[i]) * contact.per_pressure[i];
+        }
+        before = *row;
+        let flexibility = contact.flexibility(&t, k, j);
+        for (row, own) in a.iter_mut().zip(column).skip(first) {
+            for i in 0..N {
+                row[i] += own * flexibility * column[i];
+            }
+        }
+    }
+    a
+}
+
+/// Σ x_i y_i, in an order of vectors.
+#[inline(always)]
+fn dot(x: &Row<f64>, y: &Row<f64>) -> f64 {
+    let mut sums = [0.0; 4];
+    for b in 0..N / 4 {
+        for lane in 0..4 {
+            sums[lane] += x[4 * b + lane] * y[4 * b + lane];
+        }
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3])
 }
 
 /// Σ x_m matrix[m][i]: rows of points that stick are 0.

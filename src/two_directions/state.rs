@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! [tag, v, u, normal component, key of the element, units of the springs (3), springs under the flat, last shell and part,
-//!  N, N, S, w² of the present size in the units of the springs (4), stiffnesses at the edge (2), force of the springs (2) | rows of the edge | compliance | springs
+//!  N, N, S, w² of the present size in the units of the springs (4), stiffnesses at the edge (2), force of the springs (2) | rows of the edge | C⁻¹ | springs
 //!  | tables]
 //! ```
 //!
@@ -35,8 +35,8 @@ const LEAST_LEVEL: f64 = -300.0;
 
 const HEADER_ROWS: usize = 2;
 const EDGE_ROWS: usize = 5;
-const COMPLIANCE_ROWS: usize = 2 * N;
-const STATE_ROWS: usize = HEADER_ROWS + EDGE_ROWS + COMPLIANCE_ROWS + SPRINGS / N + ROWS;
+const INVERSE_ROWS: usize = 2 * N;
+const STATE_ROWS: usize = HEADER_ROWS + EDGE_ROWS + INVERSE_ROWS + SPRINGS / N + ROWS;
 pub(super) const LENGTH: usize = N * STATE_ROWS;
 
 /// Number of doubles in a state.
@@ -129,7 +129,7 @@ struct Header {
 struct Memory<'a> {
     header: &'a mut [Row<f64>; HEADER_ROWS],
     edge: &'a mut [Row<f64>; EDGE_ROWS],
-    compliance: &'a mut Both<Matrix>,
+    inverse: &'a mut Both<Matrix>,
     springs: &'a mut Values,
     tables: &'a mut Rows,
 }
@@ -139,10 +139,10 @@ impl Memory<'_> {
     fn of(state: &mut [f64]) -> Option<Memory<'_>> {
         let (header, rest) = state.as_chunks_mut::<N>().0.split_first_chunk_mut()?;
         let (edge, rest) = rest.split_first_chunk_mut()?;
-        let (compliance, rest) = rest.split_at_mut_checked(COMPLIANCE_ROWS)?;
+        let (inverse, rest) = rest.split_at_mut_checked(INVERSE_ROWS)?;
         let (springs, rest) = rest.split_first_chunk_mut()?;
-        let compliance = compliance.as_chunks_mut::<N>().0.first_chunk_mut()?;
-        Some(Memory { header, edge, compliance, springs, tables: rest.first_chunk_mut()? })
+        let inverse = inverse.as_chunks_mut::<N>().0.first_chunk_mut()?;
+        Some(Memory { header, edge, inverse, springs, tables: rest.first_chunk_mut()? })
     }
 
     #[inline(always)]
@@ -197,7 +197,7 @@ impl Memory<'_> {
         let [_, _, _, _, key, ..] = self.header[0];
         if key != 0.0 {
             (*self.edge, *self.springs) = ([[0.0; N]; EDGE_ROWS], [[0.0; N]; SPRINGS / N]);
-            (*self.compliance, *self.tables) = ([[[0.0; N]; N]; 2], [[0.0; N]; ROWS]);
+            (*self.inverse, *self.tables) = ([[[0.0; N]; N]; 2], [[0.0; N]; ROWS]);
             *self.header = [[0.0; N]; HEADER_ROWS];
         }
         let tag = Kind::TwoDirectionsState.tag(0);
@@ -242,7 +242,7 @@ impl Memory<'_> {
         }
         let input = header.displacement[2];
         let [now, _] = Pressed::new(element, &units, input, &element.normal(input));
-        *contact = Contact::press(self.tables, &now, inner, self.compliance);
+        *contact = Contact::press(self.tables, &now, inner, self.inverse);
         if belongs {
             transfer([&old_tables, self.tables], [&from, contact], ratio, &old, self.springs);
         }
@@ -342,7 +342,7 @@ pub(super) fn advance_state(element: &Element, state: &mut [f64], to: [f64; 3], 
         let now;
         [now, slopes] = Pressed::new(element, &units, to[2], &normal);
         if !same {
-            contact = Contact::press(memory.tables, &now, from.under_flat, memory.compliance);
+            contact = Contact::press(memory.tables, &now, from.under_flat, memory.inverse);
         }
     }
     if same && let Some(edge) = memory.stick(&contact, &path, &mut header) {
@@ -362,7 +362,7 @@ pub(super) fn advance_state(element: &Element, state: &mut [f64], to: [f64; 3], 
     let motion = path.motion(&from, &contact, same);
     let trial = trial(memory.tables, &contact, &motion, memory.springs);
     let mut slip = Slips::NONE;
-    slip.find(memory.tables, &contact, memory.compliance, &motion, &trial, requested.tangent);
+    slip.find(memory.tables, &contact, memory.inverse, &motion, (&trial, memory.springs), requested.tangent);
     if requested.tangent {
         let by = [0, 1].map(|k| {
             let mut by = Dual::constant(motion.by[k]);

@@ -185,6 +185,75 @@ pub(crate) fn returned<A: Real, X: Over<A>>(v: Both<X>, limit: &Both<A>, far: Op
 fn slide<A: Real, X: Over<A>, T: Tables<A>>(t: &T, c: &Contact<A>, level: &Row<X>, v: &mut Both<Row<X>>, slip: &Slip) {
     let (zero, end) = (X::constant(0.0), (c.last + 1).min(N));
     let first = (slip.set.trailing_zeros() as usize).min(end);
+    if !slip.without_gaps(end) {
+        slide_with_gaps(t, c, level, v, slip, [first, end]);
+        return;
+    }
+    // v = C⁻¹ l e, and the slip to it: C'σ = w (v* - v).
+    let mut residual = [zero; N];
+    let mut slipped = [[zero; N]; 2];
+    for k in 0..2 {
+        for i in first..end {
+            slipped[k][i] = level[i].scale(slip.e[k][i]);
+        }
+        from_tractions(t, c, k, [first, end], &mut slipped[k]);
+        let mut per_slip = [zero; N];
+        for i in first..end {
+            let mut sum = (v[k][i] - slipped[k][i]).times(c.stiffness(t, k, i));
+            for j in first..i {
+                sum.add_product(&per_slip[j], c.map(t, k, i - 1, j) - c.map(t, k, i, j));
+            }
+            per_slip[i] = sum.times(c.per_map(t, k, i));
+        }
+        let (across, sign) = if k == 0 { (&slip.e[1], -1.0) } else { (&slip.e[0], 1.0) };
+        for i in first..end {
+            residual[i].add_scaled(&per_slip[i].times(c.per_pressure[i].inverse()), sign * across[i]);
+        }
+    }
+    let turn = product(&slip.inverse, [first, end], &residual);
+    for k in 0..2 {
+        let (across, sign) = if k == 0 { (&slip.e[1], -1.0) } else { (&slip.e[0], 1.0) };
+        let mut change = [zero; N];
+        for i in first..end {
+            change[i] = turn[i].scale(sign * across[i] * slip.level[i]);
+        }
+        from_tractions(t, c, k, [first, end], &mut change);
+        for i in first..end {
+            v[k][i] = slipped[k][i] + change[i];
+        }
+    }
+}
+
+/// Springs from the tractions r at the points from one on, in place: `v_i = [p_i r_i + Σ_{j>i} (G_i,j-1 - G_ij) v_j]/G_ii`.
+#[inline(always)]
+fn from_tractions<A: Real, X: Over<A>, T: Tables<A>>(
+    t: &T,
+    c: &Contact<A>,
+    k: usize,
+    [first, end]: [usize; 2],
+    r: &mut Row<X>,
+) {
+    for i in (first..end).rev() {
+        let mut sum = r[i].times(c.per_pressure[i].inverse());
+        for j in i + 1..end {
+            sum.add_product(&r[j], c.map(t, k, j - 1, i) - c.map(t, k, j, i));
+        }
+        r[i] = sum.times(c.per_map(t, k, i));
+    }
+}
+
+/// The same if a point sticks outside one that slips: `σ = K (r* - l e)`.
+#[inline(never)]
+fn slide_with_gaps<A: Real, X: Over<A>, T: Tables<A>>(
+    t: &T,
+    c: &Contact<A>,
+    level: &Row<X>,
+    v: &mut Both<Row<X>>,
+    slip: &Slip,
+    [first, end]: [usize; 2],
+) {
+    let (zero, end) = (X::constant(0.0), end.min(N));
+    let first = first.min(end);
     let mut excess = [[zero; N]; 2];
     for k in 0..2 {
         // Springs by which σ relaxes the contact, and the excess of r* - A σ over l e.
@@ -194,18 +263,19 @@ fn slide<A: Real, X: Over<A>, T: Tables<A>>(t: &T, c: &Contact<A>, level: &Row<X
             per_slip[i] = c.per_pressure[i].scale(if slip.contains(i) { slip.sigma[k][i] } else { 0.0 });
         }
         for j in first..end {
-            let (mut sum, next) = (A::constant(0.0), j + 1);
+            let (mut sum, next) = (A::constant(0.0), (j + 1).min(N));
             for i in first..next {
                 sum = sum + c.map(t, k, j, i) * per_slip[i];
             }
             relaxed[j] = (sum - before) * c.flexibility(t, k, j);
             before = sum;
         }
-        let (mut d, mut above) = ([zero; N], zero);
-        for j in (first..end).rev() {
-            let at = v[k][j].minus(relaxed[j]);
-            d[j] = at - above;
-            above = at;
+        let mut d = [zero; N];
+        for j in first..end {
+            d[j] = v[k][j].minus(relaxed[j]);
+        }
+        for j in first + 1..end {
+            d[j - 1] = d[j - 1] - d[j];
         }
         for i in first..end {
             if slip.contains(i) {
@@ -224,7 +294,6 @@ fn slide<A: Real, X: Over<A>, T: Tables<A>>(t: &T, c: &Contact<A>, level: &Row<X
         residual[i] = slips[1][i].scale(slip.e[0][i]) - slips[0][i].scale(slip.e[1][i]);
     }
     let turn = product(&slip.inverse, [first, end], &residual);
-    let every = slip.set.count_ones() as usize == end - first;
     for k in 0..2 {
         let (across, sign) = if k == 0 { (&slip.e[1], -1.0) } else { (&slip.e[0], 1.0) };
         let mut change = [zero; N];
@@ -233,34 +302,19 @@ fn slide<A: Real, X: Over<A>, T: Tables<A>>(t: &T, c: &Contact<A>, level: &Row<X
                 change[i] = turn[i].scale(-sign * across[i] * slip.level[i]);
             }
         }
-        if every {
-            // From the tractions, from outside: without gaps they determine the springs.
-            let mut d = [zero; N];
-            let mut above = zero;
-            for j in (first..end).rev() {
-                let mut sum = (level[j].scale(slip.e[k][j]) - change[j]).times(c.per_pressure[j].inverse());
-                for m in j + 1..end {
-                    sum = sum - d[m].times(c.map(t, k, m, j));
-                }
-                d[j] = sum.times(c.per_map(t, k, j));
-                above = above + d[j];
-                v[k][j] = above;
+        let mut sigma = product(&slip.k[k], [first, end], &change);
+        for i in first..end {
+            let own = if slip.contains(i) { slip.sigma[k][i] } else { 0.0 };
+            sigma[i] = (sigma[i] + slips[k][i] + X::constant(own)).times(c.per_pressure[i]);
+        }
+        let mut before = zero;
+        for j in first..end {
+            let (mut sum, next) = (zero, (j + 1).min(N));
+            for i in first..next {
+                sum.add_product(&sigma[i], c.map(t, k, j, i));
             }
-        } else {
-            let mut sigma = product(&slip.k[k], [first, end], &change);
-            for i in first..end {
-                let own = if slip.contains(i) { slip.sigma[k][i] } else { 0.0 };
-                sigma[i] = (sigma[i] + slips[k][i] + X::constant(own)).times(c.per_pressure[i]);
-            }
-            let mut before = zero;
-            for j in first..end {
-                let (mut sum, next) = (zero, j + 1);
-                for i in first..next {
-                    sum.add_product(&sigma[i], c.map(t, k, j, i));
-                }
-                v[k][j] = v[k][j] - (sum - before).times(c.flexibility(t, k, j));
-                before = sum;
-            }
+            v[k][j] = v[k][j] - (sum - before).times(c.flexibility(t, k, j));
+            before = sum;
         }
     }
 }
