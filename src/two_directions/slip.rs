@@ -207,24 +207,28 @@ fn find_kernel(
                 slip.descend(other, &problem, derivatives);
             }
         }
-        slips.v = slip.springs(&problem);
+        slips.v = if slip.set == 0 { problem.v } else { slip.springs(&problem) };
         if !middle || (theta >= 1.0 && slip.set.count_ones() as usize == end) {
             // The middle of a contact that slides far is its end.
             break;
         }
         // The rest of the step slips as the middle did.
         guesses[0].set = 0;
-        let per = 1.0 / theta;
-        for k in 0..2 {
-            let mut relaxed = [0.0; N];
-            for j in 0..N {
-                relaxed[j] = (problem.v[k][j] - slips.v[k][j]) * per;
-                problem.v[k][j] = trial.v[k][j] - relaxed[j];
-            }
-            let relaxed = tractions(t, contact, k, &relaxed);
-            for i in 0..N {
-                let slipped = start[k][i] + (slip.level[i] * slip.e[k][i] - start[k][i]) * per;
-                problem.r[k][i] = if slip.contains(i) { slipped } else { trial.r[k][i] - relaxed[i] };
+        let at = problem.v;
+        (problem.v, problem.r) = (trial.v, trial.r);
+        if slip.set != 0 {
+            let (first, per) = (slip.set.trailing_zeros() as usize, 1.0 / theta);
+            for k in 0..2 {
+                let mut relaxed = [0.0; N];
+                for j in 0..N {
+                    relaxed[j] = (at[k][j] - slips.v[k][j]) * per;
+                    problem.v[k][j] -= relaxed[j];
+                }
+                let relaxed = tractions(t, contact, k, &relaxed, first);
+                for i in 0..N {
+                    let slipped = start[k][i] + (slip.level[i] * slip.e[k][i] - start[k][i]) * per;
+                    problem.r[k][i] = if slip.contains(i) { slipped } else { problem.r[k][i] - relaxed[i] };
+                }
             }
         }
     }
@@ -458,15 +462,15 @@ impl Slip {
     /// Points beyond the limit slip; at the end of an iteration, those whose slip is against the traction stick. Whether any has changed.
     #[inline(always)]
     fn review(&mut self, problem: &Problem, done: bool) -> bool {
-        let (before, mut r) = (self.set, problem.r);
-        if !(self.contains(0) && self.without_gaps(problem.end)) {
+        let (before, first, mut r) = (self.set, self.set.trailing_zeros() as usize, problem.r);
+        if before != 0 && !(first == 0 && self.without_gaps(problem.end)) {
             let v = self.springs(problem);
             for k in 0..2 {
                 let mut relaxed = v[k];
                 for j in 0..N {
                     relaxed[j] = problem.v[k][j] - v[k][j];
                 }
-                let relaxed = tractions(problem.t, problem.contact, k, &relaxed);
+                let relaxed = tractions(problem.t, problem.contact, k, &relaxed, first);
                 for i in 0..N {
                     r[k][i] -= relaxed[i];
                 }

@@ -16,7 +16,7 @@ pub(crate) fn stick(t: &Rows, c: &Contact<f64>, by: &Both<f64>, springs: &mut Va
 #[inline(always)]
 fn kernel(t: &Rows, c: &Contact<f64>, by: &Both<f64>, springs: &mut Values) -> Option<Both<f64>> {
     let mut largest = [0.0; N];
-    let mut r = both!(|k| tractions(t, c, k, &springs[k]));
+    let mut r = both!(|k| tractions(t, c, k, &springs[k], 0));
     for k in 0..2 {
         for i in 0..N {
             r[k][i] += c.edge[k][i] * c.per_pressure[i] * by[k];

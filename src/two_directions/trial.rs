@@ -95,8 +95,8 @@ fn trial_kernel(t: &Rows, c: &Contact<f64>, motion: &Motion<f64, f64>, old: &Val
         for j in 0..=last {
             all[k][j] = old[k][j] + moved(c.limit(&t, k, start_of[j]), rise, motion.by[k]);
         }
-        start[k] = tractions(t, c, k, &old[k]);
-        r[k] = if motion.constant_load { start[k] } else { tractions(t, c, k, &all[k]) };
+        start[k] = tractions(t, c, k, &old[k], 0);
+        r[k] = if motion.constant_load { start[k] } else { tractions(t, c, k, &all[k], 0) };
         let moved = if motion.constant_load { motion.by[k] } else { 0.0 };
         for i in 0..N {
             r[k][i] += c.edge[k][i] * c.per_pressure[i] * moved;
@@ -110,18 +110,18 @@ fn trial_kernel(t: &Rows, c: &Contact<f64>, motion: &Motion<f64, f64>, old: &Val
     Trial { v: all, start, r, sticks: largest <= ROUNDING }
 }
 
-/// r of displacements of the springs up to the last one.
+/// r of displacements of the springs up to the last one, of which those before a first one are 0.
 #[inline(always)]
-pub(crate) fn tractions(t: &Rows, c: &Contact<f64>, k: usize, v: &Row<f64>) -> Row<f64> {
+pub(crate) fn tractions(t: &Rows, c: &Contact<f64>, k: usize, v: &Row<f64>, first: usize) -> Row<f64> {
     let (mut r, last) = ([0.0; N], c.last.min(N - 1));
-    for j in 0..=last {
-        let (above, row) = if j < last { (v[j + 1], &t[MAP + k * N + j]) } else { (0.0, &c.edge[k]) };
+    for j in first.max(1) - 1..last {
+        let (d, row) = (v[j] - v[j + 1], &t[MAP + k * N + j]);
         for i in 0..N {
-            r[i] += (v[j] - above) * row[i];
+            r[i] += d * row[i];
         }
     }
     for i in 0..N {
-        r[i] *= c.per_pressure[i];
+        r[i] = (r[i] + v[last] * c.edge[k][i]) * c.per_pressure[i];
     }
     r
 }
