@@ -15,7 +15,7 @@ use crate::simd::dispatch;
 
 /// A step whose slip is known, with derivatives: the force.
 #[inline(always)]
-pub(crate) fn step<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
+pub(crate) fn step<A: Over<A>, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     t: &T,
     c: &Contact<A>,
     motion: &Motion<A, X>,
@@ -31,32 +31,45 @@ pub(crate) fn step<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
         }
     }
     let slides = if slip.slides > 0.0 { slid(t, c, &v) } else { zero };
+    let one = [A::constant(1.0); N];
+    let relation = Relation::new(t, c, slip);
     if slip.middle.set != 0 {
-        let theta = (slides + X::constant(1.0)).scale(0.5);
         let (before, first) = (limits_before(t, c, rise[0]), slip.middle.set.trailing_zeros() as usize);
-        let mut level = [zero; N];
+        let theta = (slides + X::constant(1.0)).scale(0.5);
+        let (mut at, mut limits) = (v, Limits { start: before, rise: before, part: None });
         for i in first..end {
-            level[i] = X::constant(1.0).times(before[i]) + theta.times(A::constant(1.0) - before[i]);
+            limits.rise[i] = one[i] - before[i];
+            limits.start[i] = if slip.slides > 0.0 { before[i] } else { (before[i] + one[i]).scale(0.5) };
         }
-        let (mut at, per) = (v, theta.inverse());
+        limits.part = if slip.slides > 0.0 { Some(theta) } else { None };
         for k in 0..2 {
             for j in first..end {
                 let old = s.get(k * N + j);
-                at[k][j] = old + (v[k][j] - old) * theta;
+                at[k][j] = old + part_of(v[k][j] - old, limits.part, 0.5);
             }
         }
-        slide(t, c, &level, &mut at, &slip.middle);
+        slide(t, c, &relation, &limits, &mut at, &slip.middle);
+        let per = if slip.slides > 0.0 { Some(theta.inverse()) } else { None };
         for k in 0..2 {
             for j in first..end {
                 let old = s.get(k * N + j);
-                v[k][j] = old + (at[k][j] - old) * per;
+                v[k][j] = old + part_of(at[k][j] - old, per, 2.0);
             }
         }
     }
     if slip.end.set != 0 {
-        slide(t, c, &[X::constant(1.0); N], &mut v, &slip.end);
+        slide(t, c, &relation, &Limits { start: one, rise: one, part: None }, &mut v, &slip.end);
     }
     finish(t, c, motion, slip, slides, v, s)
+}
+
+/// A number times a part, which is a constant if none is given.
+#[inline(always)]
+fn part_of<X: Real>(x: X, part: Option<X>, constant: f64) -> X {
+    match part {
+        Some(part) => x * part,
+        None => x.scale(constant),
+    }
 }
 
 /// The end of a step, from its springs: those of a contact that slides far are blended, the fine springs advance; the force.
@@ -180,65 +193,135 @@ pub(crate) fn returned<A: Real, X: Over<A>>(v: Both<X>, limit: &Both<A>, far: Op
     v
 }
 
+/// The limits of the points: those at the start, and a part of their rise.
+struct Limits<A, X> {
+    start: Row<A>,
+    rise: Row<A>,
+    part: Option<X>,
+}
+
+/// The relation of springs and tractions r, as numbers: `G_i,j-1 - G_ij` as `[i][j]`, `1/G_ii` and p_i.
+struct Relation<A> {
+    falls: Both<[Row<A>; N]>,
+    per_map: Both<Row<A>>,
+    pressure: Row<A>,
+    stiffness: Both<Row<A>>,
+    end: usize,
+}
+
+impl<A: Over<A>> Relation<A> {
+    /// From the first point that slips on.
+    #[inline(always)]
+    fn new<T: Tables<A>>(t: &T, c: &Contact<A>, slip: &Slips) -> Relation<A> {
+        let (zero, end) = (A::constant(0.0), (c.last + 1).min(N));
+        let first = ((slip.middle.set | slip.end.set).trailing_zeros() as usize).min(end);
+        let row = [zero; N];
+        let mut relation =
+            Relation { falls: [[row; N]; 2], per_map: [row; 2], pressure: row, stiffness: [row; 2], end };
+        for i in first..end {
+            relation.pressure[i] = c.per_pressure[i].inverse();
+            for k in 0..2 {
+                (relation.per_map[k][i], relation.stiffness[k][i]) = (c.per_map(t, k, i), c.stiffness(t, k, i));
+                let mut before = c.map(t, k, i, i);
+                for j in i + 1..end {
+                    let map = c.map(t, k, j, i);
+                    relation.falls[k][i][j] = before - map;
+                    before = map;
+                }
+            }
+        }
+        relation
+    }
+
+    /// Springs from the tractions at the points from one on, in place: `v_i = [p_i r_i + Σ_{j>i} (G_i,j-1 - G_ij) v_j]/G_ii`.
+    #[inline(always)]
+    fn springs<X: Over<A>>(&self, k: usize, first: usize, r: &mut Row<X>) {
+        let end = self.end.min(N);
+        for i in (first..end).rev() {
+            let mut sum = r[i].times(self.pressure[i]);
+            for j in i + 1..end {
+                sum.add_product(&r[j], self.falls[k][i][j]);
+            }
+            r[i] = sum.times(self.per_map[k][i]);
+        }
+    }
+
+    /// The slip at the points from one on that moves springs by v, in place: `C'σ = w v`.
+    #[inline(always)]
+    fn slip<X: Over<A>>(&self, k: usize, first: usize, v: &mut Row<X>) {
+        let end = self.end.min(N);
+        for i in first..end {
+            let mut sum = v[i].times(self.stiffness[k][i]);
+            for j in first..i {
+                sum.add_product(&v[j], self.falls[k][j][i]);
+            }
+            v[i] = sum.times(self.per_map[k][i]);
+        }
+        for i in first..end {
+            v[i] = v[i].times(self.pressure[i]);
+        }
+    }
+}
+
 /// Springs that slip to the limits of their points, with derivatives: by a step of Newton's method from the slip.
 #[inline(always)]
-fn slide<A: Real, X: Over<A>, T: Tables<A>>(t: &T, c: &Contact<A>, level: &Row<X>, v: &mut Both<Row<X>>, slip: &Slip) {
+fn slide<A: Over<A>, X: Over<A>, T: Tables<A>>(
+    t: &T,
+    c: &Contact<A>,
+    relation: &Relation<A>,
+    limits: &Limits<A, X>,
+    v: &mut Both<Row<X>>,
+    slip: &Slip,
+) {
     let (zero, end) = (X::constant(0.0), (c.last + 1).min(N));
     let first = (slip.set.trailing_zeros() as usize).min(end);
     if !slip.without_gaps(end) {
-        slide_with_gaps(t, c, level, v, slip, [first, end]);
+        let mut level = [zero; N];
+        for i in first..end {
+            level[i] = X::constant(1.0).times(limits.start[i]);
+            if let Some(part) = limits.part {
+                level[i] = level[i] + part.times(limits.rise[i]);
+            }
+        }
+        slide_with_gaps(t, c, &level, v, slip, [first, end]);
         return;
     }
-    // v = C⁻¹ l e, and the slip to it: C'σ = w (v* - v).
     let mut residual = [zero; N];
-    let mut slipped = [[zero; N]; 2];
     for k in 0..2 {
+        let mut own = [A::constant(0.0); N];
         for i in first..end {
-            slipped[k][i] = level[i].scale(slip.e[k][i]);
+            own[i] = limits.start[i].scale(slip.e[k][i]);
         }
-        from_tractions(t, c, k, [first, end], &mut slipped[k]);
-        let mut per_slip = [zero; N];
+        relation.springs(k, first, &mut own);
         for i in first..end {
-            let mut sum = (v[k][i] - slipped[k][i]).times(c.stiffness(t, k, i));
-            for j in first..i {
-                sum.add_product(&per_slip[j], c.map(t, k, i - 1, j) - c.map(t, k, i, j));
+            v[k][i] = v[k][i].minus(own[i]);
+        }
+        if let Some(part) = limits.part {
+            for i in first..end {
+                own[i] = limits.rise[i].scale(slip.e[k][i]);
             }
-            per_slip[i] = sum.times(c.per_map(t, k, i));
+            relation.springs(k, first, &mut own);
+            for i in first..end {
+                v[k][i] = v[k][i] - part.times(own[i]);
+            }
         }
+        relation.slip(k, first, &mut v[k]);
         let (across, sign) = if k == 0 { (&slip.e[1], -1.0) } else { (&slip.e[0], 1.0) };
         for i in first..end {
-            residual[i].add_scaled(&per_slip[i].times(c.per_pressure[i].inverse()), sign * across[i]);
+            residual[i].add_scaled(&v[k][i], sign * across[i]);
         }
     }
     let turn = product(&slip.inverse, [first, end], &residual);
     for k in 0..2 {
         let (across, sign) = if k == 0 { (&slip.e[1], -1.0) } else { (&slip.e[0], 1.0) };
-        let mut change = [zero; N];
         for i in first..end {
-            change[i] = turn[i].scale(sign * across[i] * slip.level[i]);
+            let e = slip.e[k][i];
+            v[k][i] = turn[i].scale(sign * across[i] * slip.level[i]).minus(limits.start[i].scale(-e));
+            if let Some(part) = limits.part {
+                v[k][i] = v[k][i] + part.times(limits.rise[i].scale(e));
+            }
         }
-        from_tractions(t, c, k, [first, end], &mut change);
-        for i in first..end {
-            v[k][i] = slipped[k][i] + change[i];
-        }
-    }
-}
-
-/// Springs from the tractions r at the points from one on, in place: `v_i = [p_i r_i + Σ_{j>i} (G_i,j-1 - G_ij) v_j]/G_ii`.
-#[inline(always)]
-fn from_tractions<A: Real, X: Over<A>, T: Tables<A>>(
-    t: &T,
-    c: &Contact<A>,
-    k: usize,
-    [first, end]: [usize; 2],
-    r: &mut Row<X>,
-) {
-    for i in (first..end).rev() {
-        let mut sum = r[i].times(c.per_pressure[i].inverse());
-        for j in i + 1..end {
-            sum.add_product(&r[j], c.map(t, k, j - 1, i) - c.map(t, k, j, i));
-        }
-        r[i] = sum.times(c.per_map(t, k, i));
+        relation.springs(k, first, &mut v[k]);
     }
 }
 
