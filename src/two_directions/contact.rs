@@ -2,8 +2,8 @@
 
 use super::scalar::{Dual, Real, both};
 use super::tables::{
-    BIAS, Both, END, FINE, FINE_SECANT, FINE_STIFFNESS, FLEXIBILITY, LEAST_STIFFNESS, LOAD, MAP, MOST_PARTS, Matrix, N,
-    PER_MAP, POINTS, PRESSURE, Row, Rows, SECANT, SHIFT, SIZE, STIFFNESS, Tables, Units, WEIGHT, at_edge,
+    BIAS, Both, DualRows, END, FINE, FINE_SECANT, FINE_STIFFNESS, FLEXIBILITY, LEAST_STIFFNESS, LOAD, MAP, MOST_PARTS,
+    Matrix, N, PER_MAP, POINTS, PRESSURE, Row, Rows, SECANT, SHIFT, SIZE, STIFFNESS, Tables, Units, WEIGHT, at_edge,
     root_difference, starts,
 };
 use crate::element::{Element, Normal};
@@ -75,7 +75,8 @@ impl Pressed<f64> {
 pub(crate) struct Contact<A> {
     /// G of the last shell.
     pub edge: Both<Row<A>>,
-    /// 1/p_i; 0 outside.
+    /// p_i and 1/p_i; 0 outside.
+    pub pressure: Row<A>,
     pub per_pressure: Row<A>,
     /// Stiffnesses of the last spring, their reciprocals, and those of the fine springs in its shell.
     pub stiffness: Both<A>,
@@ -92,6 +93,7 @@ pub(crate) struct Contact<A> {
 impl Contact<f64> {
     pub const NONE: Contact<f64> = Contact {
         edge: [[0.0; N]; 2],
+        pressure: [0.0; N],
         per_pressure: [0.0; N],
         stiffness: [0.0; 2],
         flexibility: [0.0; 2],
@@ -122,12 +124,12 @@ impl Contact<f64> {
 }
 
 /// The derivatives that are multiplied with columns are those by the load at the end and the alignment.
-pub(crate) fn derive(contact: &Contact<f64>, tables: [&Rows; 2], slopes: &Pressed<f64>) -> Contact<Dual<1>> {
+pub(crate) fn derive(contact: &Contact<f64>, tables: &DualRows, slopes: &Pressed<f64>) -> Contact<Dual<1>> {
     dispatch!(derive_kernel(contact, tables, slopes))
 }
 
 #[inline(always)]
-fn derive_kernel(contact: &Contact<f64>, tables: [&Rows; 2], slopes: &Pressed<f64>) -> Contact<Dual<1>> {
+fn derive_kernel(contact: &Contact<f64>, tables: &DualRows, slopes: &Pressed<f64>) -> Contact<Dual<1>> {
     contact.derived(&tables, slopes)
 }
 
@@ -140,7 +142,7 @@ fn press_kernel(rows: &Rows, now: &Pressed<f64>, under_flat: usize, inverse: &mu
         for i in (0..=last).rev() {
             // v_i = [p_i r_i + Σ_{j>i} (G_i,j-1 - G_ij) v_j]/G_ii: all positive.
             let mut row = [0.0; N];
-            row[i] = 1.0 / contact.per_pressure[i];
+            row[i] = contact.pressure[i];
             let mut before = contact.map(&rows, k, i, i);
             for j in i + 1..=last {
                 let g = contact.map(&rows, k, j, i);
@@ -168,6 +170,7 @@ impl<A: Real> Contact<A> {
         let before = last.max(1) - 1;
         let mut contact = Contact {
             edge: [[zero; N]; 2],
+            pressure: [zero; N],
             per_pressure: [zero; N],
             stiffness: [zero; 2],
             flexibility: [zero; 2],
@@ -181,7 +184,7 @@ impl<A: Real> Contact<A> {
         let step = both!(|k| now.shift[k] - t.at(SHIFT + k * FINE / N, first_part));
         let per_step = both!(|k| step[k].inverse());
         // At its own point the last shell carries all, in any unit.
-        contact.per_pressure[last] = one;
+        (contact.pressure[last], contact.per_pressure[last]) = (one, one);
         contact.edge[0][last] = per_step[0];
         contact.edge[1][last] = per_step[1];
         let (weight, lower) = (t.at(WEIGHT, last), t.at(SIZE, last));
@@ -191,7 +194,8 @@ impl<A: Real> Contact<A> {
                 let bound = t.at(MAP + k * N + before, i) * step[k];
                 traction = if bound.value() < traction.value() { bound } else { traction };
             }
-            contact.per_pressure[i] = (t.at(PRESSURE + last, i) + traction).inverse();
+            contact.pressure[i] = t.at(PRESSURE + last, i) + traction;
+            contact.per_pressure[i] = contact.pressure[i].inverse();
             contact.edge[0][i] = traction * per_step[0];
             contact.edge[1][i] = traction * per_step[1];
         }

@@ -159,6 +159,7 @@ impl Memory<'_> {
         let fine = |row: &Row<f64>| row.first_chunk::<MOST_PARTS>().copied().unwrap_or([0.0; MOST_PARTS]);
         let contact = Contact {
             edge: [*edge_x, *edge_y],
+            pressure: [0.0; N],
             per_pressure: *per_pressure,
             stiffness: [w_x, w_y],
             flexibility: [1.0 / w_x.max(TINY), 1.0 / w_y.max(TINY)],

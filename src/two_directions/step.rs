@@ -32,7 +32,6 @@ pub(crate) fn step<A: Over<A>, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     }
     let slides = if slip.slides > 0.0 { slid(t, c, &v) } else { zero };
     let one = [A::constant(1.0); N];
-    let relation = Relation::new(t, c, slip);
     if slip.middle.set != 0 {
         let (before, first) = (limits_before(t, c, rise[0]), slip.middle.set.trailing_zeros() as usize);
         let theta = (slides + X::constant(1.0)).scale(0.5);
@@ -48,7 +47,7 @@ pub(crate) fn step<A: Over<A>, X: Over<A>, T: Tables<A>, S: Springs<X>>(
                 at[k][j] = old + part_of(v[k][j] - old, limits.part, 0.5);
             }
         }
-        slide(t, c, &relation, &limits, &mut at, &slip.middle);
+        slide(t, c, &limits, &mut at, &slip.middle);
         let per = if slip.slides > 0.0 { Some(theta.inverse()) } else { None };
         for k in 0..2 {
             for j in first..end {
@@ -58,7 +57,7 @@ pub(crate) fn step<A: Over<A>, X: Over<A>, T: Tables<A>, S: Springs<X>>(
         }
     }
     if slip.end.set != 0 {
-        slide(t, c, &relation, &Limits { start: one, rise: one, part: None }, &mut v, &slip.end);
+        slide(t, c, &Limits { start: one, rise: one, part: None }, &mut v, &slip.end);
     }
     finish(t, c, motion, slip, slides, v, s)
 }
@@ -200,66 +199,34 @@ struct Limits<A, X> {
     part: Option<X>,
 }
 
-/// The relation of springs and tractions r, as numbers: `G_i,j-1 - G_ij` as `[i][j]`, `1/G_ii` and p_i.
-struct Relation<A> {
-    falls: Both<[Row<A>; N]>,
-    per_map: Both<Row<A>>,
-    pressure: Row<A>,
-    stiffness: Both<Row<A>>,
-    end: usize,
+/// Springs from the tractions at the points from one on, in place: `v_i = [p_i r_i + Σ_{j>i} (G_i,j-1 - G_ij) v_j]/G_ii`.
+#[inline(always)]
+fn springs_of<A: Real, X: Over<A>, T: Tables<A>>(t: &T, c: &Contact<A>, k: usize, first: usize, r: &mut Row<X>) {
+    let end = (c.last + 1).min(N);
+    for i in (first..end).rev() {
+        let (mut sum, mut before) = (r[i].times(c.pressure[i]), c.map(t, k, i, i));
+        for j in i + 1..end {
+            let map = c.map(t, k, j, i);
+            sum.add_product(&r[j], before - map);
+            before = map;
+        }
+        r[i] = sum.times(c.per_map(t, k, i));
+    }
 }
 
-impl<A: Over<A>> Relation<A> {
-    /// From the first point that slips on.
-    #[inline(always)]
-    fn new<T: Tables<A>>(t: &T, c: &Contact<A>, slip: &Slips) -> Relation<A> {
-        let (zero, end) = (A::constant(0.0), (c.last + 1).min(N));
-        let first = ((slip.middle.set | slip.end.set).trailing_zeros() as usize).min(end);
-        let row = [zero; N];
-        let mut relation =
-            Relation { falls: [[row; N]; 2], per_map: [row; 2], pressure: row, stiffness: [row; 2], end };
-        for i in first..end {
-            relation.pressure[i] = c.per_pressure[i].inverse();
-            for k in 0..2 {
-                (relation.per_map[k][i], relation.stiffness[k][i]) = (c.per_map(t, k, i), c.stiffness(t, k, i));
-                let mut before = c.map(t, k, i, i);
-                for j in i + 1..end {
-                    let map = c.map(t, k, j, i);
-                    relation.falls[k][i][j] = before - map;
-                    before = map;
-                }
-            }
+/// The slip at the points from one on that moves springs by v, in place: `C'σ = w v`.
+#[inline(always)]
+fn slip_of<A: Real, X: Over<A>, T: Tables<A>>(t: &T, c: &Contact<A>, k: usize, first: usize, v: &mut Row<X>) {
+    let end = (c.last + 1).min(N);
+    for i in first..end {
+        let mut sum = v[i].times(c.stiffness(t, k, i));
+        for j in first..i {
+            sum.add_product(&v[j], c.map(t, k, i - 1, j) - c.map(t, k, i, j));
         }
-        relation
+        v[i] = sum.times(c.per_map(t, k, i));
     }
-
-    /// Springs from the tractions at the points from one on, in place: `v_i = [p_i r_i + Σ_{j>i} (G_i,j-1 - G_ij) v_j]/G_ii`.
-    #[inline(always)]
-    fn springs<X: Over<A>>(&self, k: usize, first: usize, r: &mut Row<X>) {
-        let end = self.end.min(N);
-        for i in (first..end).rev() {
-            let mut sum = r[i].times(self.pressure[i]);
-            for j in i + 1..end {
-                sum.add_product(&r[j], self.falls[k][i][j]);
-            }
-            r[i] = sum.times(self.per_map[k][i]);
-        }
-    }
-
-    /// The slip at the points from one on that moves springs by v, in place: `C'σ = w v`.
-    #[inline(always)]
-    fn slip<X: Over<A>>(&self, k: usize, first: usize, v: &mut Row<X>) {
-        let end = self.end.min(N);
-        for i in first..end {
-            let mut sum = v[i].times(self.stiffness[k][i]);
-            for j in first..i {
-                sum.add_product(&v[j], self.falls[k][j][i]);
-            }
-            v[i] = sum.times(self.per_map[k][i]);
-        }
-        for i in first..end {
-            v[i] = v[i].times(self.pressure[i]);
-        }
+    for i in first..end {
+        v[i] = v[i].times(c.pressure[i]);
     }
 }
 
@@ -268,7 +235,6 @@ impl<A: Over<A>> Relation<A> {
 fn slide<A: Over<A>, X: Over<A>, T: Tables<A>>(
     t: &T,
     c: &Contact<A>,
-    relation: &Relation<A>,
     limits: &Limits<A, X>,
     v: &mut Both<Row<X>>,
     slip: &Slip,
@@ -292,7 +258,7 @@ fn slide<A: Over<A>, X: Over<A>, T: Tables<A>>(
         for i in first..end {
             own[i] = limits.start[i].scale(slip.e[k][i]);
         }
-        relation.springs(k, first, &mut own);
+        springs_of(t, c, k, first, &mut own);
         for i in first..end {
             v[k][i] = v[k][i].minus(own[i]);
         }
@@ -300,12 +266,12 @@ fn slide<A: Over<A>, X: Over<A>, T: Tables<A>>(
             for i in first..end {
                 own[i] = limits.rise[i].scale(slip.e[k][i]);
             }
-            relation.springs(k, first, &mut own);
+            springs_of(t, c, k, first, &mut own);
             for i in first..end {
                 v[k][i] = v[k][i] - part.times(own[i]);
             }
         }
-        relation.slip(k, first, &mut v[k]);
+        slip_of(t, c, k, first, &mut v[k]);
         let (across, sign) = if k == 0 { (&slip.e[1], -1.0) } else { (&slip.e[0], 1.0) };
         for i in first..end {
             residual[i].add_scaled(&v[k][i], sign * across[i]);
@@ -321,7 +287,7 @@ fn slide<A: Over<A>, X: Over<A>, T: Tables<A>>(
                 v[k][i] = v[k][i] + part.times(limits.rise[i].scale(e));
             }
         }
-        relation.springs(k, first, &mut v[k]);
+        springs_of(t, c, k, first, &mut v[k]);
     }
 }
 
