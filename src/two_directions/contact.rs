@@ -260,10 +260,8 @@ impl<A: Real> Contact<A> {
     /// Stiffness of a fine spring.
     #[inline(always)]
     pub fn fine(&self, t: &impl Tables<A>, k: usize, f: usize) -> A {
-        match f.checked_sub(self.first_edge()).and_then(|r| self.fine[k].get(r)) {
-            Some(edge) => *edge,
-            None => t.at(FINE_STIFFNESS + k * FINE / N, f),
-        }
+        let edge = self.first_edge();
+        if f < edge { t.at(FINE_STIFFNESS + k * FINE / N, f) } else { self.fine[k][(f - edge).min(MOST_PARTS - 1)] }
     }
 
     /// The first fine spring whose stiffness depends on the load.
