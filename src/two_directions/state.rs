@@ -97,8 +97,7 @@ pub fn state_check(state: &[f64]) -> Result<(), Error> {
     let edge = contact.edge.as_flattened().iter().chain(&contact.per_pressure).all(|value| *value >= 0.0);
     let start = starts(contact.under_flat);
     let within = (0..2).all(|k| {
-        // Of extreme parameters rounding leaves springs beyond their limits.
-        let rounding = 1e-2 * contact.now.shift[k];
+        let rounding = 1e-9 * contact.now.shift[k];
         let limit = |j: usize| contact.limit(&&*memory.tables, k, start[j]) + rounding;
         (0..=contact.last.min(N - 1)).all(|j| memory.springs[k][j].abs() <= limit(j))
     });
