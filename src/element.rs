@@ -12,7 +12,7 @@ use crate::shape::{HertzEllipse, Layer, Layered, Plane, Quantity, RoundedFlat, S
 use crate::tag::LAYOUT;
 use core::array::from_fn;
 pub(crate) use table::Curvature;
-use table::{PIECES, Table};
+use table::{Quarters, Table};
 
 /// What the normal component of a displacement is: the approach w \[m\], or the normal force N \[N\].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,7 +34,7 @@ pub enum Directions {
 
 /// An initialised element: plain data of fixed size that may be copied, stored and sent.
 #[repr(C)]
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct Element {
     /// E* of Eq. 2 \[Pa\].
     pub composite_modulus: f64,
@@ -78,7 +78,7 @@ pub struct Element {
     /// N(S).
     load_of_shift: Table,
     /// M at the middle of each quarter of `load_of_shift`.
-    potential: [f64; PIECES],
+    potential: Quarters<f64>,
     /// For two directions: S along y = `lateral[0]` S + `lateral[1]` N, and (1 - `lateral[0]`) S of the layer unless that is a constant
     /// times N, and a number that two shapes hardly share.
     lateral: [f64; 2],
@@ -133,7 +133,7 @@ impl Element {
     /// # Errors
     /// The error of the first parameter that is not allowed; `BadNormalForce` also for 0; otherwise as for a contact.
     pub fn rounded_flat(parameters: &Parameters, directions: Directions, input: NormalInput) -> Result<Element, Error> {
-        let mut element = EMPTY;
+        let mut element = Element::default();
         element.init_rounded_flat(parameters, directions, input).map(|()| element)
     }
 
@@ -146,7 +146,7 @@ impl Element {
         directions: Directions,
         input: NormalInput,
     ) -> Result<Element, Error> {
-        let mut element = EMPTY;
+        let mut element = Element::default();
         element.init_elliptic(parameters, directions, input).map(|()| element)
     }
 
@@ -164,7 +164,7 @@ impl Element {
         // The load at b = 2L.
         in_range(&[length, length, length, composite_modulus], &[parameters.edge_radius])?;
         self.init(&flat, &common, directions, input)?;
-        (self.composite_modulus, self.flat, self.ellipse) = (composite_modulus, flat, NO_ELLIPSE);
+        (self.composite_modulus, self.flat, self.ellipse) = (composite_modulus, flat, Layered::default());
         Ok(())
     }
 
@@ -185,7 +185,7 @@ impl Element {
         }
         self.init(&ellipse, &common, directions, input)?;
         self.tag |= ELLIPTIC;
-        (self.composite_modulus, self.flat, self.ellipse) = (composite_modulus, NO_FLAT, ellipse);
+        (self.composite_modulus, self.flat, self.ellipse) = (composite_modulus, Layered::default(), ellipse);
         Ok(())
     }
 
@@ -256,7 +256,7 @@ impl Element {
         // The approach and the shift of a short contact have a maximum just beyond the largest size, where their inverses are
         // singular. Where that is at less than 2.25 times the argument, it would lie within 9 half-lengths of a quarter.
         let regular = |value: f64, largest: f64| value.min(largest / 2.25);
-        let mut potentials = self.potential.iter_mut();
+        let mut potentials = self.potential.0.iter_mut();
         Table::fill([&mut self.load_of_shift], regular(shift, self.largest_shift), &mut |x| {
             let w = shape.size_at(Quantity::Shift, x);
             potentials.next().into_iter().for_each(|value| *value = shape.potential(w));
@@ -619,7 +619,7 @@ impl Element {
     pub(crate) fn potential_at_shift(&self, shift: f64) -> f64 {
         match self.load_of_shift.position(shift) {
             Some(at) => {
-                let middle = self.potential.get(at.index()).copied().unwrap_or(0.0);
+                let middle = self.potential.0.get(at.index()).copied().unwrap_or(0.0);
                 middle + self.load_of_shift.integral_from_middle(at)
             }
             None => self.potential_outside(shift),
@@ -642,39 +642,6 @@ const fn tag_of(directions: Directions) -> u64 {
         Directions::Two => TWO_DIRECTIONS,
     }
 }
-
-const NO_FLAT: Layered<RoundedFlat> = Layered { shape: RoundedFlat::EMPTY, layer: Layer::NONE };
-const NO_ELLIPSE: Layered<HertzEllipse> = Layered { shape: HertzEllipse::EMPTY, layer: Layer::NONE };
-
-/// An element without tables.
-const EMPTY: Element = Element {
-    composite_modulus: 0.0,
-    friction_coefficient: 0.0,
-    normal_force: 0.0,
-    half_width: 0.0,
-    approach: 0.0,
-    normal_stiffness: 0.0,
-    tangential_stiffness: 0.0,
-    directions: 0,
-    normal_input: 0,
-    tag: 0,
-    checksum: 0,
-    per_two_mu: 0.0,
-    largest_load: 0.0,
-    largest_approach: 0.0,
-    largest_shift: 0.0,
-    smallest_input: 0.0,
-    smallest: [0.0; 3],
-    flat: NO_FLAT,
-    ellipse: NO_ELLIPSE,
-    of_input: Table::EMPTY,
-    shift: Table::EMPTY,
-    shift_per: [0.0; 2],
-    load_of_shift: Table::EMPTY,
-    potential: [0.0; PIECES],
-    lateral: [0.0; 2],
-    key: 0.0,
-};
 
 /// E* of parameters that were checked.
 /// Errors: `OutOfRange`, or `BadNormalForce` for an open contact.

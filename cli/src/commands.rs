@@ -264,7 +264,7 @@ pub fn hysteresis_loop(options: &Loop, spec: &ContactSpec) -> Result<Report> {
     for (stroke, amplitude) in amplitudes.into_iter().enumerate() {
         let error = |error| CliError::in_option("--amplitude", amplitude, error);
         let hysteresis = contact.hysteresis_loop(amplitude).map_err(error)?;
-        let dissipated = contact.complex_stiffness(amplitude).map_err(error)?.dissipated();
+        let dissipated = contact.complex_stiffness(amplitude).map_err(error)?.dissipated;
         let n = options.points as usize;
         let row = |i: usize| vec![amplitude, hysteresis.displacement(i, n), hysteresis.force(i, n), dissipated];
         let at_amplitude: Vec<_> = (0..=n).map(row).collect();
@@ -320,7 +320,7 @@ pub fn stiffness(options: &Amplitudes, spec: &ContactSpec) -> Result<Report> {
             .contact
             .complex_stiffness(amplitude)
             .map_err(|error| CliError::in_option("--amplitude", amplitude, error))?;
-        Ok(vec![amplitude, k.real(), k.imaginary(), k.d_real(), k.d_imag(), k.dissipated()])
+        Ok(vec![amplitude, k.real, k.imaginary, k.d_real, k.d_imag, k.dissipated])
     };
     let rows = amplitudes.into_iter().map(row).collect::<Result<Vec<_>>>()?;
     let columns = [

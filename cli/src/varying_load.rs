@@ -269,7 +269,7 @@ pub fn swinging_loop(options: &Loop, spec: &ContactSpec, amplitudes: &[f64], rep
     for &amplitude in amplitudes {
         let error = |error| CliError::in_option("--amplitude", amplitude, error);
         let hysteresis = spec.contact.hysteresis_loop(amplitude).map_err(error)?;
-        let constant = spec.contact.complex_stiffness(amplitude).map_err(error)?.dissipated();
+        let constant = spec.contact.complex_stiffness(amplitude).map_err(error)?.dissipated;
         for &phase in &options.phase {
             let at = |i: usize| {
                 let angle = |degrees: f64| (degrees + 360.0 * (i % steps) as f64 / steps as f64).to_radians();

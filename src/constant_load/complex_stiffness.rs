@@ -20,21 +20,30 @@
 //! singular there, too: ζ is a hyperbolic sine then. Gauss's rule converges for all amplitudes. Away
 //! from gross slip and for larger Λ, fewer points of the midpoint rule in θ, `x = ξ sin²(θ/2)`, are enough.
 
-use crate::constant_load::contact::{Contact, NODES_IN_SLIP};
+use crate::constant_load::contact::{BLOCKS_IN_SLIP, Contact};
 use crate::error::Error;
 use crate::limits::MAX_DISPLACEMENT;
 use crate::numerics::chebyshev::Interpolant;
+use crate::numerics::const_math::tabulate;
 use crate::numerics::fp_class::in_0_to;
+use crate::numerics::polynomial::{Rows, rows};
 use crate::numerics::quadrature::gauss_legendre;
 use crate::simd::dispatch;
 use core::f64::consts::PI;
 
-/// Complex stiffness at one displacement amplitude. Quantities are evaluated on demand.
+/// Complex stiffness at one displacement amplitude.
 #[derive(Debug, Clone, Copy)]
-pub struct ComplexStiffness<'a> {
-    contact: &'a Contact,
-    amplitude: f64,
-    gross_slip: bool,
+pub struct ComplexStiffness {
+    /// K' \[N/m\].
+    pub real: f64,
+    /// K'' \[N/m\], not negative.
+    pub imaginary: f64,
+    /// dK'/d(amplitude) \[N/m²\], not positive.
+    pub d_real: f64,
+    /// dK''/d(amplitude) \[N/m²\].
+    pub d_imag: f64,
+    /// Energy \[J\] dissipated per cycle.
+    pub dissipated: f64,
 }
 
 /// Nodes of the midpoint rule for e from these two values on, which has the error of rounding; of Gauss's next to gross slip, and beyond
@@ -49,39 +58,33 @@ const IN_SLIP: f64 = -0.05;
 /// Smallest scale of the rule: the cube root of the rounding of ξ.
 const SMALLEST_SCALE: f64 = 1e-5;
 
-/// In gross slip, with `q = y²` and `y = 1 - ζ²`: ρ, x, and the weights of an integral over ρ.
-static RULE_IN_SLIP: [[f64; NODES_IN_SLIP]; 3] = {
-    let [zeta, mut weights] = gauss_legendre::<NODES_IN_SLIP>();
-    let (mut rho, mut x) = ([0.0; _], [0.0; _]);
-    let mut i = 0;
-    while i < NODES_IN_SLIP {
-        let square = zeta[i] * zeta[i];
+/// In gross slip, with `q = y²` and `y = 1 - ζ²`: blocks of ρ, x, and the weights of an integral over ρ.
+static RULE_IN_SLIP: [[[f64; 4]; 3]; BLOCKS_IN_SLIP] = {
+    let [nodes, weights] = gauss_legendre::<{ 4 * BLOCKS_IN_SLIP }>();
+    let (mut blocks, mut i) = ([[[0.0; 4]; 3]; _], 0);
+    while i < nodes.len() {
+        let (zeta, square) = (nodes[i], nodes[i] * nodes[i]);
         let y = 1.0 - square;
-        rho[i] = (y * y * y) * (y * y * y);
-        x[i] = square * (2.0 - square) * (1.0 + y * y + (y * y) * (y * y));
-        weights[i] *= 12.0 * zeta[i] * (y * y * y) * (y * y);
+        blocks[i / 4][0][i % 4] = (y * y * y) * (y * y * y);
+        blocks[i / 4][1][i % 4] = square * (2.0 - square) * (1.0 + y * y + (y * y) * (y * y));
+        blocks[i / 4][2][i % 4] = weights[i] * (12.0 * zeta * (y * y * y) * (y * y));
         i += 1;
     }
-    [rho, x, weights]
+    blocks
 };
 
 /// Blocks of four nodes and weights of Gauss's rules.
 static RULE_BELOW: [[[f64; 4]; 2]; NODES_BELOW / 4] = blocks(&gauss_legendre::<NODES_BELOW>());
 static RULE_BEYOND: [[[f64; 4]; 2]; NODES_BEYOND / 4] = blocks(&gauss_legendre::<NODES_BEYOND>());
 
-const fn blocks<const N: usize, const M: usize>(rule: &[[f64; N]; 2]) -> [[[f64; 4]; 2]; M] {
-    let mut blocks = [[[0.0; 4]; 2]; M];
-    let mut i = 0;
-    while i < N {
-        (blocks[i / 4][0][i % 4], blocks[i / 4][1][i % 4]) = (rule[0][i], rule[1][i]);
-        i += 1;
-    }
-    blocks
+const fn blocks<const N: usize, const M: usize>([nodes, weights]: &[[f64; N]; 2]) -> [[[f64; 4]; 2]; M] {
+    let [nodes, weights]: [Rows<M>; 2] = [rows(nodes), rows(weights)];
+    tabulate!(M, |i| [nodes[i], weights[i]])
 }
 
 /// F and dF/dξ from the terms of F and `ρ - e` at blocks of nodes.
 #[inline(always)]
-fn sum<B>(blocks: &[B], at: impl Fn(&B) -> [[f64; 4]; 2]) -> [f64; 2] {
+fn sum<B>(blocks: impl Iterator<Item = B>, at: impl Fn(B) -> [[f64; 4]; 2]) -> [f64; 2] {
     let mut sums = [[0.0; 4]; 2];
     for block in blocks {
         let [terms, rest] = at(block);
@@ -115,48 +118,47 @@ impl Contact {
         let [k_real, k_imag, dk_real, dk_imag] = &*outputs;
         let is_requested =
             |value: &Option<_>, slope: &Option<_>| (value.is_some() || slope.is_some()) && !self.is_frictionless();
-        let cycle = self.cycle(amplitude);
-        let real = if is_requested(k_real, dk_real) { cycle.real_with_derivative() } else { (0.0, 0.0) };
-        let imaginary = if is_requested(k_imag, dk_imag) { cycle.imaginary_with_derivative() } else { (0.0, 0.0) };
+        let real = if is_requested(k_real, dk_real) { self.real_stiffness(amplitude) } else { (0.0, 0.0) };
+        let imaginary = if is_requested(k_imag, dk_imag) { self.imaginary_stiffness(amplitude) } else { (0.0, 0.0) };
         write_values([real, imaginary], i, outputs);
-    }
-
-    fn cycle(&self, amplitude: f64) -> ComplexStiffness<'_> {
-        let gross_slip = self.is_frictionless() || amplitude >= self.slip_displacement;
-        ComplexStiffness { contact: self, amplitude, gross_slip }
     }
 
     /// The complex stiffness at a displacement amplitude \[m\]; at 0 it is the initial stiffness.
     ///
     /// # Errors
     /// `BadAmplitude` if the amplitude is not finite, negative, or beyond 1e150.
-    pub fn complex_stiffness(&self, amplitude: f64) -> Result<ComplexStiffness<'_>, Error> {
+    pub fn complex_stiffness(&self, amplitude: f64) -> Result<ComplexStiffness, Error> {
         check_amplitude(amplitude)?;
-        Ok(self.cycle(amplitude))
+        let ((real, d_real), (imaginary, d_imag)) =
+            (self.real_stiffness(amplitude), self.imaginary_stiffness(amplitude));
+        Ok(ComplexStiffness { real, imaginary, d_real, d_imag, dissipated: self.energy_of_cycle(amplitude).0 })
     }
 
     /// F and dF/dξ at ξ = 1 - e, in units of the initial stiffness.
     pub(crate) fn cycle_integrals(&self, xi: f64, e: f64) -> [f64; 2] {
-        dispatch!(self.cycle_integrals_kernel(xi, e))
-    }
-
-    #[inline(always)]
-    fn cycle_integrals_kernel(&self, xi: f64, e: f64) -> [f64; 2] {
-        if !self.has_weights_in_slip() || (e > IN_SLIP && e < FAR_BELOW[1]) {
-            let is_beyond = e <= 0.0 || !self.has_weights_in_slip();
-            return self.integrals(if is_beyond { &RULE_BEYOND } else { &RULE_BELOW }, xi, e);
-        }
-        if e > 0.0 {
-            let few = const { &Interpolant::<{ NODES_FAR_BELOW[0] }>::POINTS };
-            let many = const { &Interpolant::<{ NODES_FAR_BELOW[1] }>::POINTS };
-            return self.midpoint(if e >= FAR_BELOW[0] { few } else { many }, xi, e);
-        }
-        let mut blocks = [[[0.0; 4]; 2]; NODES_IN_SLIP / 4];
-        for i in 0..NODES_IN_SLIP {
-            let rest = RULE_IN_SLIP[0][i] - e;
-            (blocks[i / 4][0][i % 4], blocks[i / 4][1][i % 4]) = (self.weights_in_slip[i] * rest.sqrt(), rest);
-        }
-        sum(&blocks, |block| *block)
+        dispatch!({
+            if !self.has_weights_in_slip() || (e > IN_SLIP && e < FAR_BELOW[1]) {
+                let is_beyond = e <= 0.0 || !self.has_weights_in_slip();
+                return self.integrals(if is_beyond { &RULE_BEYOND } else { &RULE_BELOW }, xi, e);
+            }
+            if e > 0.0 {
+                let few = const { &Interpolant::<{ NODES_FAR_BELOW[0] }>::POINTS };
+                let many = const { &Interpolant::<{ NODES_FAR_BELOW[1] }>::POINTS };
+                return self.midpoint(if e >= FAR_BELOW[0] { few } else { many }, xi, e);
+            }
+            sum(
+                self.weights_in_slip.iter().zip(&RULE_IN_SLIP),
+                #[inline(always)]
+                |(weights, [rho, ..])| {
+                    let (mut terms, mut rest) = (*weights, *rho);
+                    for k in 0..4 {
+                        rest[k] -= e;
+                        terms[k] *= rest[k].sqrt();
+                    }
+                    [terms, rest]
+                },
+            )
+        })
     }
 
     /// F and dF/dξ by the midpoint rule in θ, `x = ξ sin²(θ/2)`: the integrands are periodic and even.
@@ -164,7 +166,7 @@ impl Contact {
     fn midpoint(&self, cosines: &[f64], xi: f64, e: f64) -> [f64; 2] {
         let weight = PI / cosines.len() as f64;
         sum(
-            cosines.as_chunks::<4>().0,
+            cosines.as_chunks::<4>().0.iter(),
             #[inline(always)]
             |cosines| {
                 let [mut x, mut rho, mut rest] = [[0.0; 4]; 3];
@@ -194,7 +196,7 @@ impl Contact {
         let bend = (self.relative_distance_of_zero_compliance() / (3.0 * scale * end.sinh() * end)).sqrt();
         let largest = (1.0 / bend).asinh();
         sum(
-            rule,
+            rule.iter(),
             #[inline(always)]
             |[nodes, weights]| {
                 let (mut zeta, mut weights) = (*nodes, *weights);
@@ -256,21 +258,20 @@ impl Contact {
 
     /// The weights of F in gross slip; 0 without an interpolant, or if Λ is so small that the rule does not converge.
     #[inline(never)]
-    pub(crate) fn weights_of_curve(&self) -> [f64; NODES_IN_SLIP] {
+    pub(crate) fn weights_of_curve(&self) -> Rows<BLOCKS_IN_SLIP> {
         if self.has_no_interpolant() || self.relative_distance_of_zero_compliance() < 0.375 {
-            return [0.0; _];
+            return Rows::default();
         }
-        let [rho, x, weights] = &RULE_IN_SLIP;
-        let mut products = [0.0; NODES_IN_SLIP];
-        let blocks = products.as_chunks_mut::<4>().0.iter_mut().zip(x.as_chunks::<4>().0).zip(rho.as_chunks::<4>().0);
-        blocks.for_each(|((block, x), rho)| *block = self.relative_stiffnesses(x, rho));
-        products.iter_mut().zip(weights).zip(x).for_each(|((product, weight), x)| *product *= weight * x.sqrt());
-        products
+        RULE_IN_SLIP.map(|[rho, x, weights]| {
+            let mut products = self.relative_stiffnesses(&x, &rho);
+            products.iter_mut().zip(weights).zip(x).for_each(|((product, weight), x)| *product *= weight * x.sqrt());
+            products
+        })
     }
 
     #[inline(always)]
     fn has_weights_in_slip(&self) -> bool {
-        self.weights_in_slip[0] > 0.0
+        self.weights_in_slip[0][0] > 0.0
     }
 }
 
@@ -278,67 +279,28 @@ pub(crate) fn check_amplitude(amplitude: f64) -> Result<(), Error> {
     if in_0_to(MAX_DISPLACEMENT, amplitude) { Ok(()) } else { Err(Error::BadAmplitude) }
 }
 
-impl ComplexStiffness<'_> {
+impl Contact {
     /// No friction, or an amplitude so small that K' and K'' are linear in it to far below rounding. Smaller amplitudes would underflow
     /// in the general formulas.
-    fn is_linear(&self) -> bool {
-        self.contact.is_frictionless() || self.amplitude <= 1e-30 * self.contact.displacement_scale
-    }
-
-    fn amplitude_not_zero(&self) -> f64 {
-        self.amplitude.max(f64::MIN_POSITIVE)
-    }
-
-    /// K' \[N/m\].
-    #[must_use]
-    #[inline(always)]
-    pub fn real(&self) -> f64 {
-        self.real_with_derivative().0
-    }
-
-    /// K'' \[N/m\], not negative.
-    #[must_use]
-    #[inline(always)]
-    pub fn imaginary(&self) -> f64 {
-        self.imaginary_with_derivative().0
-    }
-
-    /// dK'/d(amplitude) \[N/m²\], not positive.
-    #[must_use]
-    #[inline(always)]
-    pub fn d_real(&self) -> f64 {
-        self.real_with_derivative().1
-    }
-
-    /// dK''/d(amplitude) \[N/m²\].
-    #[must_use]
-    #[inline(always)]
-    pub fn d_imag(&self) -> f64 {
-        self.imaginary_with_derivative().1
-    }
-
-    /// Energy \[J\] dissipated per cycle.
-    #[must_use]
-    pub fn dissipated(&self) -> f64 {
-        self.energy_with_derivative().0
+    fn is_linear(&self, amplitude: f64) -> bool {
+        self.is_frictionless() || amplitude <= 1e-30 * self.displacement_scale
     }
 
     /// K' and its derivative.
-    pub(crate) fn real_with_derivative(&self) -> (f64, f64) {
-        let (contact, amplitude) = (self.contact, self.amplitude_not_zero());
-        let initial = contact.initial_stiffness;
-        if self.is_linear() {
+    pub(crate) fn real_stiffness(&self, amplitude: f64) -> ValueAndSlope {
+        let (initial, not_zero) = (self.initial_stiffness, amplitude.max(f64::MIN_POSITIVE));
+        if self.is_linear(amplitude) {
             return (initial, self.initial_slopes().0);
         }
-        let y = amplitude * contact.inner_scale;
+        let y = not_zero * self.inner_scale;
         if y <= 1.0
-            && let Some((real, slope)) = contact.interpolant().cycle(y)
+            && let Some((real, slope)) = self.interpolant().cycle(y)
         {
-            return (initial * real, (initial * contact.inner_scale * slope).min(0.0));
+            return (initial * real, (initial * self.inner_scale * slope).min(0.0));
         }
-        let per_slip = contact.per_slip_displacement;
-        let xi = amplitude * per_slip;
-        let [integral, rate] = contact.cycle_integrals(xi, (contact.slip_displacement - amplitude) * per_slip);
+        let per_slip = self.per_slip_displacement;
+        let xi = not_zero * per_slip;
+        let [integral, rate] = self.cycle_integrals(xi, (self.slip_displacement - not_zero) * per_slip);
         // In this order for amplitudes whose square overflows.
         let [real, slope] = [integral, rate - 2.0 * integral / xi].map(|value| 8.0 / PI * initial * (value / xi / xi));
         (real, (slope * per_slip).min(0.0))
@@ -346,37 +308,36 @@ impl ComplexStiffness<'_> {
 
     /// K'' and its derivative.
     #[inline(always)]
-    pub(crate) fn imaginary_with_derivative(&self) -> (f64, f64) {
-        if self.is_linear() {
+    pub(crate) fn imaginary_stiffness(&self, amplitude: f64) -> ValueAndSlope {
+        if self.is_linear(amplitude) {
             let slope = self.initial_slopes().1;
-            return (self.amplitude * slope, slope);
+            return (amplitude * slope, slope);
         }
-        let amplitude = self.amplitude_not_zero();
-        let (energy, slope) = self.energy_with_derivative();
-        let imaginary = energy / amplitude / amplitude / PI;
-        (imaginary, (slope / amplitude / PI - 2.0 * imaginary) / amplitude)
+        let not_zero = amplitude.max(f64::MIN_POSITIVE);
+        let (energy, slope) = self.energy_of_cycle(amplitude);
+        let imaginary = energy / not_zero / not_zero / PI;
+        (imaginary, (slope / not_zero / PI - 2.0 * imaginary) / not_zero)
     }
 
     /// Energy dissipated per cycle, and its derivative with respect to the amplitude.
     #[inline(always)]
-    fn energy_with_derivative(&self) -> (f64, f64) {
-        let contact = self.contact;
-        if self.gross_slip {
-            let slope = 4.0 * contact.slip_force;
-            (contact.slip_energy + slope * (self.amplitude - contact.slip_displacement), slope)
+    fn energy_of_cycle(&self, amplitude: f64) -> ValueAndSlope {
+        if self.is_frictionless() || amplitude >= self.slip_displacement {
+            let slope = 4.0 * self.slip_force;
+            (self.slip_energy + slope * (amplitude - self.slip_displacement), slope)
         } else {
-            contact.cycle_energy(contact.before_slip(self.amplitude))
+            self.cycle_energy(self.before_slip(amplitude))
         }
     }
 
     /// Both derivatives at the amplitude 0, from the initial curvature of the curve: `-h_2/Λ³` and `4 h_2/(3πΛ³)`.
     fn initial_slopes(&self) -> (f64, f64) {
-        if self.contact.is_frictionless() {
+        if self.is_frictionless() {
             return (0.0, 0.0);
         }
-        let series = self.contact.stick_zones().small_load();
+        let series = self.stick_zones().small_load();
         let slope = 0.5 * series.initial_curvature() / (series.compliance * series.compliance * series.compliance);
-        let unit = self.contact.stiffness_scale / self.contact.displacement_scale.max(f64::MIN_POSITIVE);
+        let unit = self.stiffness_scale / self.displacement_scale.max(f64::MIN_POSITIVE);
         (-slope * unit, 4.0 / (3.0 * PI) * slope * unit)
     }
 }
@@ -402,21 +363,21 @@ mod tests {
         })
         .unwrap();
         let initial = contact.complex_stiffness(0.0).unwrap();
-        assert_eq!((initial.real(), initial.imaginary()), (contact.initial_stiffness, 0.0));
+        assert_eq!((initial.real, initial.imaginary), (contact.initial_stiffness, 0.0));
         // The reference values are at 1e-6 of the displacement of gross slip; the derivatives change by as much up to there.
-        assert!((initial.d_real() / -5.786_302_156_963_336e12 - 1.0).abs() < 1e-6);
-        assert!((initial.d_imag() / 2.455_783_688_472_798e12 - 1.0).abs() < 1e-6);
+        assert!((initial.d_real / -5.786_302_156_963_336e12 - 1.0).abs() < 1e-6);
+        assert!((initial.d_imag / 2.455_783_688_472_798e12 - 1.0).abs() < 1e-6);
         for contact in FLATS.map(self::contact).into_iter().chain([ellipse(1e-4, 2e-4)]) {
             let initial = contact.complex_stiffness(0.0).unwrap();
             let amplitude = 1e-5 * contact.slip_displacement;
             let small = contact.complex_stiffness(amplitude).unwrap();
             // The next terms are 1e-5 of the derivatives; the difference of K' has the rounding error of K' itself.
-            let slope = (small.real() - initial.real()) / amplitude;
-            let rounding = 4.0 * f64::EPSILON * initial.real() / amplitude;
-            assert!((slope - initial.d_real()).abs() < 2e-5 * initial.d_real().abs() + rounding);
-            assert!((small.imaginary() / amplitude / initial.d_imag() - 1.0).abs() < 2e-5);
-            assert!((small.d_real() / initial.d_real() - 1.0).abs() < 4e-5);
-            assert!((small.d_imag() / initial.d_imag() - 1.0).abs() < 4e-5);
+            let slope = (small.real - initial.real) / amplitude;
+            let rounding = 4.0 * f64::EPSILON * initial.real / amplitude;
+            assert!((slope - initial.d_real).abs() < 2e-5 * initial.d_real.abs() + rounding);
+            assert!((small.imaginary / amplitude / initial.d_imag - 1.0).abs() < 2e-5);
+            assert!((small.d_real / initial.d_real - 1.0).abs() < 4e-5);
+            assert!((small.d_imag / initial.d_imag - 1.0).abs() < 4e-5);
         }
     }
 }

@@ -13,14 +13,14 @@ use crate::shape::{HertzEllipse, Layer, LayeredZones, RoundedFlat};
 use crate::tag::LAYOUT;
 use core::f64::consts::PI;
 
-/// Nodes of the rule of K' in gross slip.
-pub(crate) const NODES_IN_SLIP: usize = 56;
+/// Blocks of four nodes of the rule of K' in gross slip.
+pub(crate) const BLOCKS_IN_SLIP: usize = 14;
 
 /// An initialised contact: plain data of fixed size that may be copied, stored and sent.
 ///
 /// An open contact (no normal force) has zero width, force and stiffness; one without friction has zero force and stiffness.
 #[repr(C)]
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct Contact {
     /// E* of Eq. 2 \[Pa\].
     pub composite_modulus: f64,
@@ -56,7 +56,7 @@ pub struct Contact {
     pub(crate) per_slip_displacement: f64,
     interpolant: ForceInterpolant,
     /// Weights of K' in gross slip; 0 if there are none.
-    pub(crate) weights_in_slip: [f64; NODES_IN_SLIP],
+    pub(crate) weights_in_slip: [[f64; 4]; BLOCKS_IN_SLIP],
     zones: LayeredZones,
     /// mu N over each parameter; over b instead of a.
     pub(crate) sensitivity_scales: Sensitivity,
@@ -126,7 +126,7 @@ impl Contact {
         let composite_modulus = parameters.composite_modulus()?;
         // The derivatives of mu N.
         let sensitivity_scales = [friction_coefficient, normal_force, 0.0, 0.0, 0.0, 0.0, 0.0];
-        Ok(Contact { composite_modulus, friction_coefficient, sensitivity_scales, tag: TAG, ..EMPTY })
+        Ok(Contact { composite_modulus, friction_coefficient, sensitivity_scales, tag: TAG, ..Contact::default() })
     }
 
     /// The layer of parameters that were checked in series.
@@ -254,33 +254,6 @@ fn set_interpolant_of_curve(all: &LayeredZones, curve: &mut ForceInterpolant) ->
     }
     INNER_FRACTION
 }
-
-/// An open contact without a tag.
-const EMPTY: Contact = Contact {
-    composite_modulus: 0.0,
-    half_width: 0.0,
-    slip_force: 0.0,
-    slip_displacement: 0.0,
-    initial_stiffness: 0.0,
-    slip_energy: 0.0,
-    tag: 0,
-    displacement_scale: 0.0,
-    per_displacement_scale: 0.0,
-    stiffness_scale: 0.0,
-    pressure_scale: 0.0,
-    friction_coefficient: 0.0,
-    flat_half_width: 0.0,
-    slip_force_rounding: 0.0,
-    inner_scale: 0.0,
-    outer_scale: 0.0,
-    per_slip_displacement: 0.0,
-    interpolant: ForceInterpolant::NONE,
-    weights_in_slip: [0.0; _],
-    zones: LayeredZones::EMPTY,
-    sensitivity_scales: [0.0; _],
-    reference_slope: 0.0,
-    checksum: 0,
-};
 
 #[cfg(test)]
 pub(crate) mod tests;

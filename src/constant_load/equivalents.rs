@@ -33,8 +33,7 @@ pub fn jenkins(contact: &Contact, amplitude: f64) -> Result<SpringSlider, Error>
     }
     // Beyond this amplitude the result no longer changes, and K' would underflow.
     let amplitude = amplitude.min(1e100 * contact.slip_displacement);
-    let complex = contact.complex_stiffness(amplitude)?;
-    let (real, imaginary) = (complex.real(), complex.imaginary());
+    let (real, imaginary) = (contact.real_stiffness(amplitude).0, contact.imaginary_stiffness(amplitude).0);
     let ratio = imaginary / real.max(f64::MIN_POSITIVE);
     if amplitude <= 0.0 || ratio < f64::MIN_POSITIVE {
         let slip_force = if amplitude > 0.0 { real * amplitude } else { contact.slip_force };

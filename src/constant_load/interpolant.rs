@@ -16,6 +16,7 @@
 //! scale with the curvature of the curve and not with the stiffness.
 
 use crate::numerics::chebyshev::{Interpolant, Polynomial, TERMS, Tangent, powers};
+use crate::numerics::const_math::tabulate;
 use crate::numerics::polynomial::{four_values_and_slopes, rows, sum, value_and_slope};
 use crate::shape::rounded_punch::TINY;
 use crate::shape::stick_zone::LoadPoint;
@@ -50,15 +51,7 @@ pub(crate) static CYCLE_WEIGHTS: Polynomial = {
 
 /// `-4n/(n+2)`: the energy of a cycle, eight times the work of the initial loading less four times force times displacement, of the power
 /// n of the secant stiffness.
-pub(crate) static ENERGY_WEIGHTS: Polynomial = {
-    let mut weights = [0.0; TERMS];
-    let mut n = 0;
-    while n < TERMS {
-        weights[n] = -4.0 * n as f64 / (n as f64 + 2.0);
-        n += 1;
-    }
-    rows(&weights)
-};
+pub(crate) static ENERGY_WEIGHTS: Polynomial = rows(&tabulate!(TERMS, |n| -4.0 * n as f64 / (n as f64 + 2.0)));
 
 /// A polynomial with weights on its powers.
 #[inline(always)]
@@ -72,7 +65,7 @@ pub(crate) fn weighted(polynomial: &Polynomial, weights: &Polynomial) -> Polynom
 
 /// The interpolant of one curve.
 #[repr(C)]
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct ForceInterpolant {
     /// Λ τ/x over y = x/(2/5 x_s), or of the other fraction: the secant stiffness over the initial one.
     inner: Polynomial,
@@ -85,13 +78,6 @@ pub(crate) struct ForceInterpolant {
 }
 
 impl ForceInterpolant {
-    pub const NONE: ForceInterpolant = ForceInterpolant {
-        inner: [[0.0; 4]; _],
-        pieces: [[[0.0; 4]; _]; PIECES],
-        last: [[[0.0; 4]; _]; LAST_PIECES],
-        converged: 0,
-    };
-
     /// Marks it as that of the curve of the contact without its layer.
     pub fn mark_without_layer(&mut self) {
         self.converged *= WITHOUT_LAYER;

@@ -67,46 +67,36 @@ impl BranchEvaluator<'_> {
         &self,
         count: usize,
         displacement: &[f64],
-        scratch: [&mut [f64]; 2],
-        forces: &mut [f64],
-        stiffnesses: &mut [f64],
-    ) {
-        dispatch!(self.along_kernel::<STIFFNESS>(count, displacement, scratch, forces, stiffnesses));
-    }
-
-    #[inline(always)]
-    fn along_kernel<const STIFFNESS: bool>(
-        &self,
-        count: usize,
-        displacement: &[f64],
         [distances, roots]: [&mut [f64]; 2],
         forces: &mut [f64],
         stiffnesses: &mut [f64],
     ) {
-        let BranchEvaluator { branch, factor, limit, curve } = self;
-        let blocks = distances.as_chunks_mut::<4>().0.iter_mut().zip(displacement.as_chunks::<4>().0);
-        for (block, &x) in blocks.take(count.div_ceil(4)) {
-            // Stored together: otherwise they could overlap the next displacement.
-            let mut distances = [0.0; 4];
-            for k in 0..4 {
-                distances[k] = branch.distance(curve.slip_displacement, x[k]);
+        dispatch!({
+            let BranchEvaluator { branch, factor, limit, curve } = self;
+            let blocks = distances.as_chunks_mut::<4>().0.iter_mut().zip(displacement.as_chunks::<4>().0);
+            for (block, &x) in blocks.take(count.div_ceil(4)) {
+                // Stored together: otherwise they could overlap the next displacement.
+                let mut distances = [0.0; 4];
+                for k in 0..4 {
+                    distances[k] = branch.distance(curve.slip_displacement, x[k]);
+                }
+                *block = distances;
             }
-            *block = distances;
-        }
-        let last = count.checked_sub(1).and_then(|last| distances.get(last)).copied().unwrap_or(0.0);
-        if let Some(beyond) = distances.get_mut(count..count + BEYOND).and_then(|beyond| beyond.first_chunk_mut()) {
-            *beyond = [last; BEYOND];
-        }
-        curve.along::<STIFFNESS>(count, distances, roots, forces, stiffnesses);
-        for force in forces.as_chunks_mut::<4>().0.iter_mut().take(count.div_ceil(4)) {
-            let mut sums = *force;
-            for sum in &mut sums {
-                *sum = branch.start.force + factor * *sum;
-                *sum = if *sum > *limit { *limit } else { *sum };
-                *sum = if *sum < -limit { -limit } else { *sum };
+            let last = count.checked_sub(1).and_then(|last| distances.get(last)).copied().unwrap_or(0.0);
+            if let Some(beyond) = distances.get_mut(count..count + BEYOND).and_then(|beyond| beyond.first_chunk_mut()) {
+                *beyond = [last; BEYOND];
             }
-            *force = sums;
-        }
+            curve.along::<STIFFNESS>(count, distances, roots, forces, stiffnesses);
+            for force in forces.as_chunks_mut::<4>().0.iter_mut().take(count.div_ceil(4)) {
+                let mut sums = *force;
+                for sum in &mut sums {
+                    *sum = branch.start.force + factor * *sum;
+                    *sum = if *sum > *limit { *limit } else { *sum };
+                    *sum = if *sum < -limit { -limit } else { *sum };
+                }
+                *force = sums;
+            }
+        });
     }
 }
 

@@ -52,7 +52,7 @@ const NEAR: f64 = 1.0 + TOP - 2.0 * OVERLAP;
 
 /// The polynomials of one shape.
 #[repr(C)]
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct StiffnessTable {
     /// With count 0 if there are no polynomials.
     tag: f64,
@@ -91,13 +91,17 @@ struct Pieces<const R: usize> {
     others: [Rows<R>; PIECES - 1],
 }
 
-impl<const R: usize> Pieces<R> {
-    const NONE: Pieces<R> = Pieces { rows_of_first: 0.0, first: [[0.0; 4]; _], others: [[[0.0; 4]; R]; PIECES - 1] };
+impl<const R: usize> Default for Pieces<R> {
+    fn default() -> Self {
+        Pieces { rows_of_first: 0.0, first: [[0.0; 4]; _], others: [[[0.0; 4]; R]; _] }
+    }
+}
 
+impl<const R: usize> Pieces<R> {
     /// The mean over (0, d) of a function of a distance d up to TOP, which is interpolated on some pieces first. It is a sum over pieces:
     /// for a small a/b, one of them contains singularities close to the real axis, to which a rule over (0, d) would not converge.
     fn mean_of(more: usize, rate: &dyn Fn(f64) -> f64) -> Pieces<R> {
-        let (mut pieces, mut mean_below) = (Pieces::NONE, None);
+        let (mut pieces, mut mean_below) = (Pieces::default(), None);
         for piece in (0..more).rev() {
             let mean = mean_on(piece, &mut mean_below, rate);
             match pieces.others.get_mut(piece.wrapping_sub(1)) {
@@ -141,24 +145,10 @@ fn mean_on(piece: usize, mean_below: &mut Option<f64>, rate: &dyn Fn(f64) -> f64
 }
 
 impl StiffnessTable {
-    pub const EMPTY: StiffnessTable = StiffnessTable {
-        tag: 0.0,
-        shape: [0.0; 2],
-        moment: 0.0,
-        slope_at_slip: 0.0,
-        slip_energy: 0.0,
-        gross_slip_rate: 0.0,
-        inner: [[[0.0; 4]; 5]; 2],
-        far: [[0.0; 4]; FAR_TERMS / 4],
-        below: Pieces::NONE,
-        above: Pieces::NONE,
-        energy: Pieces::NONE,
-    };
-
     /// Initialises the table of the shape of a contact, in place.
     #[inline(never)]
     pub fn init(&mut self, contact: &Contact) {
-        *self = StiffnessTable::EMPTY;
+        *self = StiffnessTable::default();
         self.tag = Kind::StiffnessTable.tag(0);
         self.shape = shape_of(contact);
         let [compliance, _] = self.shape;
@@ -307,7 +297,7 @@ mod tests {
     }
 
     fn table_of(contact: &Contact) -> StiffnessTable {
-        let mut table = StiffnessTable::EMPTY;
+        let mut table = StiffnessTable::default();
         table.init(contact);
         table
     }
@@ -324,8 +314,8 @@ mod tests {
                 let amplitude = fraction * contact.slip_displacement;
                 let [real, imaginary, d_real, d_imaginary] = values(&table, &contact, amplitude);
                 let exact = contact.complex_stiffness(amplitude).unwrap();
-                let (exact_real, exact_d_real) = exact.real_with_derivative();
-                let (exact_imaginary, exact_d_imaginary) = exact.imaginary_with_derivative();
+                let (exact_real, exact_d_real) = (exact.real, exact.d_real);
+                let (exact_imaginary, exact_d_imaginary) = (exact.imaginary, exact.d_imag);
                 let unit = exact_real.hypot(exact_imaginary);
                 assert!((real - exact_real).abs() < 1e-14 * exact_real, "{fraction}");
                 assert!((imaginary - exact_imaginary).abs() < 1e-13 * exact_imaginary, "{fraction}");
@@ -349,8 +339,8 @@ mod tests {
                     let amplitude = fraction * contact.slip_displacement;
                     let [real, imaginary, d_real, d_imaginary] = values(&table, &contact, amplitude);
                     let exact = contact.complex_stiffness(amplitude).unwrap();
-                    let (exact_real, exact_d_real) = exact.real_with_derivative();
-                    let (exact_imaginary, exact_d_imaginary) = exact.imaginary_with_derivative();
+                    let (exact_real, exact_d_real) = (exact.real, exact.d_real);
+                    let (exact_imaginary, exact_d_imaginary) = (exact.imaginary, exact.d_imag);
                     let unit = exact_real.hypot(exact_imaginary);
                     assert!((real - exact_real).abs() < 4e-14 * unit, "{share} {ratio} {fraction}");
                     assert!((imaginary - exact_imaginary).abs() < 1e-14 * unit, "{share} {ratio} {fraction}");

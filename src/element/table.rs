@@ -7,6 +7,7 @@
 //! compliance is zero; for N_c far below N the nearest ones are 4 half-lengths from the middle.
 
 use crate::numerics::chebyshev::monic_powers;
+use crate::numerics::const_math::tabulate;
 use crate::shape::{ORDER, Series};
 use wide::f64x2;
 
@@ -18,19 +19,30 @@ const OCTAVES: usize = 12;
 const BITS: u32 = 2;
 const QUARTERS: usize = 1 << BITS;
 const SHIFT: u32 = 52 - BITS;
-pub(super) const PIECES: usize = OCTAVES * QUARTERS + 1;
+const PIECES: usize = OCTAVES * QUARTERS + 1;
 
 const EXPONENT_OF_1: u64 = 0x3ff << 52;
 /// Half-lengths in the unit of the mantissa: t = 8 (m - 1) - 1 for the part m of the mantissa below the leading bits.
 const POSITION: f64 = 8.0;
 
+/// A value for each quarter of a table.
+#[repr(transparent)]
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Quarters<T>(pub [T; PIECES]);
+
+impl<T: Copy + Default> Default for Quarters<T> {
+    fn default() -> Self {
+        Quarters([T::default(); PIECES])
+    }
+}
+
 /// A tabulated function.
 #[repr(C)]
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Table {
     /// Exponent and leading bits of the mantissa of the first quarter.
     base: u64,
-    quarters: [[f64; TERMS]; PIECES],
+    quarters: Quarters<[f64; TERMS]>,
 }
 
 /// Position of an argument in a table.
@@ -41,9 +53,6 @@ pub(crate) struct Position {
 }
 
 impl Table {
-    /// Zeros, to be filled.
-    pub const EMPTY: Table = Table { base: 0, quarters: [[0.0; TERMS]; PIECES] };
-
     /// Fills tables of several functions of one argument up to (at least) the argument `largest`, a normal number, from their Taylor
     /// series about the middle x of each quarter in powers of ρ, for the argument x (1 + ρ), in the order of the quarters.
     pub fn fill<const K: usize>(
@@ -54,7 +63,7 @@ impl Table {
         let base = (largest.to_bits() >> SHIFT).saturating_sub(PIECES as u64 - 1);
         let mut tables = tables.map(|table| {
             table.base = base;
-            table.quarters.iter_mut()
+            table.quarters.0.iter_mut()
         });
         for number in base..base + PIECES as u64 {
             let [middle, half_length] = middle_and_half_length(number);
@@ -74,7 +83,7 @@ impl Table {
 
     #[inline(always)]
     fn coefficients(&self, at: Position) -> &[f64; TERMS] {
-        self.quarters.get(at.index).unwrap_or(&[0.0; TERMS])
+        self.quarters.0.get(at.index).unwrap_or(&[0.0; TERMS])
     }
 
     /// y and, if requested, dy/dx at some arguments; `None` if one is outside.
@@ -82,7 +91,7 @@ impl Table {
     pub fn at<const SLOPES: bool, const L: usize>(&self, x: &[f64; L]) -> Option<([f64; L], [f64; L])> {
         let mut rows = [&[0.0; TERMS]; L];
         for (row, x) in rows.iter_mut().zip(x) {
-            *row = self.quarters.get((x.to_bits() >> SHIFT).wrapping_sub(self.base) as usize)?;
+            *row = self.quarters.0.get((x.to_bits() >> SHIFT).wrapping_sub(self.base) as usize)?;
         }
         let (mut values, mut slopes) = ([0.0; L], [0.0; L]);
         let (pairs, last) = (values.as_chunks_mut::<2>(), slopes.as_chunks_mut::<2>());
@@ -229,15 +238,7 @@ fn middle_and_half_length(number: u64) -> [f64; 2] {
 }
 
 /// `1/(k+1)` and `1/(k+2)`.
-static INTEGRAL_WEIGHTS: [[f64; 2]; TERMS] = {
-    let mut weights = [[0.0; 2]; TERMS];
-    let mut k = 0;
-    while k < TERMS {
-        weights[k] = [1.0 / (k + 1) as f64, 1.0 / (k + 2) as f64];
-        k += 1;
-    }
-    weights
-};
+static INTEGRAL_WEIGHTS: [[f64; 2]; TERMS] = tabulate!(TERMS, |k| [1.0 / (k + 1) as f64, 1.0 / (k + 2) as f64]);
 
 /// y'' on a quarter: `Σ (k+1)(k+2)(c_(k+1) + s c_(k+2)) t^k` over the half-length, with the middle s in half-lengths.
 pub(crate) struct Curvature {
@@ -258,7 +259,7 @@ impl Curvature {
     fn enter(&mut self, table: &Table, x: f64) -> Option<()> {
         let number = x.to_bits() >> SHIFT;
         if number != self.number {
-            let c = table.quarters.get(number.wrapping_sub(table.base) as usize)?;
+            let c = table.quarters.0.get(number.wrapping_sub(table.base) as usize)?;
             let scaled = POSITION * mantissa(x, 52);
             let middle = scaled - position_in(x);
             for k in 0..TERMS - 2 {
@@ -321,7 +322,7 @@ mod tests {
         for flat in FLATS {
             let shape = RoundedFlat::new(&parameters(flat)).unwrap();
             let largest = shape.value(Quantity::Shift, shape.at_load(150.0));
-            let mut table = Table::EMPTY;
+            let mut table = Table::default();
             let at = |x: f64| shape.size_at(Quantity::Shift, x);
             let series = |x: f64| shape.series(at(x), Quantity::Shift)[0];
             Table::fill([&mut table], largest, &mut |x| [series(x)]);
@@ -357,7 +358,7 @@ mod tests {
                 };
                 let both = Layered { shape: *shape, layer: Layer::new(&layer, 150.0).unwrap().0 };
                 let largest = both.value(Quantity::Approach, both.at_load(150.0));
-                let mut table = Table::EMPTY;
+                let mut table = Table::default();
                 let at = |x: f64| both.size_at(Quantity::Approach, x);
                 Table::fill([&mut table], largest, &mut |x| [both.series(at(x), Quantity::Approach)[0]]);
                 let mut x = largest;
@@ -382,7 +383,7 @@ mod tests {
             series[..4].copy_from_slice(&[y, 3.0 * y, 3.0 * y, y]);
             [series]
         };
-        let mut table = Table::EMPTY;
+        let mut table = Table::default();
         Table::fill([&mut table], 1.9, &mut cube);
         for x in [1.75, 1.8, 1.875, 1.99] {
             let integral = table.integral_from_middle(table.position(x).unwrap());

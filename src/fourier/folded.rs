@@ -140,44 +140,41 @@ impl<'a> FoldedFourier<'a> {
     /// Sums of the samples times 1, cos t, sin t, cos 2t, ..., one for each of `sums`. Continues the values periodically.
     #[inline(always)]
     pub fn sum(&mut self, values: &mut [f64], sums: &mut [f64]) {
-        dispatch!(self.sum_kernel(values, sums));
-    }
-
-    #[inline(always)]
-    fn sum_kernel(&mut self, values: &mut [f64], sums: &mut [f64]) {
-        continue_periodically(values, self.samples);
-        self.fold(values);
-        let FoldedFourier { quads, folded, totals, .. } = self;
-        let stride = (self.orders / 2).max(1);
-        // The constant, then blocks of four sums for each pair of orders.
-        let mut total = [0.0; 4];
-        for [_, _, even_cosines, _] in folded.iter() {
-            for k in 0..4 {
-                total[k] += even_cosines[k];
-            }
-        }
-        let Some((constant, totals)) = totals.split_first_mut() else { return };
-        *constant = total;
-        let count = sums.len().saturating_sub(1).div_ceil(4);
-        for (quad, totals) in totals.as_chunks_mut::<SYMMETRIES>().0.iter_mut().take(count).enumerate() {
-            let [mut a, mut b, mut c, mut d] = [[0.0; 4]; 4];
-            for (block, folded) in folded.iter().enumerate() {
-                let Some(rows) = quads.get(quad + block * stride) else { break };
+        dispatch!({
+            continue_periodically(values, self.samples);
+            self.fold(values);
+            let FoldedFourier { quads, folded, totals, .. } = self;
+            let stride = (self.orders / 2).max(1);
+            // The constant, then blocks of four sums for each pair of orders.
+            let mut total = [0.0; 4];
+            for [_, _, even_cosines, _] in folded.iter() {
                 for k in 0..4 {
-                    a[k] += folded[0][k] * rows[0][k];
-                    b[k] += folded[1][k] * rows[1][k];
-                    c[k] += folded[2][k] * rows[2][k];
-                    d[k] += folded[3][k] * rows[3][k];
+                    total[k] += even_cosines[k];
                 }
             }
-            *totals = [a, b, c, d];
-        }
-        // Summed from memory, which keeps the loop above vectorised along the positions.
-        let Some((first, sums)) = sums.split_first_mut() else { return };
-        *first = sum_of(*constant);
-        for (sum, total) in sums.iter_mut().zip(totals.iter()) {
-            *sum = sum_of(*total);
-        }
+            let Some((constant, totals)) = totals.split_first_mut() else { return };
+            *constant = total;
+            let count = sums.len().saturating_sub(1).div_ceil(4);
+            for (quad, totals) in totals.as_chunks_mut::<SYMMETRIES>().0.iter_mut().take(count).enumerate() {
+                let [mut a, mut b, mut c, mut d] = [[0.0; 4]; 4];
+                for (block, folded) in folded.iter().enumerate() {
+                    let Some(rows) = quads.get(quad + block * stride) else { break };
+                    for k in 0..4 {
+                        a[k] += folded[0][k] * rows[0][k];
+                        b[k] += folded[1][k] * rows[1][k];
+                        c[k] += folded[2][k] * rows[2][k];
+                        d[k] += folded[3][k] * rows[3][k];
+                    }
+                }
+                *totals = [a, b, c, d];
+            }
+            // Summed from memory, which keeps the loop above vectorised along the positions.
+            let Some((first, sums)) = sums.split_first_mut() else { return };
+            *first = sum_of(*constant);
+            for (sum, total) in sums.iter_mut().zip(totals.iter()) {
+                *sum = sum_of(*total);
+            }
+        });
     }
 
     /// The folded sums of the samples at each position.

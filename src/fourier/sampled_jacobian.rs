@@ -63,7 +63,34 @@ impl<'a> Assembly<'a> {
     /// Writes `Σ w φ ⊗ φ`, normalised, to the rows from `offset` on of columns that are `stride` apart.
     #[inline(always)]
     pub fn write_sums(&mut self, columns: &mut [f64], stride: usize, offset: usize) {
-        dispatch!(self.sums_kernel(columns, stride, offset));
+        dispatch!({
+            let length = 2 * self.harmonics + 1;
+            let columns = columns
+                .chunks_exact_mut(stride.max(1))
+                .map(|column| column.get_mut(offset..offset + length).unwrap_or(&mut []));
+            self.extend();
+            let harmonics = self.harmonics;
+            for (index, column) in columns.enumerate() {
+                let (order, is_sine) = (index.div_ceil(2), index % 2 == 0 && index > 0);
+                let [z, w] = &self.pairs;
+                let (pairs, sign) = if is_sine { (w, -1.0) } else { (z, 1.0) };
+                let from = |order: usize| pairs.get(2 * order..).unwrap_or(&[]);
+                let Some((constant, rows)) = column.split_first_mut() else { continue };
+                *constant = from(order + harmonics).first().copied().unwrap_or(0.0);
+                let (sums, differences) = (from(harmonics + 1 + order), from(harmonics + 1 - order.min(harmonics)));
+                let (blocks, rest) = rows.as_chunks_mut::<4>();
+                let (sums, differences) = (sums.as_chunks::<4>().0, differences.as_chunks::<4>().0);
+                // The pairs extend beyond H: whole blocks are left for the last rows.
+                if let ([row, next], Some(sum), Some(difference)) =
+                    (rest, sums.get(blocks.len()), differences.get(blocks.len()))
+                {
+                    (*row, *next) = (sum[0] + sign * difference[0], sum[1] + sign * difference[1]);
+                }
+                for ((row, sum), difference) in blocks.iter_mut().zip(sums).zip(differences) {
+                    *row = plus(*sum, sign, *difference);
+                }
+            }
+        });
     }
 
     /// Writes `Σ w φ ⊗ φ` and the outer products to the first rows of the columns. Under half-wave symmetry the products are those of
@@ -83,37 +110,13 @@ impl<'a> Assembly<'a> {
     /// Adds `a ⊗ x - b ⊗ y` to the outer products: rows x and y, columns a and b.
     #[inline(always)]
     pub fn add_products(&mut self, [a, b]: [&[f64]; 2], [x, y]: [&Blocks; 2]) {
-        dispatch!(add_products(self.products, a, b, x, y));
-    }
-
-    #[inline(always)]
-    fn sums_kernel(&mut self, columns: &mut [f64], stride: usize, offset: usize) {
-        let length = 2 * self.harmonics + 1;
-        let columns = columns
-            .chunks_exact_mut(stride.max(1))
-            .map(|column| column.get_mut(offset..offset + length).unwrap_or(&mut []));
-        self.extend();
-        let harmonics = self.harmonics;
-        for (index, column) in columns.enumerate() {
-            let (order, is_sine) = (index.div_ceil(2), index % 2 == 0 && index > 0);
-            let [z, w] = &self.pairs;
-            let (pairs, sign) = if is_sine { (w, -1.0) } else { (z, 1.0) };
-            let from = |order: usize| pairs.get(2 * order..).unwrap_or(&[]);
-            let Some((constant, rows)) = column.split_first_mut() else { continue };
-            *constant = from(order + harmonics).first().copied().unwrap_or(0.0);
-            let (sums, differences) = (from(harmonics + 1 + order), from(harmonics + 1 - order.min(harmonics)));
-            let (blocks, rest) = rows.as_chunks_mut::<4>();
-            let (sums, differences) = (sums.as_chunks::<4>().0, differences.as_chunks::<4>().0);
-            // The pairs extend beyond H: whole blocks are left for the last rows.
-            if let ([row, next], Some(sum), Some(difference)) =
-                (rest, sums.get(blocks.len()), differences.get(blocks.len()))
-            {
-                (*row, *next) = (sum[0] + sign * difference[0], sum[1] + sign * difference[1]);
+        dispatch!({
+            for ((column, &a), &b) in self.products.chunks_exact_mut(x.len().max(1)).zip(a).zip(b) {
+                for ((block, x), y) in column.iter_mut().zip(x).zip(y) {
+                    *block = plus(plus(*block, a, *x), -b, *y);
+                }
             }
-            for ((row, sum), difference) in blocks.iter_mut().zip(sums).zip(differences) {
-                *row = plus(*sum, sign, *difference);
-            }
-        }
+        });
     }
 
     #[inline(always)]
@@ -147,15 +150,6 @@ impl<'a> Assembly<'a> {
             if let (Some(first), Some([product, ..])) = (column.first_mut(), product.first()) {
                 *first = constant + 0.5 * factors[0] * product;
             }
-        }
-    }
-}
-
-#[inline(always)]
-fn add_products(products: &mut Blocks, a: &[f64], b: &[f64], x: &Blocks, y: &Blocks) {
-    for ((column, &a), &b) in products.chunks_exact_mut(x.len().max(1)).zip(a).zip(b) {
-        for ((block, x), y) in column.iter_mut().zip(x).zip(y) {
-            *block = plus(plus(*block, a, *x), -b, *y);
         }
     }
 }

@@ -1,6 +1,6 @@
 //! Interpolation at Chebyshev points, of values or of values and slopes. For a smooth function the trailing coefficients estimate the error.
 
-use super::const_math::cosine;
+use super::const_math::{cosine, tabulate};
 use crate::numerics::polynomial::Rows;
 
 /// Number of coefficients of a polynomial, and largest number of interpolation points.
@@ -30,17 +30,8 @@ const fn powers_in<const N: usize>(shift: f64, scale: f64) -> [[f64; N]; N] {
 
 /// The same for the last M of them, divided by their leading coefficients.
 pub(crate) const fn monic_powers<const N: usize, const M: usize>(shift: f64, scale: f64) -> [[f64; N]; M] {
-    let (powers, mut table) = (powers_in::<N>(shift, scale), [[0.0; N]; M]);
-    let mut n = N - M;
-    while n < N {
-        let mut k = 0;
-        while k <= n {
-            table[n + M - N][k] = powers[n][k] / powers[n][n];
-            k += 1;
-        }
-        n += 1;
-    }
-    table
+    let powers = powers_in::<N>(shift, scale);
+    tabulate!(M, |m| tabulate!(N, |k| powers[N - M + m][k] / powers[N - M + m][N - M + m]))
 }
 
 /// Expansion about the middle of (-1, 1), in powers of z.
@@ -49,15 +40,7 @@ static AROUND_MIDDLE: [[f64; 32]; 32] = powers_in(0.0, 1.0);
 static FROM_END: [[f64; 24]; 24] = powers_in(-1.0, 2.0);
 
 /// 1/(2n), from n = 1. A vectorised division may have an unused lane that divides by 0.
-static PER_TWICE: [f64; TERMS] = {
-    let mut table = [0.5; TERMS];
-    let mut n = 1;
-    while n < TERMS {
-        table[n] = 0.5 / (n as f64 + 1.0);
-        n += 1;
-    }
-    table
-};
+static PER_TWICE: [f64; TERMS] = tabulate!(TERMS, |n| 0.5 / (n as f64 + 1.0));
 
 /// Value and slope of a function at a point.
 #[derive(Debug, Clone, Copy, Default)]
@@ -72,47 +55,17 @@ pub(crate) struct Interpolant<const N: usize>([f64; N]);
 
 impl<const N: usize> Interpolant<N> {
     /// Interpolation points on (-1, 1), in descending order.
-    pub const POINTS: [f64; N] = {
-        let mut table = [0.0; N];
-        let mut j = 0;
-        while j < N {
-            table[j] = cosine(2 * j + 1, N);
-            j += 1;
-        }
-        table
-    };
+    pub const POINTS: [f64; N] = tabulate!(N, |j| cosine(2 * j + 1, N));
 
     /// T_n at point j, at `[j][n]`.
-    const AT_POINTS: [[f64; N]; N] = {
-        let mut table = [[0.0; N]; N];
-        let mut j = 0;
-        while j < N {
-            let mut n = 0;
-            while n < N {
-                table[j][n] = cosine(n * (2 * j + 1), N);
-                n += 1;
-            }
-            j += 1;
-        }
-        table
-    };
+    const AT_POINTS: [[f64; N]; N] = tabulate!(N, |j| tabulate!(N, |n| cosine(n * (2 * j + 1), N)));
 
     /// sin θ sin (N-m)θ at `[j][m]`, with point j at cos θ.
-    const SINES: [[f64; N]; N] = {
-        let mut table = [[0.0; N]; N];
-        let mut j = 0;
-        while j < N {
-            let mut m = 0;
-            while m < N {
-                // sin θ = cos(θ - π/2), in N parts of a quarter of a period.
-                let (first, all) = (2 * j + 1, (N - m) * (2 * j + 1));
-                table[j][m] = cosine(first + 3 * N, N) * cosine(all + 3 * N, N);
-                m += 1;
-            }
-            j += 1;
-        }
-        table
-    };
+    const SINES: [[f64; N]; N] = tabulate!(N, |j| tabulate!(N, |m| {
+        // sin θ = cos(θ - π/2), in N parts of a quarter of a period.
+        let (first, all) = (2 * j + 1, (N - m) * (2 * j + 1));
+        cosine(first + 3 * N, N) * cosine(all + 3 * N, N)
+    }));
 
     /// Values at the interpolation points, computed in their order.
     pub fn at_points<T: Copy + Default>(mut value: impl FnMut(f64) -> T) -> [T; N] {

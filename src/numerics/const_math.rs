@@ -1,6 +1,23 @@
-//! Elementary functions for tables that are computed at compile time.
+//! Tables that are computed at compile time, and elementary functions for them.
 
 use core::f64::consts::FRAC_PI_2;
+
+/// An array at compile time: `tabulate!(length, |index| entry)`.
+macro_rules! tabulate {
+    ($length:expr, |$index:ident| $entry:expr) => {{
+        let $index = 0;
+        let mut table = [$entry; $length];
+        let mut index = 0;
+        while index < $length {
+            let $index = index;
+            table[index] = $entry;
+            index += 1;
+        }
+        table
+    }};
+}
+
+pub(crate) use tabulate;
 
 /// `cos(π/2 m/quarter)`: Taylor series on the first octant, symmetry elsewhere.
 pub(crate) const fn cosine(m: usize, quarter: usize) -> f64 {

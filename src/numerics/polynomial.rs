@@ -1,5 +1,6 @@
 //! Polynomials evaluated by four interleaved Horner schemes, two vectors of two, to shorten the chain of dependent operations.
 
+use super::const_math::tabulate;
 use wide::f64x2;
 
 /// Coefficients of x⁰, x¹, ... in rows of four.
@@ -8,13 +9,7 @@ pub(crate) type Rows<const R: usize> = [[f64; 4]; R];
 /// Arranges coefficients in rows.
 pub(crate) const fn rows<const N: usize, const R: usize>(terms: &[f64; N]) -> Rows<R> {
     assert!(N == 4 * R);
-    let mut rows = [[0.0; 4]; R];
-    let mut n = 0;
-    while n < N {
-        rows[n / 4][n % 4] = terms[n];
-        n += 1;
-    }
-    rows
+    tabulate!(R, |r| [terms[4 * r], terms[4 * r + 1], terms[4 * r + 2], terms[4 * r + 3]])
 }
 
 /// Value at x of a polynomial given by its rows.

@@ -1,6 +1,6 @@
 //! Gauss-Legendre rules on (0, 1). All weights are positive: a positive integrand is summed without cancellation.
 
-use super::const_math::cosine;
+use super::const_math::{cosine, tabulate};
 
 /// Blocks of four nodes in the largest [`gauss_rule`].
 pub(crate) const MAX_GAUSS_BLOCKS: usize = 8;
@@ -27,13 +27,7 @@ const fn gauss_node(n: usize, i: usize) -> (f64, f64) {
 
 /// Nodes and weights of the Gauss-Legendre rule of N nodes on (0, 1).
 pub(crate) const fn gauss_legendre<const N: usize>() -> [[f64; N]; 2] {
-    let mut rule = [[0.0; N]; 2];
-    let mut i = 0;
-    while i < N {
-        (rule[0][i], rule[1][i]) = gauss_node(N, i);
-        i += 1;
-    }
-    rule
+    [tabulate!(N, |i| gauss_node(N, i).0), tabulate!(N, |i| gauss_node(N, i).1)]
 }
 
 /// Gauss-Legendre rules with 4, 8, 12, ... nodes, concatenated.

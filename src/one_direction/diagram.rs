@@ -92,66 +92,97 @@ impl Diagram for &[[f64; 4]] {
     fn replace<const N: usize>(&mut self, _: usize, _: [Knot; N]) {}
 }
 
+/// The end of a step: its point in characteristic coordinates, and the normal state there.
+struct End {
+    friction_coefficient: f64,
+    xi: f64,
+    eta: f64,
+    normal: Normal,
+}
+
+impl End {
+    /// The outermost knot, within Coulomb's bound, which a sum of forces may exceed by rounding.
+    #[inline(always)]
+    fn knot(&self, force: f64) -> Knot {
+        let (load, limit) = (self.normal.load, self.friction_coefficient * self.normal.load);
+        let bounded = |force: f64| if force > limit { limit } else { force };
+        Knot { xi: self.xi, eta: self.eta, load, force: -bounded(-bounded(force)) }
+    }
+}
+
 /// The step to a closed contact with the given normal state at the displacement u.
 #[inline(always)]
 pub(crate) fn step(element: &Element, diagram: &mut impl Diagram, displacement: f64, normal: &Normal) -> Response {
     let mu = element.friction_coefficient;
-    let Normal { load, shift, load_slope, shift_slope } = *normal;
-    let (xi, eta) = (displacement - mu * shift, displacement + mu * shift);
-    // Coulomb's bound, of which a sum of forces may be off by rounding.
-    let bounded = |force: f64, bound: f64| if force > bound { bound } else { force };
-    let end = |force: f64| Knot { xi, eta, load, force: -bounded(-bounded(force, mu * load), mu * load) };
+    let (xi, eta) = (displacement - mu * normal.shift, displacement + mu * normal.shift);
+    let end = End { friction_coefficient: mu, xi, eta, normal: *normal };
     let inside = |&[knot_xi, knot_eta, ..]: &[f64; 4]| knot_xi > xi && knot_eta < eta;
     let knots = diagram.knots();
     let kept = knots.iter().rposition(inside).map_or(0, |last| last + 1);
     let (stays, beyond) = knots.split_at_checked(kept).unwrap_or((knots, &[]));
-    let Some(inner) = stays.last().copied().map(Knot::from) else {
-        let centre = knots.first().map_or(displacement, |[centre, ..]| *centre);
-        // A size below the rounding of displacements keeps the direction of its slip.
-        let before = knots.last().map_or(0.0, |&[.., force]| force);
-        let (sign, origin) = match (centre <= xi, centre >= eta) {
-            (true, true) => (if before == 0.0 { 0.0 } else { mu.copysign(before) }, xi),
-            (true, false) => (mu, xi),
-            _ => (-mu, eta),
-        };
-        let force = sign * load;
-        diagram.replace(0, [Knot::centre(origin), Knot { xi, eta, load, force }]);
-        return Response { force, by_displacement: 0.0, by_input: sign * load_slope };
+    match (stays.last().copied().map(Knot::from), beyond.first().copied().map(Knot::from)) {
+        (None, _) => slip_grossly(diagram, displacement, &end),
+        (Some(inner), None) => stick(element, diagram, kept, &inner, &end),
+        (Some(inner), Some(outer)) => cut(element, diagram, kept, [&inner, &outer], &end),
+    }
+}
+
+/// Gross slip: one piece of slope ±mu.
+#[inline(always)]
+fn slip_grossly(diagram: &mut impl Diagram, displacement: f64, end: &End) -> Response {
+    let &End { friction_coefficient: mu, xi, eta, normal: Normal { load, load_slope, .. } } = end;
+    let knots = diagram.knots();
+    let centre = knots.first().map_or(displacement, |[centre, ..]| *centre);
+    // A size below the rounding of displacements keeps the direction of its slip.
+    let before = knots.last().map_or(0.0, |&[.., force]| force);
+    let (sign, origin) = match (centre <= xi, centre >= eta) {
+        (true, true) => (if before == 0.0 { 0.0 } else { mu.copysign(before) }, xi),
+        (true, false) => (mu, xi),
+        _ => (-mu, eta),
     };
-    let Some(outer) = beyond.first().copied().map(Knot::from) else {
-        // Everything sticks: a piece with D = Δu/ΔS.
-        let (falling, rising) = (inner.xi - xi, eta - inner.eta);
-        let per_shift = 1.0 / (rising + falling);
-        let slope = mu * ((rising - falling) * per_shift);
-        let rise = element.per_two_mu * (rising + falling);
-        // The secant stiffness is the slope in the middle of the piece up to (rise/distance)²/24, with the distance from the singularities
-        // of N(S), and a difference whose rounding errors are relative to the rise: the better one of both.
-        let extent = inner.xi.abs().max(inner.eta.abs()).max(eta.abs()) * (2.0 * element.per_two_mu);
-        let share = rise / shift.min(element.largest_shift - shift).max(rise);
-        let secant = if share * share * rise < 24.0 * f64::EPSILON * extent {
-            element.load_at_shift(shift - 0.5 * rise).1
-        } else {
-            (load - inner.load) * (2.0 * mu * per_shift)
-        };
-        let end = end(inner.force + slope * (load - inner.load));
-        diagram.replace(kept, [end]);
-        let by_input = slope * (load_slope - secant * shift_slope);
-        return Response { force: end.force, by_displacement: secant, by_input };
+    let force = sign * load;
+    diagram.replace(0, [Knot::centre(origin), Knot { xi, eta, load, force }]);
+    Response { force, by_displacement: 0.0, by_input: sign * load_slope }
+}
+
+/// Everything sticks: a piece with D = Δu/ΔS from the outermost knot `inner`.
+#[inline(always)]
+fn stick(element: &Element, diagram: &mut impl Diagram, kept: usize, inner: &Knot, end: &End) -> Response {
+    let &End { friction_coefficient: mu, xi, eta, normal: Normal { load, shift, load_slope, shift_slope } } = end;
+    let (falling, rising) = (inner.xi - xi, eta - inner.eta);
+    let per_shift = 1.0 / (rising + falling);
+    let slope = mu * ((rising - falling) * per_shift);
+    let rise = element.per_two_mu * (rising + falling);
+    // The secant stiffness is the slope in the middle of the piece up to (rise/distance)²/24, with the distance from the singularities
+    // of N(S), and a difference whose rounding errors are relative to the rise: the better one of both.
+    let extent = inner.xi.abs().max(inner.eta.abs()).max(eta.abs()) * (2.0 * element.per_two_mu);
+    let share = rise / shift.min(element.largest_shift - shift).max(rise);
+    let secant = if share * share * rise < 24.0 * f64::EPSILON * extent {
+        element.load_at_shift(shift - 0.5 * rise).1
+    } else {
+        (load - inner.load) * (2.0 * mu * per_shift)
     };
-    // The piece from `inner` to `outer` leaves the quadrant through one of its sides, or through its corner.
+    let end = end.knot(inner.force + slope * (load - inner.load));
+    diagram.replace(kept, [end]);
+    Response { force: end.force, by_displacement: secant, by_input: slope * (load_slope - secant * shift_slope) }
+}
+
+/// The piece from `inner` to `outer` leaves the quadrant through one of its sides, where a slip zone cuts it, or through its corner.
+#[inline(always)]
+fn cut(element: &Element, diagram: &mut impl Diagram, kept: usize, [inner, outer]: [&Knot; 2], end: &End) -> Response {
+    let &End { friction_coefficient: mu, xi, eta, normal: Normal { load, load_slope, shift_slope, .. } } = end;
     let (falling, rising) = (inner.xi - outer.xi, outer.eta - inner.eta);
-    let (to_xi, to_eta) = (inner.xi - xi, eta - inner.eta);
     let [to_side, to_other] = match (falling > 0.0, rising > 0.0) {
-        (true, true) => shares([to_xi, to_eta], [falling, rising]),
+        (true, true) => shares([inner.xi - xi, eta - inner.eta], [falling, rising]),
         // A slip zone, the common case, is parallel to one side: the table that follows need not wait for a division.
         (true, false) => [0.0, BEYOND],
         _ => [BEYOND, 0.0],
     };
-    let slope = outer.slope_from(&inner, mu);
+    let slope = outer.slope_from(inner, mu);
     if to_side == to_other {
         // The contact recedes through the piece, or stays: nothing slips.
         let stays = (outer.xi, outer.eta) == (xi, eta);
-        let end = end(if stays { outer.force } else { inner.force + slope * (load - inner.load) });
+        let end = end.knot(if stays { outer.force } else { inner.force + slope * (load - inner.load) });
         diagram.replace(kept, [end]);
         return Response { force: end.force, by_displacement: load_slope / shift_slope, by_input: 0.0 };
     }
@@ -165,12 +196,12 @@ pub(crate) fn step(element: &Element, diagram: &mut impl Diagram, displacement: 
     let (cut_xi, cut_eta) = if at_outer { (outer.xi, outer.eta) } else { (cut_xi, cut_eta) };
     let (cut_load, cut_stiffness) = element.load_at_shift((element.per_two_mu * (cut_eta - cut_xi)).max(0.0));
     let cut = if at_outer {
-        outer
+        *outer
     } else {
         let force = inner.force + slope * (cut_load - inner.load);
         Knot { xi: cut_xi, eta: cut_eta, load: cut_load, force }
     };
-    let end = end(cut.force + sign * (load - cut.load));
+    let end = end.knot(cut.force + sign * (load - cut.load));
     if cut.xi > xi || cut.eta < eta {
         diagram.replace(kept, [cut, end]);
     } else {

@@ -23,6 +23,31 @@ pub(crate) struct Path {
     pub displacement: f64,
 }
 
+impl Path {
+    fn contact_rate(&self) -> f64 {
+        self.shift[1] - self.shift[0]
+    }
+
+    /// Rate of the boundary of a slip zone through a piece of slope D, of slip in the direction ±mu.
+    #[inline(always)]
+    fn rate(&self, slope: f64, sign: f64) -> f64 {
+        (self.displacement - sign * self.contact_rate()) / (slope - sign)
+    }
+
+    /// The direction ±mu in which slip starts at the edge of a piece of slope D; `None` if it does not.
+    #[inline(always)]
+    fn direction_of_slip(&self, mu: f64, slope: f64) -> Option<f64> {
+        let contact_rate = self.contact_rate();
+        let grows = contact_rate > 0.0;
+        let excess = if grows { self.displacement } else { self.displacement - slope * contact_rate };
+        let sticks = excess == 0.0 || (grows && excess.abs() <= mu * contact_rate);
+        let sign = mu.copysign(excess);
+        // The edge of a slip zone is faster than the contact size, but for rounding.
+        let slips = !sticks && (slope == sign || contact_rate >= 0.0 || self.rate(slope, sign) < contact_rate);
+        slips.then_some(sign)
+    }
+}
+
 /// A segment of a path: boundaries of the slip zone and of the contact at both of its ends.
 #[derive(Debug, Clone, Copy)]
 struct Slip {
@@ -34,15 +59,12 @@ struct Slip {
 #[inline(never)]
 pub(crate) fn dissipated(element: &Element, knots: &[[f64; 4]], path: &Path) -> f64 {
     let mu = element.friction_coefficient;
-    let [start, end] = path.shift;
-    let contact_rate = end - start;
+    let ([start, end], contact_rate) = (path.shift, path.contact_rate());
     if contact_rate == 0.0 && path.displacement == 0.0 {
         return 0.0;
     }
-    let mut energy = 0.0;
     // Fraction of the path, size of the contact, boundary of the slip zone, and its direction once there is slip.
-    let (mut fraction, mut outer, mut inner) = (0.0, start, start);
-    let mut direction = None;
+    let (mut energy, mut fraction, mut outer, mut inner, mut direction) = (0.0, 0.0, start, start, None);
     let mut last = knots.len().saturating_sub(1);
     // Each round ends a piece, the slip, or the step.
     for _ in 0..3 * knots.len() + 4 {
@@ -51,34 +73,16 @@ pub(crate) fn dissipated(element: &Element, knots: &[[f64; 4]], path: &Path) -> 
         };
         let (below, above) = (Knot::from(below), Knot::from(above));
         let (slope, lowest) = (above.slope_from(&below, mu), below.shift(mu));
-        let rate = |sign: f64| (path.displacement - sign * contact_rate) / (slope - sign);
-        let sign = match direction {
-            Some(sign) => sign,
-            None => {
-                let excess = if contact_rate > 0.0 {
-                    if path.displacement.abs() <= mu * contact_rate {
-                        return energy;
-                    }
-                    path.displacement
-                } else {
-                    path.displacement - slope * contact_rate
-                };
-                let sign = mu.copysign(excess);
-                // The edge of a slip zone is faster than the contact size, but for rounding.
-                let slips = excess != 0.0 && (slope == sign || contact_rate >= 0.0 || rate(sign) < contact_rate);
-                if !slips {
-                    // The contact recedes through the piece without slip, or stays; rounding may place a piece beyond its size.
-                    if end >= lowest || contact_rate == 0.0 {
-                        return energy;
-                    }
-                    fraction = ((lowest - start) / contact_rate).clamp(0.0, 1.0);
-                    (outer, inner) = (lowest, lowest);
-                    last -= 1;
-                    continue;
-                }
-                direction = Some(sign);
-                sign
+        direction = direction.or_else(|| path.direction_of_slip(mu, slope));
+        let Some(sign) = direction else {
+            // The contact recedes through the piece without slip, grows or stays; rounding may place a piece beyond its size.
+            if contact_rate >= 0.0 || end >= lowest {
+                return energy;
             }
+            fraction = ((lowest - start) / contact_rate).clamp(0.0, 1.0);
+            (outer, inner) = (lowest, lowest);
+            last -= 1;
+            continue;
         };
         if slope == sign {
             // In slip in this direction already: the boundary jumps to the end of the piece.
@@ -86,7 +90,7 @@ pub(crate) fn dissipated(element: &Element, knots: &[[f64; 4]], path: &Path) -> 
             last -= 1;
             continue;
         }
-        let rate = rate(sign).min(0.0);
+        let rate = path.rate(slope, sign).min(0.0);
         // Fraction until a distance is covered, if that is within a step.
         let to = |distance: f64, rate: f64| {
             if rate < 0.0 && distance > rate { (distance.min(0.0) / rate).max(0.0) } else { f64::INFINITY }
@@ -117,9 +121,8 @@ pub(crate) fn dissipated(element: &Element, knots: &[[f64; 4]], path: &Path) -> 
 /// Gross slip, from a fraction of the path and a size of the contact to the end of the path.
 fn gross_slip(element: &Element, path: &Path, direction: Option<f64>, fraction: f64, outer: f64) -> f64 {
     let mu = element.friction_coefficient;
-    let contact_rate = path.shift[1] - path.shift[0];
     let sign = direction.unwrap_or(mu.copysign(path.displacement));
-    let slip = (path.displacement - sign * contact_rate) * sign.signum();
+    let slip = (path.displacement - sign * path.contact_rate()) * sign.signum();
     mu * slip.max(0.0) * (1.0 - fraction) * mean_load(element, [outer, path.shift[1]]).max(0.0)
 }
 
@@ -160,45 +163,42 @@ impl Slip {
     /// The inner integral is `R = N(S_b) - N(S_c) - N'(S_c)(S_b - S_c)`. Unless the slip zone is too narrow for this difference, the mean of
     /// R along the path follows from N and N', or by parts from N and M.
     fn integral(&self, element: &Element) -> f64 {
-        dispatch!(self.integral_kernel(element))
-    }
-
-    #[inline(always)]
-    fn integral_kernel(&self, element: &Element) -> f64 {
-        let [c0, c1] = self.inner;
-        let [b0, b1] = self.outer;
-        let (growth, swept) = (b1 - b0, c0 - c1);
-        if swept <= 0.0 {
-            return 0.0;
-        }
-        let widest = b0.max(b1);
-        let width = widest - c1;
-        if 2.5 * width < widest {
-            let room = room(element, c1, widest);
-            let path_rule = gauss_rule(if 16.0 * swept.max(growth.abs()) < room { 1 } else { 2 });
-            if 1.5 * width < room {
-                let zone_rule: &[Block] = if 8.0 * width < room { &ZONE_RULE } else { &WIDE_ZONE_RULE };
-                return self.integral_of_curvature(element, path_rule, zone_rule);
+        dispatch!({
+            let [c0, c1] = self.inner;
+            let [b0, b1] = self.outer;
+            let (growth, swept) = (b1 - b0, c0 - c1);
+            if swept <= 0.0 {
+                return 0.0;
             }
-            // A wider zone loses few digits, because N'' is large there.
-            if 8.0 * width < widest {
-                return self.integral_near_the_largest_size(element);
+            let widest = b0.max(b1);
+            let width = widest - c1;
+            if 2.5 * width < widest {
+                let room = room(element, c1, widest);
+                let path_rule = gauss_rule(if 16.0 * swept.max(growth.abs()) < room { 1 } else { 2 });
+                if 1.5 * width < room {
+                    let zone_rule: &[Block] = if 8.0 * width < room { &ZONE_RULE } else { &WIDE_ZONE_RULE };
+                    return self.integral_of_curvature(element, path_rule, zone_rule);
+                }
+                // A wider zone loses few digits, because N'' is large there.
+                if 8.0 * width < widest {
+                    return self.integral_near_the_largest_size(element);
+                }
             }
-        }
-        let inner = if 16.0 * swept < room(element, c1, c0) {
-            let [[nodes, weights]] = PATH_RULE;
-            let (loads, slopes) = element.loads_at::<true, 4>(&nodes.map(|node| c0 - node * swept));
-            let mut tangents = [0.0; 4];
-            for k in 0..4 {
-                tangents[k] = loads[k] + slopes[k] * self.width(nodes[k]);
-            }
-            dot(&weights, &tangents)
-        } else {
-            let at = |s: f64, width: f64| element.load_at_shift(s).0 * width;
-            let ends = at(c0, b0 - c0) - at(c1, b1 - c1);
-            ((growth + 2.0 * swept) * mean_load(element, [c0, c1]) + ends) / swept
-        };
-        swept * (mean_load(element, self.outer) - inner).max(0.0)
+            let inner = if 16.0 * swept < room(element, c1, c0) {
+                let [[nodes, weights]] = PATH_RULE;
+                let (loads, slopes) = element.loads_at::<true, 4>(&nodes.map(|node| c0 - node * swept));
+                let mut tangents = [0.0; 4];
+                for k in 0..4 {
+                    tangents[k] = loads[k] + slopes[k] * self.width(nodes[k]);
+                }
+                dot(&weights, &tangents)
+            } else {
+                let at = |s: f64, width: f64| element.load_at_shift(s).0 * width;
+                let ends = at(c0, b0 - c0) - at(c1, b1 - c1);
+                ((growth + 2.0 * swept) * mean_load(element, [c0, c1]) + ends) / swept
+            };
+            swept * (mean_load(element, self.outer) - inner).max(0.0)
+        })
     }
 
     /// Width of the slip zone after a fraction of the segment.

@@ -26,7 +26,7 @@ use core::array::from_fn;
 use core::f64::consts::{FRAC_PI_2, PI};
 
 /// An elliptical Hertz contact.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct HertzEllipse {
     semi_axis_x: f64,
     semi_axis_y: f64,
@@ -39,16 +39,6 @@ pub struct HertzEllipse {
 }
 
 impl HertzEllipse {
-    /// No shape, for memory of another kind.
-    pub(crate) const EMPTY: HertzEllipse = HertzEllipse {
-        semi_axis_x: 0.0,
-        semi_axis_y: 0.0,
-        normal_force: 0.0,
-        normal: 0.0,
-        tangential: 0.0,
-        lateral: 0.0,
-    };
-
     /// S/U = C_t/C_n, the same for all sizes.
     pub(crate) fn tangential_ratio(&self) -> f64 {
         self.tangential / self.normal

@@ -23,7 +23,7 @@ use crate::shape::{ORDER, Plane, Quantity, Reversed, Series, Shape, TINY, identi
 
 /// The layer of a contact, in absolute terms.
 #[repr(C)]
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Layer {
     /// Normal and tangential compliance without load \[m/N\]: the compliances of the parameters times 1 + N_r/N_c.
     normal: f64,
@@ -238,7 +238,7 @@ impl Layer {
 /// The stick zones of a contact with a layer in series: those of the contact, at which the displacement and the compliance of the layer
 /// are added.
 #[repr(C)]
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct LayeredZones {
     /// The stick zones of a flat with rounded edges without the layer.
     pub flat: RoundedFlatZones,
@@ -250,23 +250,14 @@ pub(crate) struct LayeredZones {
 }
 
 impl LayeredZones {
-    /// The stick zones of an open contact.
-    pub const EMPTY: LayeredZones = LayeredZones {
-        flat: RoundedFlatZones::EMPTY,
-        elliptic: 0,
-        layer: Layer::NONE,
-        slip_shift: 0.0,
-        small_load: SmallLoadSeries::new(0.0, [0.0; RETAINED_TERMS]),
-    };
-
     /// A flat with rounded edges.
     pub fn of_flat(flat: RoundedFlatZones) -> LayeredZones {
-        LayeredZones { flat, ..LayeredZones::EMPTY }
+        LayeredZones { flat, ..LayeredZones::default() }
     }
 
     /// An ellipse.
     pub fn of_ellipse() -> LayeredZones {
-        LayeredZones { elliptic: 1, ..LayeredZones::EMPTY }
+        LayeredZones { elliptic: 1, ..LayeredZones::default() }
     }
 
     /// Adds a layer, unless it has no compliance.
@@ -463,7 +454,7 @@ pub(crate) fn artanh_remainder(z: f64) -> f64 {
 
 /// A shape and a layer in series with it.
 #[repr(C)]
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Layered<S> {
     pub shape: S,
     pub layer: Layer,

@@ -15,6 +15,7 @@
 
 use crate::error::Error;
 use crate::limits::{LARGEST_EXPONENT, exponent_of, in_range};
+use crate::numerics::const_math::tabulate;
 use crate::parameters::{CENTRE_POINT, Pair, Parameters};
 use crate::shape::rounded_punch::{RoundedPunch, TINY};
 use crate::shape::stick_zone::SurfacePoint;
@@ -25,7 +26,7 @@ use core::f64::consts::{LN_2, PI};
 /// Smallest K for which the laws are inverted: the approach is largest where its K is 0.
 const SMALLEST_COMPLIANCE: f64 = 1.0 / 16.0;
 /// A flat with rounded edges pressed on a flat.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct RoundedFlat {
     flat: f64,
     length: f64,
@@ -43,18 +44,6 @@ pub struct RoundedFlat {
 }
 
 impl RoundedFlat {
-    /// No shape, for memory of another kind.
-    pub(crate) const EMPTY: RoundedFlat = RoundedFlat {
-        flat: 0.0,
-        length: 0.0,
-        load_scale: 0.0,
-        compliance_scale: 0.0,
-        normal_constant: 0.0,
-        tangential_constant: 0.0,
-        lateral: [0.0; 2],
-        reference: (0.0, RoundedPunch { flat: 0.0, w: 0.0, half_width: 0.0, psi: 0.0 }),
-    };
-
     /// (S - U)/N = K_t - K_n, the same for all sizes \[m/N\].
     pub(crate) fn shift_less_approach(&self) -> f64 {
         self.compliance_scale * (self.tangential_constant - self.normal_constant)
@@ -301,15 +290,7 @@ impl Shape for RoundedFlat {
 }
 
 /// 1/(k + 1).
-const PER_ORDER: [f64; ORDER] = {
-    let mut reciprocals = [1.0; ORDER];
-    let mut k = 0;
-    while k < ORDER {
-        reciprocals[k] = 1.0 / (k + 1) as f64;
-        k += 1;
-    }
-    reciprocals
-};
+const PER_ORDER: [f64; ORDER] = tabulate!(ORDER, |k| 1.0 / (k + 1) as f64);
 
 /// Sets a coefficient that the next round requires, if there is one.
 fn set(series: &mut Series, k: usize, value: f64) {

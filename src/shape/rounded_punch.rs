@@ -17,6 +17,7 @@
 //! The closed forms in ψ suffer cancellation for a nearly flat contact (g ~ w³, βg ~ w⁵, γg² ~ w⁸). Up to ψ = π/3, power series in
 //! `χ = tan²(ψ/2) = (w/(a+c))² ≤ 1/3` are used instead; they converge for χ < 1 and lose at most one bit.
 
+use crate::numerics::const_math::tabulate;
 use crate::numerics::polynomial::{self, Rows, rows};
 use core::f64::consts::PI;
 
@@ -29,35 +30,26 @@ pub(crate) const TINY: f64 = 1e-300;
 type Table = Rows<{ TERMS / 4 }>;
 
 /// `g = 8 w³/(a+c) Σ l_k χ^k`; from `(1+χ)² (ψ - sin ψ cos ψ)` with ψ = 2 atan √χ.
-static LOAD: Table = {
-    let mut table = [0.0; TERMS];
-    let mut sign = -1.0;
-    let mut k = 0;
-    while k < TERMS {
-        let n = 2.0 * k as f64;
-        table[k] = sign / ((n + 3.0) * (n + 1.0) * (n - 1.0));
-        sign = -sign;
-        k += 1;
-    }
-    rows(&table)
-};
+static LOAD: Table = rows(&tabulate!(TERMS, |k| {
+    let n = 2.0 * k as f64;
+    sign(k + 1) / ((n + 3.0) * (n + 1.0) * (n - 1.0))
+}));
+
+/// (-1)^k.
+const fn sign(k: usize) -> f64 {
+    if k.is_multiple_of(2) { 1.0 } else { -1.0 }
+}
 
 /// Coefficients of β (`order` 1) or γ (`order` 2) divided by χ.
 ///
 /// As functions of ln c both satisfy `df/d ln c = 1 - f d ln g^order / d ln c`. In terms of χ this is
 /// `χ (1 - χ²) P f' + order A f = 2 χ P` with `A = ψ/(2 √χ)` and `P = (ψ - sin ψ cos ψ)/(8 χ √χ)`.
 const fn mean_over_ln_c(order: f64) -> Table {
-    let mut atan = [0.0; TERMS + 1];
-    let mut load = [0.0; TERMS + 1];
-    let mut sign = 1.0;
-    let mut k = 0;
-    while k <= TERMS {
+    let atan = tabulate!(TERMS + 1, |k| sign(k) / (2.0 * k as f64 + 1.0));
+    let load = tabulate!(TERMS + 1, |k| {
         let n = k as f64;
-        atan[k] = sign / (2.0 * n + 1.0);
-        load[k] = sign * (n + 1.0) * (n + 2.0) / (2.0 * n + 3.0);
-        sign = -sign;
-        k += 1;
-    }
+        sign(k) * (n + 1.0) * (n + 2.0) / (2.0 * n + 3.0)
+    });
     // f_0 = 0; table[k - 1] is f_k.
     let mut table = [0.0; TERMS];
     let mut k = 1;
@@ -85,7 +77,7 @@ fn sum(table: &Table, chi: f64) -> f64 {
 }
 
 /// A contact, given by the half-width a of the flat and by w; lengths in any one unit.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct RoundedPunch {
     pub flat: f64,
     pub w: f64,

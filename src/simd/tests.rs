@@ -77,11 +77,11 @@ fn the_complex_stiffness() {
         for amplitude in amplitudes {
             compare("complex stiffness", || {
                 let k = contact.complex_stiffness(amplitude).unwrap();
-                vec![k.real(), k.imaginary(), k.d_real(), k.d_imag()]
+                vec![k.real, k.imaginary, k.d_real, k.d_imag]
             });
         }
         let run = |amplitude: &[f64]| {
-            let mut table = StiffnessTable::EMPTY;
+            let mut table = StiffnessTable::default();
             table.init(&contact);
             let mut outputs = [(); 4].map(|()| vec![0.0; amplitude.len()]);
             table.write(&contact, amplitude, outputs.each_mut().map(|values| Some(values.as_mut_slice())));

@@ -157,8 +157,8 @@ fn open_and_frictionless_contacts_carry_no_force() {
             let point = contact.curve_at_displacement(1.0).unwrap();
             assert_eq!((point.force(), point.stiffness(), point.shear(0.0)), (0.0, 0.0, 0.0));
             let complex = contact.complex_stiffness(1.0).unwrap();
-            assert_eq!((complex.real(), complex.imaginary()), (0.0, 0.0));
-            assert_eq!((complex.d_real(), complex.d_imag()), (0.0, 0.0));
+            assert_eq!((complex.real, complex.imaginary), (0.0, 0.0));
+            assert_eq!((complex.d_real, complex.d_imag), (0.0, 0.0));
         }
     }
 }

@@ -16,7 +16,7 @@
 //! as two reversals merge. The two differ by the error of the rule.
 
 use super::motion::{Grid, Instant, Motion, fill_integrals, fill_phi};
-use super::segments::{NodalFourier, Nodes, PANEL, Segment};
+use super::segments::{NodalFourier, PANEL, Segment};
 use super::sensitivity::ReversalSensitivities;
 use super::{HarmonicOutput, Requested};
 use crate::constant_load::contact::Contact;
@@ -89,7 +89,7 @@ struct Buffers<'a> {
     harmonics: usize,
     grid: Grid<'a>,
     /// Instant and displacement of each reversal of the motion.
-    instants: &'a mut [[f64; 2]],
+    instants: &'a mut [Instant],
     nodes: NodalFourier<'a>,
     /// φ_r and dT_r of each reversal on the stack, rows over the coefficients.
     gradients: &'a mut Blocks,
@@ -121,7 +121,7 @@ impl<'a> Workspace<'a> {
                 coefficients: parts.take(size.coefficients())?,
                 rate: parts.take(sample_length(points))?,
             },
-            instants: parts.take(2 * points)?.as_chunks_mut().0,
+            instants: parts.take_records(points)?,
             nodes: NodalFourier::take(parts, size)?,
             gradients: parts.take_blocks(2 * row * layout.reversals())?,
             phi_integrals: parts.take_blocks(row)?,
@@ -147,13 +147,9 @@ pub(super) fn harmonic_force(
 ) {
     let Workspace { reversals, buffers } = workspace;
     let HarmonicOutput { force, jacobian, dissipated, .. } = output;
-    let mut period = Period {
-        law: SteadyState::new(contact, reversals, dissipated.is_some()),
-        requested: Requested { force: force.is_some(), stiffness: jacobian.is_some() },
-        motion: Motion::new(displacement),
-        now: Response { force: 0.0, stiffness: 0.0 },
-        sensitivity: None,
-    };
+    let law = SteadyState::new(contact, reversals, dissipated.is_some());
+    let requested = Requested { force: force.is_some(), stiffness: jacobian.is_some() };
+    let mut period = Period::new(law, displacement, requested, None);
     let half_wave_symmetric = period.integrate(buffers);
     if let (Some(dissipated), Some(energy)) = (dissipated, period.law.dissipated()) {
         *dissipated = if half_wave_symmetric { 2.0 * energy } else { energy };
@@ -179,13 +175,9 @@ pub(super) fn harmonic_sensitivity(
 ) {
     let Workspace { reversals, buffers } = workspace;
     sensitivity.fill(0.0);
-    let mut period = Period {
-        law: SteadyState::new(contact, reversals, false),
-        requested: Requested { force: false, stiffness: false },
-        motion: Motion::new(displacement),
-        now: Response { force: 0.0, stiffness: 0.0 },
-        sensitivity: Some(&mut *sensitivity),
-    };
+    let law = SteadyState::new(contact, reversals, false);
+    let requested = Requested { force: false, stiffness: false };
+    let mut period = Period::new(law, displacement, requested, Some(&mut *sensitivity));
     let half_wave_symmetric = period.integrate(buffers);
     for column in sensitivity.chunks_exact_mut(buffers.coefficients()) {
         complete(column, half_wave_symmetric);
@@ -218,10 +210,7 @@ impl Buffers<'_> {
 
     #[inline(always)]
     fn instant(&self, index: usize) -> Instant {
-        match self.instants.get(index) {
-            Some(&[t, displacement]) => Instant { t, displacement },
-            None => Instant { t: 0.0, displacement: 0.0 },
-        }
+        self.instants.get(index).copied().unwrap_or_default()
     }
 
     /// Evaluates ∫ φ between two instants.
@@ -242,7 +231,17 @@ struct Period<'m, 'c, 's> {
     sensitivity: Option<&'m mut [f64]>,
 }
 
-impl Period<'_, '_, '_> {
+impl<'m, 'c, 's> Period<'m, 'c, 's> {
+    fn new(
+        law: SteadyState<'c, 's>,
+        displacement: &'m [f64],
+        requested: Requested,
+        sensitivity: Option<&'m mut [f64]>,
+    ) -> Self {
+        let (motion, now) = (Motion::new(displacement), Response { force: 0.0, stiffness: 0.0 });
+        Period { law, requested, motion, now, sensitivity }
+    }
+
     /// Integrates a period, or half of it if it is half-wave symmetric, from the farthest reversal. Returns which it is.
     fn integrate(&mut self, buffers: &mut Buffers) -> bool {
         let (count, half_wave_symmetric) = self.motion.find_reversals(&mut buffers.grid, buffers.instants);
@@ -349,25 +348,6 @@ impl Period<'_, '_, '_> {
         }
     }
 
-    /// Adds a segment to the integrals of the derivatives with respect to the parameters.
-    fn integrate_sensitivity(&mut self, buffers: &mut Buffers, segment: Segment) {
-        let coefficients = buffers.coefficients();
-        if let Some(sums) = &mut self.sensitivity {
-            let stack = ReversalSensitivities::new(buffers.gradients.as_flattened_mut());
-            buffers.nodes.for_each_panel(&self.motion, segment, buffers.harmonics, |nodes, displacement, weights| {
-                let mut derivatives: [Nodes; PARAMETERS] = [[[0.0; 4]; _]; _];
-                for (node, displacement) in displacement.as_flattened().iter().enumerate() {
-                    for (values, derivative) in derivatives.iter_mut().zip(stack.at(&self.law, *displacement)) {
-                        values.as_flattened_mut().iter_mut().skip(node).take(1).for_each(|value| *value = derivative);
-                    }
-                }
-                for (values, column) in derivatives.iter().zip(sums.chunks_exact_mut(coefficients)) {
-                    nodes.add(weights, values, column);
-                }
-            });
-        }
-    }
-
     /// Adds a segment of the present branch to the integrals and the energy. `to_slip`: gross slip starts at its end.
     fn integrate_segment(&mut self, buffers: &mut Buffers, from: Instant, to: Instant, to_slip: bool) {
         self.law.account_for(from.displacement, to.displacement);
@@ -390,27 +370,24 @@ impl Period<'_, '_, '_> {
             return;
         }
         let segment = Segment { from: from.t, to: to.t, to_slip };
-        if self.sensitivity.is_some() {
-            return self.integrate_sensitivity(buffers, segment);
+        if let Some(sums) = &mut self.sensitivity {
+            let stack = ReversalSensitivities::new(buffers.gradients.as_flattened_mut());
+            let mut columns = sums.chunks_exact_mut(coefficients);
+            let sums: [_; PARAMETERS] = core::array::from_fn(|_| columns.next().unwrap_or_default());
+            let derivatives = |displacement| stack.at(&self.law, displacement);
+            return buffers.nodes.integrate(&self.motion, segment, buffers.harmonics, derivatives, sums);
         }
         let evaluator = self.law.evaluator();
         let orders = if stiffness { 2 * buffers.harmonics } else { buffers.harmonics };
         let Buffers { nodes, segment_stiffness, assembly, force: force_sums, .. } = buffers;
         let sums = segment_stiffness.as_flattened_mut().get_mut(..2 * coefficients - 1).unwrap_or(&mut []);
         sums.fill(0.0);
-        nodes.for_each_panel(&self.motion, segment, orders, |nodes, displacement, weights| {
-            let [mut forces, mut stiffnesses]: [Nodes; 2] = [[[0.0; 4]; _]; _];
-            let values = forces.as_flattened_mut().iter_mut().zip(stiffnesses.as_flattened_mut());
-            for ((force, stiffness), displacement) in values.zip(displacement.as_flattened()) {
-                Response { force: *force, stiffness: *stiffness } = evaluator.at(*displacement);
-            }
-            if force {
-                nodes.add(weights, &forces, force_sums);
-            }
-            if stiffness {
-                nodes.add(weights, &stiffnesses, sums);
-            }
-        });
+        let values = |displacement| {
+            let Response { force, stiffness } = evaluator.at(displacement);
+            [force, stiffness]
+        };
+        let requested = [if force { &mut **force_sums } else { &mut [] }, if stiffness { &mut *sums } else { &mut [] }];
+        nodes.integrate(&self.motion, segment, orders, values, requested);
         if stiffness {
             assembly.sums.iter_mut().zip(sums).for_each(|(sum, segment)| *sum += *segment);
             buffers.integrate_phi(from.t, to.t);

@@ -1,14 +1,17 @@
 //! Periodic displacement in continuous time: instants of reversal, and of crossing a given displacement.
 
 use crate::fourier::folded::FoldedFourier;
+use crate::fourier::workspace::record;
 use crate::numerics::roots::bracketed_newton;
 use core::f64::consts::PI;
 
-/// An instant and its displacement.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Instant {
-    pub t: f64,
-    pub displacement: f64,
+record! {
+    /// An instant and its displacement.
+    #[derive(Default)]
+    pub(super) struct Instant {
+        pub t: f64,
+        pub displacement: f64,
+    }
 }
 
 /// Uniform grid on which reversals are searched.
@@ -56,7 +59,7 @@ impl<'a> Motion<'a> {
     /// Finds the reversals in chronological order. Returns their number, and whether the displacement is half-wave symmetric; then
     /// only half a period is searched.
     #[inline(always)]
-    pub fn find_reversals(&self, grid: &mut Grid, instants: &mut [[f64; 2]]) -> (usize, bool) {
+    pub fn find_reversals(&self, grid: &mut Grid, instants: &mut [Instant]) -> (usize, bool) {
         let Grid { points, fourier, coefficients, rate } = grid;
         let Some((constant, pairs)) = coefficients.split_first_mut() else { return (0, false) };
         *constant = 0.0;
@@ -121,8 +124,7 @@ impl<'a> Motion<'a> {
 /// Reversals found so far.
 struct ReversalSearch<'a> {
     motion: &'a Motion<'a>,
-    /// Instant and displacement of each.
-    instants: &'a mut [[f64; 2]],
+    instants: &'a mut [Instant],
     count: usize,
 }
 
@@ -135,7 +137,7 @@ impl ReversalSearch<'_> {
         });
         let [displacement, ..] = self.motion.derivatives(t);
         if let Some(instant) = self.instants.get_mut(self.count) {
-            *instant = [t, displacement];
+            *instant = Instant { t, displacement };
             self.count += 1;
         }
     }
@@ -205,9 +207,9 @@ mod tests {
             let [[s1, c1], [s2, c2]] = [shift, 2.0 * shift].map(|angle: f64| <[f64; 2]>::from(angle.sin_cos()));
             let mut coefficients = vec![0.0; n];
             coefficients[1..5].copy_from_slice(&[s1, c1, 0.5005 * s2, 0.5005 * c2]);
-            let mut instants = vec![[0.0; 2]; points];
+            let mut instants = vec![Instant::default(); points];
             assert_eq!(Motion::new(&coefficients).find_reversals(&mut grid, &mut instants), (4, false), "{shift}");
-            for [t, displacement] in &instants[..4] {
+            for Instant { t, displacement } in &instants[..4] {
                 let [u, rate, ..] = Motion::new(&coefficients).derivatives(*t);
                 assert!(rate.abs() < 1e-12 && u == *displacement, "{shift} {t} {rate}");
             }

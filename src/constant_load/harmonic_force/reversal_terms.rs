@@ -50,27 +50,24 @@ impl ReversalTerms<'_> {
 
     #[inline(always)]
     fn gather_strips<const N: usize>(&mut self, branches: &[Branch], stiffness: &[f64]) {
-        dispatch!(self.strips_kernel::<N>(branches, stiffness));
-    }
-
-    #[inline(always)]
-    fn strips_kernel<const N: usize>(&mut self, branches: &[Branch], stiffness: &[f64]) {
-        let ReversalTerms { rows, entries, sums, outer } = self;
-        let sums = sums.as_chunks_mut::<N>().0.as_chunks_mut().0;
-        for strip in 0..outer.strips::<N>() {
-            let (rows, terms) = (rows.strips::<N>(strip), outer.terms(strip));
-            let mut stack = Stack { rows, entries, sums, depth: 0, terms };
-            for &Branch { first, count, depth } in branches {
-                let [first, count, depth] = [first, count, depth].map(|number| number as usize);
-                stack.pop(depth);
-                if depth > stack.depth {
-                    let before = first - 1;
-                    stack.push(before, stiffness.get(before).copied().unwrap_or(0.0));
+        dispatch!({
+            let ReversalTerms { rows, entries, sums, outer } = self;
+            let sums = sums.as_chunks_mut::<N>().0.as_chunks_mut().0;
+            for strip in 0..outer.strips::<N>() {
+                let (rows, terms) = (rows.strips::<N>(strip), outer.terms(strip));
+                let mut stack = Stack { rows, entries, sums, depth: 0, terms };
+                for &Branch { first, count, depth } in branches {
+                    let [first, count, depth] = [first, count, depth].map(|number| number as usize);
+                    stack.pop(depth);
+                    if depth > stack.depth {
+                        let before = first - 1;
+                        stack.push(before, stiffness.get(before).copied().unwrap_or(0.0));
+                    }
+                    stack.add(first, count, stiffness);
                 }
-                stack.add(first, count, stiffness);
+                stack.pop(0);
             }
-            stack.pop(0);
-        }
+        });
     }
 }
 

@@ -18,7 +18,7 @@ const MIN_BLOCKS_TO_SLIP: usize = 4;
 pub(super) const PANEL: usize = 4 * MAX_GAUSS_BLOCKS;
 
 /// Values at the nodes of a panel.
-pub(super) type Nodes = [[f64; 4]; MAX_GAUSS_BLOCKS];
+type Nodes = [[f64; 4]; MAX_GAUSS_BLOCKS];
 
 /// The interval of time between two events.
 #[derive(Debug, Clone, Copy)]
@@ -81,88 +81,94 @@ impl<'a> NodalFourier<'a> {
         Ok(NodalFourier { nodes_per_period: size.samples, rows })
     }
 
-    /// Calls a function for each panel of a segment, with cos and sin up to an order, displacements and weights of its nodes.
+    /// Adds the integrals of functions of the displacement over a segment times 1, cos t, sin t, cos 2t, ... to their sums; those without
+    /// sums are not requested. `orders`: the highest order of all.
     #[inline(always)]
-    pub fn for_each_panel(
+    pub fn integrate<const K: usize>(
         &mut self,
         motion: &Motion,
         segment: Segment,
         orders: usize,
-        mut function: impl FnMut(&Self, &[[f64; 4]], &[[f64; 4]]),
+        functions: impl Fn(f64) -> [f64; K],
+        mut sums: [&mut [f64]; K],
     ) {
         let (panels, rule) = segment.panels(self.nodes_per_period);
         for panel in 0..panels {
             let [times, weights] = segment.nodes(panel, panels, rule);
             let mut displacement: Nodes = [[0.0; 4]; _];
             fill_rows(self.rows, motion, orders, times.get(..rule.len()).unwrap_or(&[]), &mut displacement);
-            let nodes = displacement.get(..rule.len()).zip(weights.get(..rule.len()));
-            nodes.into_iter().for_each(|(displacement, weights)| function(self, displacement, weights));
+            let mut values: [Nodes; K] = [[[0.0; 4]; _]; _];
+            for (block, displacement) in displacement.iter().enumerate().take(rule.len()) {
+                for lane in 0..4 {
+                    let at_node = functions(displacement[lane]);
+                    values.iter_mut().zip(at_node).for_each(|(values, value)| values[block][lane] = value);
+                }
+            }
+            for (values, sums) in values.iter().zip(&mut sums).filter(|(_, sums)| !sums.is_empty()) {
+                self.add(weights.get(..rule.len()).unwrap_or(&[]), values, sums);
+            }
         }
     }
 
     /// Adds the products of weights and values at the nodes of a panel with 1, cos t, sin t, cos 2t, ..., one for each of `sums`.
     #[inline(always)]
-    pub fn add(&self, weights: &[[f64; 4]], values: &Nodes, sums: &mut [f64]) {
-        dispatch!(sums_kernel(self.rows, weights, values, sums));
+    fn add(&self, weights: &[[f64; 4]], values: &Nodes, sums: &mut [f64]) {
+        dispatch!({
+            let total = |[one, two, three, four]: [f64; 4]| (one + two) + (three + four);
+            let Some((constant, pairs)) = sums.split_first_mut() else { return };
+            let mut products: Nodes = [[0.0; 4]; _];
+            let mut sum = [0.0; 4];
+            for ((product, weight), value) in products.iter_mut().zip(weights).zip(values) {
+                for k in 0..4 {
+                    product[k] = weight[k] * value[k];
+                    sum[k] += product[k];
+                }
+            }
+            *constant += total(sum);
+            let products = products.get(..weights.len()).unwrap_or(&[]);
+            for ([by_cosine, by_sine], [cosines, sines]) in
+                pairs.as_chunks_mut::<2>().0.iter_mut().zip(self.rows.iter())
+            {
+                let (mut c, mut s) = ([0.0; 4], [0.0; 4]);
+                for ((product, cosine), sine) in products.iter().zip(cosines).zip(sines) {
+                    for k in 0..4 {
+                        c[k] += product[k] * cosine[k];
+                        s[k] += product[k] * sine[k];
+                    }
+                }
+                *by_cosine += total(c);
+                *by_sine += total(s);
+            }
+        });
     }
 }
 
 /// Evaluates cos and sin of all orders up to `orders`, and the displacement, at the nodes of a panel.
 #[inline(always)]
 fn fill_rows(rows: &mut [[Nodes; 2]], motion: &Motion, orders: usize, times: &[[f64; 4]], displacement: &mut Nodes) {
-    dispatch!(rows_kernel(rows, motion, orders, times, displacement));
-}
-
-#[inline(always)]
-fn rows_kernel(rows: &mut [[Nodes; 2]], motion: &Motion, orders: usize, times: &[[f64; 4]], displacement: &mut Nodes) {
-    for (block, (times, displacement)) in times.iter().zip(displacement.iter_mut()).enumerate() {
-        let (mut cosine, mut sine) = ([0.0; 4], [0.0; 4]);
-        for k in 0..4 {
-            (sine[k], cosine[k]) = times[k].sin_cos();
-        }
-        let (mut c, mut s) = (cosine, sine);
-        let mut u = [motion.mean; 4];
-        let mut pairs = motion.pairs.iter();
-        for [cosines, sines] in rows.iter_mut().take(orders) {
-            if let (Some(cosines), Some(sines)) = (cosines.get_mut(block), sines.get_mut(block)) {
-                (*cosines, *sines) = (c, s);
+    dispatch!({
+        for (block, (times, displacement)) in times.iter().zip(displacement.iter_mut()).enumerate() {
+            let (mut cosine, mut sine) = ([0.0; 4], [0.0; 4]);
+            for k in 0..4 {
+                (sine[k], cosine[k]) = times[k].sin_cos();
             }
-            if let Some(&[a, b]) = pairs.next() {
+            let (mut c, mut s) = (cosine, sine);
+            let mut u = [motion.mean; 4];
+            let mut pairs = motion.pairs.iter();
+            for [cosines, sines] in rows.iter_mut().take(orders) {
+                if let (Some(cosines), Some(sines)) = (cosines.get_mut(block), sines.get_mut(block)) {
+                    (*cosines, *sines) = (c, s);
+                }
+                if let Some(&[a, b]) = pairs.next() {
+                    for k in 0..4 {
+                        u[k] += a * c[k] + b * s[k];
+                    }
+                }
                 for k in 0..4 {
-                    u[k] += a * c[k] + b * s[k];
+                    (c[k], s[k]) = (c[k] * cosine[k] - s[k] * sine[k], s[k] * cosine[k] + c[k] * sine[k]);
                 }
             }
-            for k in 0..4 {
-                (c[k], s[k]) = (c[k] * cosine[k] - s[k] * sine[k], s[k] * cosine[k] + c[k] * sine[k]);
-            }
+            *displacement = u;
         }
-        *displacement = u;
-    }
-}
-
-#[inline(always)]
-fn sums_kernel(rows: &[[Nodes; 2]], weights: &[[f64; 4]], values: &Nodes, sums: &mut [f64]) {
-    let total = |[one, two, three, four]: [f64; 4]| (one + two) + (three + four);
-    let Some((constant, pairs)) = sums.split_first_mut() else { return };
-    let mut products: Nodes = [[0.0; 4]; _];
-    let mut sum = [0.0; 4];
-    for ((product, weight), value) in products.iter_mut().zip(weights).zip(values) {
-        for k in 0..4 {
-            product[k] = weight[k] * value[k];
-            sum[k] += product[k];
-        }
-    }
-    *constant += total(sum);
-    let products = products.get(..weights.len()).unwrap_or(&[]);
-    for ([by_cosine, by_sine], [cosines, sines]) in pairs.as_chunks_mut::<2>().0.iter_mut().zip(rows) {
-        let (mut c, mut s) = ([0.0; 4], [0.0; 4]);
-        for ((product, cosine), sine) in products.iter().zip(cosines).zip(sines) {
-            for k in 0..4 {
-                c[k] += product[k] * cosine[k];
-                s[k] += product[k] * sine[k];
-            }
-        }
-        *by_cosine += total(c);
-        *by_sine += total(s);
-    }
+    });
 }

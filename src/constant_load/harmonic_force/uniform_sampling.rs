@@ -169,17 +169,14 @@ struct Part {
 /// Samples a displacement along two periods.
 #[inline(always)]
 fn sample(count: usize, fourier: &FoldedFourier, displacement: &[f64], samples: &mut [f64]) -> Part {
-    dispatch!(sample_kernel(count, fourier, displacement, samples))
-}
-
-#[inline(always)]
-fn sample_kernel(count: usize, fourier: &FoldedFourier, displacement: &[f64], samples: &mut [f64]) -> Part {
-    fourier.synthesis_kernel(displacement, samples);
-    let even_order = |c: usize| c.div_ceil(2).is_multiple_of(2);
-    let only_odd_orders = displacement.iter().enumerate().all(|(c, value)| !even_order(c) || *value == 0.0);
-    let half_wave = count.is_multiple_of(2) && only_odd_orders;
-    let length = if half_wave { count / 2 } else { count };
-    Part { farthest: farthest(samples, length), length, half_wave }
+    dispatch!({
+        fourier.synthesis_kernel(displacement, samples);
+        let even_order = |c: usize| c.div_ceil(2).is_multiple_of(2);
+        let only_odd_orders = displacement.iter().enumerate().all(|(c, value)| !even_order(c) || *value == 0.0);
+        let half_wave = count.is_multiple_of(2) && only_odd_orders;
+        let length = if half_wave { count / 2 } else { count };
+        Part { farthest: farthest(samples, length), length, half_wave }
+    })
 }
 
 /// Values at the samples of two periods, of which those of one period are evaluated, and the branches on which they lie.

@@ -98,7 +98,7 @@ pub unsafe extern "C" fn mslip_stiffness_table_init(
 ) -> i32 {
     call(|| {
         let (contact, table) = (pointers::contact(contact)?, pointers::stiffness_table_output(table_length, table)?);
-        table.write(StiffnessTable::EMPTY).init(contact);
+        table.write(StiffnessTable::default()).init(contact);
         Ok(())
     })
 }

@@ -57,49 +57,40 @@ impl Forces<'_> {
         cut_shift: &[[f64; 4]],
         runs: &[Run],
     ) {
-        dispatch!(self.kernel::<SLOPES>(element, samples, cut_shift, runs));
-    }
-
-    #[inline(always)]
-    fn kernel<const SLOPES: bool>(
-        &mut self,
-        element: &Element,
-        samples: &Samples,
-        cut_shift: &[[f64; 4]],
-        runs: &[Run],
-    ) {
-        self.evaluate_cuts::<SLOPES>(element, cut_shift);
-        let friction_coefficient = element.friction_coefficient;
-        for run in runs {
-            let range = run.samples();
-            let inner = self.at_place(samples, run.inner);
-            let loads = samples.load.get(range.clone()).unwrap_or(&[]);
-            let forces = self.force.get_mut(range.clone()).unwrap_or(&mut []);
-            let mu = run.sign * friction_coefficient;
-            match run.kind {
-                Kind::OPEN => forces.fill(0.0),
-                Kind::GROSS_SLIP => forces.iter_mut().zip(loads).for_each(|(force, load)| *force = mu * load),
-                Kind::STUCK => {
-                    let slopes = self.slope.get_mut(range.clone()).unwrap_or(&mut []);
-                    stick(samples, run, range, mu, slopes, inner, forces);
-                }
-                _ => {
-                    let [inner_load, inner_force] = inner;
-                    let slope = friction_coefficient * run.parameter;
-                    let cuts = self.cut_load.get(run.cuts()).unwrap_or(&[]);
-                    for ((force, &load), &cut_load) in forces.iter_mut().zip(loads).zip(cuts) {
-                        *force = inner_force + slope * (cut_load - inner_load) + mu * (load - cut_load);
+        dispatch!({
+            self.evaluate_cuts::<SLOPES>(element, cut_shift);
+            let friction_coefficient = element.friction_coefficient;
+            for run in runs {
+                let range = run.samples();
+                let inner = self.at_place(samples, run.inner);
+                let loads = samples.load.get(range.clone()).unwrap_or(&[]);
+                let forces = self.force.get_mut(range.clone()).unwrap_or(&mut []);
+                let mu = run.sign * friction_coefficient;
+                match run.kind {
+                    Kind::OPEN => forces.fill(0.0),
+                    Kind::GROSS_SLIP => forces.iter_mut().zip(loads).for_each(|(force, load)| *force = mu * load),
+                    Kind::STUCK => {
+                        let slopes = self.slope.get_mut(range.clone()).unwrap_or(&mut []);
+                        stick(samples, run, range, mu, slopes, inner, forces);
                     }
-                    let last = range.end - 1;
-                    let cut_load = cuts.last().copied().unwrap_or(0.0);
-                    if let (Some(force), Some(load)) =
-                        (self.last_cut_force.get_mut(last), self.last_cut_load.get_mut(last))
-                    {
-                        (*force, *load) = (inner_force + slope * (cut_load - inner_load), cut_load);
+                    _ => {
+                        let [inner_load, inner_force] = inner;
+                        let slope = friction_coefficient * run.parameter;
+                        let cuts = self.cut_load.get(run.cuts()).unwrap_or(&[]);
+                        for ((force, &load), &cut_load) in forces.iter_mut().zip(loads).zip(cuts) {
+                            *force = inner_force + slope * (cut_load - inner_load) + mu * (load - cut_load);
+                        }
+                        let last = range.end - 1;
+                        let cut_load = cuts.last().copied().unwrap_or(0.0);
+                        if let (Some(force), Some(load)) =
+                            (self.last_cut_force.get_mut(last), self.last_cut_load.get_mut(last))
+                        {
+                            (*force, *load) = (inner_force + slope * (cut_load - inner_load), cut_load);
+                        }
                     }
                 }
             }
-        }
+        });
     }
 }
 

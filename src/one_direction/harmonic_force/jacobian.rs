@@ -152,19 +152,16 @@ impl Sensitivity<'_> {
 
     #[inline(always)]
     fn gather_strips<const N: usize>(&mut self, context: &Context, cuts: &Cuts, runs: &[Run]) {
-        dispatch!(self.strips_kernel::<N>(context, cuts, runs));
-    }
-
-    #[inline(always)]
-    fn strips_kernel<const N: usize>(&mut self, context: &Context, cuts: &Cuts, runs: &[Run]) {
-        let Sensitivity { rows, pieces, stored, places, outer, own: [own_by_u, own_by_input] } = self;
-        let stored = stored.as_chunks_mut::<N>().0.as_chunks_mut().0;
-        for strip in 0..outer.strips::<N>() {
-            places.fill(-1.0);
-            let (rows, terms) = (rows.strips(strip), outer.terms(strip));
-            let mut gathering = Gathering { context, cuts, rows, pieces, depth: 0, stored, places, terms };
-            gathering.gather(runs, own_by_u, own_by_input);
-        }
+        dispatch!({
+            let Sensitivity { rows, pieces, stored, places, outer, own: [own_by_u, own_by_input] } = self;
+            let stored = stored.as_chunks_mut::<N>().0.as_chunks_mut().0;
+            for strip in 0..outer.strips::<N>() {
+                places.fill(-1.0);
+                let (rows, terms) = (rows.strips(strip), outer.terms(strip));
+                let mut gathering = Gathering { context, cuts, rows, pieces, depth: 0, stored, places, terms };
+                gathering.gather(runs, own_by_u, own_by_input);
+            }
+        });
     }
 }
 

@@ -83,36 +83,33 @@ impl Samples<'_> {
     /// The normal states of all samples, with derivatives if requested.
     #[inline(always)]
     pub fn press<const SLOPES: bool>(&mut self, element: &Element) {
-        dispatch!(self.press_kernel::<SLOPES>(element));
-    }
-
-    #[inline(always)]
-    fn press_kernel<const SLOPES: bool>(&mut self, element: &Element) {
-        let blocks = self
-            .input
-            .as_chunks::<4>()
-            .0
-            .iter()
-            .zip(self.load.as_chunks_mut::<4>().0)
-            .zip(self.shift.as_chunks_mut::<4>().0)
-            .zip(self.load_slope.as_chunks_mut::<4>().0)
-            .zip(self.shift_slope.as_chunks_mut::<4>().0)
-            .zip(self.stiffness.as_chunks_mut::<4>().0);
-        for (((((input, load), shift), load_slope), shift_slope), stiffness) in blocks {
-            let [loads, shifts, load_slopes, shift_slopes] = element.four_normals::<SLOPES>(input);
-            (*load, *shift) = (loads, shifts);
-            if SLOPES {
-                (*load_slope, *shift_slope) = (load_slopes, shift_slopes);
-                // 0 if open.
-                let mut quotients = [0.0; 4];
-                for k in 0..4 {
-                    quotients[k] = load_slopes[k] / if shift_slopes[k] > 0.0 { shift_slopes[k] } else { 1.0 };
+        dispatch!({
+            let blocks = self
+                .input
+                .as_chunks::<4>()
+                .0
+                .iter()
+                .zip(self.load.as_chunks_mut::<4>().0)
+                .zip(self.shift.as_chunks_mut::<4>().0)
+                .zip(self.load_slope.as_chunks_mut::<4>().0)
+                .zip(self.shift_slope.as_chunks_mut::<4>().0)
+                .zip(self.stiffness.as_chunks_mut::<4>().0);
+            for (((((input, load), shift), load_slope), shift_slope), stiffness) in blocks {
+                let [loads, shifts, load_slopes, shift_slopes] = element.four_normals::<SLOPES>(input);
+                (*load, *shift) = (loads, shifts);
+                if SLOPES {
+                    (*load_slope, *shift_slope) = (load_slopes, shift_slopes);
+                    // 0 if open.
+                    let mut quotients = [0.0; 4];
+                    for k in 0..4 {
+                        quotients[k] = load_slopes[k] / if shift_slopes[k] > 0.0 { shift_slopes[k] } else { 1.0 };
+                    }
+                    *stiffness = quotients;
                 }
-                *stiffness = quotients;
             }
-        }
-        // The values beyond the period, which the characteristic coordinates are computed from.
-        continue_periodically(self.shift, self.count);
+            // The values beyond the period, which the characteristic coordinates are computed from.
+            continue_periodically(self.shift, self.count);
+        });
     }
 
     /// Characteristic coordinates, and the part of the period to evaluate.
@@ -126,44 +123,41 @@ impl Samples<'_> {
     ///   At the sample where that is attained everything beyond is slip zone.
     #[inline(always)]
     pub fn enter_steady_state(&mut self, element: &Element, half_wave_symmetric: bool) -> Part {
-        dispatch!(self.entry_kernel(element, half_wave_symmetric))
-    }
-
-    #[inline(always)]
-    fn entry_kernel(&mut self, element: &Element, half_wave_symmetric: bool) -> Part {
-        let mu = element.friction_coefficient;
-        let (mut largest, mut smallest) = ([f64::MIN; 4], [f64::MAX; 4]);
-        let mut least_input = [f64::MAX; 4];
-        let blocks = self
-            .displacement
-            .as_chunks::<4>()
-            .0
-            .iter()
-            .zip(self.shift.as_chunks::<4>().0)
-            .zip(self.input.as_chunks::<4>().0)
-            .zip(self.xi.as_chunks_mut::<4>().0)
-            .zip(self.eta.as_chunks_mut::<4>().0);
-        for ((((displacement, shift), input), xi), eta) in blocks {
-            for k in 0..4 {
-                let limit = mu * shift[k];
-                xi[k] = displacement[k] - limit;
-                eta[k] = displacement[k] + limit;
-                largest[k] = if xi[k] > largest[k] { xi[k] } else { largest[k] };
-                smallest[k] = if eta[k] < smallest[k] { eta[k] } else { smallest[k] };
-                least_input[k] = if input[k] < least_input[k] { input[k] } else { least_input[k] };
+        dispatch!({
+            let mu = element.friction_coefficient;
+            let (mut largest, mut smallest) = ([f64::MIN; 4], [f64::MAX; 4]);
+            let mut least_input = [f64::MAX; 4];
+            let blocks = self
+                .displacement
+                .as_chunks::<4>()
+                .0
+                .iter()
+                .zip(self.shift.as_chunks::<4>().0)
+                .zip(self.input.as_chunks::<4>().0)
+                .zip(self.xi.as_chunks_mut::<4>().0)
+                .zip(self.eta.as_chunks_mut::<4>().0);
+            for ((((displacement, shift), input), xi), eta) in blocks {
+                for k in 0..4 {
+                    let limit = mu * shift[k];
+                    xi[k] = displacement[k] - limit;
+                    eta[k] = displacement[k] + limit;
+                    largest[k] = if xi[k] > largest[k] { xi[k] } else { largest[k] };
+                    smallest[k] = if eta[k] < smallest[k] { eta[k] } else { smallest[k] };
+                    least_input[k] = if input[k] < least_input[k] { input[k] } else { least_input[k] };
+                }
             }
-        }
-        let largest = largest.into_iter().fold(f64::MIN, f64::max);
-        let smallest = smallest.into_iter().fold(f64::MAX, f64::min);
-        let opens = least_input.iter().any(|least| *least <= 0.0);
-        let first = |values: &[f64], value: f64| values.iter().position(|v| *v == value).unwrap_or(0);
-        let start = if opens {
-            self.input.iter().position(|input| *input <= 0.0).unwrap_or(0)
-        } else if largest > 0.0 || (smallest >= 0.0 && -largest <= smallest) {
-            first(self.xi, largest)
-        } else {
-            first(self.eta, smallest)
-        };
-        Part { start, length: if half_wave_symmetric { self.count / 2 } else { self.count }, opens }
+            let largest = largest.into_iter().fold(f64::MIN, f64::max);
+            let smallest = smallest.into_iter().fold(f64::MAX, f64::min);
+            let opens = least_input.iter().any(|least| *least <= 0.0);
+            let first = |values: &[f64], value: f64| values.iter().position(|v| *v == value).unwrap_or(0);
+            let start = if opens {
+                self.input.iter().position(|input| *input <= 0.0).unwrap_or(0)
+            } else if largest > 0.0 || (smallest >= 0.0 && -largest <= smallest) {
+                first(self.xi, largest)
+            } else {
+                first(self.eta, smallest)
+            };
+            Part { start, length: if half_wave_symmetric { self.count / 2 } else { self.count }, opens }
+        })
     }
 }

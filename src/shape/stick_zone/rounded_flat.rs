@@ -21,7 +21,7 @@ use core::f64::consts::PI;
 
 /// The stick zones of a flat with rounded edges under its load, lengths in units of b.
 #[repr(C)]
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct RoundedFlatZones {
     /// a/b, and `sqrt(1 - (a/b)²)` computed without cancellation.
     flat: f64,
@@ -48,18 +48,6 @@ pub(crate) struct Moments {
 }
 
 impl RoundedFlatZones {
-    /// Those of an open contact.
-    pub(crate) const EMPTY: RoundedFlatZones = RoundedFlatZones {
-        flat: 0.0,
-        w: 0.0,
-        psi: 0.0,
-        load: 0.0,
-        beta: 0.0,
-        gamma: 0.0,
-        slip_shift: 0.0,
-        small_load: SmallLoadSeries::new(0.0, [0.0; RETAINED_TERMS]),
-    };
-
     /// The stick zones below the contact `b` (lengths in units of its half-width), with the compliance Λ of full stick.
     pub(crate) fn new(contact: &RoundedPunch, compliance: f64) -> RoundedFlatZones {
         let load = contact.load();

@@ -10,6 +10,7 @@
 //! Each is `Σ c_m f_m τᵐ` times a power of τ, with factors f_m independent of the shape.
 
 use crate::numerics::chebyshev::{Interpolant, Tangent, monic_powers};
+use crate::numerics::const_math::tabulate;
 use crate::numerics::polynomial::{self, Rows, rows};
 use crate::shape::stick_zone::{Complement, StickZone};
 
@@ -37,13 +38,7 @@ pub(crate) const fn economized(mut series: [f64; TERMS]) -> [f64; RETAINED_TERMS
             k += 1;
         }
     }
-    let mut retained = [0.0; RETAINED_TERMS];
-    let mut k = 0;
-    while k < RETAINED_TERMS {
-        retained[k] = series[k];
-        k += 1;
-    }
-    retained
+    tabulate!(RETAINED_TERMS, |k| series[k])
 }
 
 /// Coefficients of h'' from values and slopes over z at τ = (1+z)/4.
@@ -56,29 +51,15 @@ pub(crate) fn curvature_series(tangents: &[Tangent; RETAINED_TERMS / 2]) -> [f64
     })
 }
 
-/// The factors f_m of integrals of τᵐ: `numerator` divided by the product of `m + offset` over all offsets.
-const fn factors(numerator: f64, offsets: &[usize]) -> Terms {
-    let mut terms = [numerator; RETAINED_TERMS];
-    let mut m = 0;
-    while m < RETAINED_TERMS {
-        let mut k = 0;
-        while k < offsets.len() {
-            terms[m] /= (m + offsets[k]) as f64;
-            k += 1;
-        }
-        m += 1;
-    }
-    rows(&terms)
-}
-
-const COMPLIANCE: Terms = factors(1.0, &[1]);
-const SHIFT: Terms = factors(1.0, &[1, 2]);
-const DISSIPATION: Terms = factors(4.0, &[2, 3]);
-const D_DISSIPATION: Terms = factors(4.0, &[2]);
+// The factors f_m of integrals of τᵐ.
+const COMPLIANCE: Terms = rows(&tabulate!(RETAINED_TERMS, |m| 1.0 / (m + 1) as f64));
+const SHIFT: Terms = rows(&tabulate!(RETAINED_TERMS, |m| 1.0 / ((m + 1) * (m + 2)) as f64));
+const DISSIPATION: Terms = rows(&tabulate!(RETAINED_TERMS, |m| 4.0 / ((m + 2) * (m + 3)) as f64));
+const D_DISSIPATION: Terms = rows(&tabulate!(RETAINED_TERMS, |m| 4.0 / (m + 2) as f64));
 
 /// The expansion of the monotonic curve for τ <= 1/2.
 #[repr(C)]
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct SmallLoadSeries {
     /// Λ, the compliance in full stick.
     pub(crate) compliance: f64,

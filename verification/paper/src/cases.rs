@@ -234,7 +234,7 @@ impl Case {
     /// K' and K'' at a displacement amplitude, in their unit.
     pub fn complex_stiffness(&self, amplitude: f64) -> (f64, f64) {
         let stiffness = self.contact.complex_stiffness(amplitude * self.displacement_unit()).expect("an amplitude");
-        (stiffness.real() / self.stiffness_unit(), stiffness.imaginary() / self.stiffness_unit())
+        (stiffness.real / self.stiffness_unit(), stiffness.imaginary / self.stiffness_unit())
     }
 
     /// The closed loop of a displacement amplitude: displacements and forces at the given number of instants and again the first.
