@@ -305,6 +305,20 @@ impl Walk<'_> {
         self.derived = None;
     }
 
+    /// Derivatives of the springs and the forces after a step between samples.
+    fn differentiate(&mut self, workspace: &mut Workspace, taken: &Taken, samples: [Option<usize>; 3], by_top: f64) {
+        if taken.closed != [true, true] {
+            workspace.derivatives.fill(0.0);
+        }
+        if !taken.closed[1] {
+            workspace.forces.fill(0.0);
+        } else if workspace.forces.len() == 2 * NARROW {
+            differentiate::<{ NARROW / 4 }, { NARROW / 4 + 1 }>(workspace, self, taken, samples, by_top);
+        } else {
+            differentiate::<{ WIDE / 4 }, { WIDE / 4 + 1 }>(workspace, self, taken, samples, by_top);
+        }
+    }
+
     fn open(&mut self) {
         (self.contact, self.springs, self.normal) = (Contact::NONE, [[0.0; N]; SPRINGS / N], Normal::OPEN);
     }
@@ -394,6 +408,17 @@ fn columns_kernel<const L: usize, const M: usize>(
     [springs.of(&force[0]), springs.of(&force[1])]
 }
 
+/// Tables with their derivatives by the logarithm of the reference size, from those of a slightly larger and a smaller one.
+fn derive_tables(tables: &Rows, [larger, smaller]: [&Rows; 2], dual_tables: &mut DualRows) {
+    let neighbours = larger.as_flattened().iter().zip(smaller.as_flattened());
+    let places = dual_tables.as_flattened_mut().iter_mut().zip(tables.as_flattened());
+    for ((place, value), (larger, smaller)) in places.zip(neighbours) {
+        let mut dual = Dual::<1>::constant(*value);
+        dual.0[0][ALIGNMENT] = (larger - smaller) * (0.5 / NEIGHBOUR);
+        [*place] = dual.0;
+    }
+}
+
 /// The periods of a motion that was synthesised.
 fn walk(element: &Element, workspace: &mut Workspace, output: HarmonicOutput) {
     let Size { samples: count, periods, .. } = workspace.size;
@@ -414,13 +439,7 @@ fn walk(element: &Element, workspace: &mut Workspace, output: HarmonicOutput) {
         if requested.tangent {
             fill(larger, element, &units, 1.0 + NEIGHBOUR);
             fill(smaller, element, &units, 1.0 - NEIGHBOUR);
-            let neighbours = larger.as_flattened().iter().zip(smaller.as_flattened());
-            let places = dual_tables.as_flattened_mut().iter_mut().zip(tables.as_flattened());
-            for ((place, value), (larger, smaller)) in places.zip(neighbours) {
-                let mut dual = Dual::<1>::constant(*value);
-                dual.0[0][ALIGNMENT] = (larger - smaller) * (0.5 / NEIGHBOUR);
-                [*place] = dual.0;
-            }
+            derive_tables(tables, [larger, smaller], dual_tables);
             workspace.derivatives.fill(0.0);
             workspace.sums.fill(0.0);
         }
@@ -448,23 +467,10 @@ fn walk(element: &Element, workspace: &mut Workspace, output: HarmonicOutput) {
             let asked = Requested { energy: requested.energy && counts, ..requested };
             let taken = walk.advance(workspace.place(index), asked);
             if requested.tangent {
-                if taken.closed != [true, true] {
-                    workspace.derivatives.fill(0.0);
-                } else if step % FADING == 0 {
+                if taken.closed == [true, true] && step % FADING == 0 {
                     fade(workspace.derivatives);
                 }
-                if taken.closed[1] {
-                    let samples = [before, Some(index), Some(largest)];
-                    if workspace.forces.len() == 2 * NARROW {
-                        differentiate::<{ NARROW / 4 }, { NARROW / 4 + 1 }>(
-                            workspace, &mut walk, &taken, samples, by_top,
-                        );
-                    } else {
-                        differentiate::<{ WIDE / 4 }, { WIDE / 4 + 1 }>(workspace, &mut walk, &taken, samples, by_top);
-                    }
-                } else {
-                    workspace.forces.fill(0.0);
-                }
+                walk.differentiate(workspace, &taken, [before, Some(index), Some(largest)], by_top);
                 if counts {
                     let basis = row(workspace.basis, workspace.size.coefficients(), index);
                     accumulate(workspace.sums, basis, workspace.forces);
