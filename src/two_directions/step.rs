@@ -31,43 +31,47 @@ pub(crate) fn step<A: Over<A>, X: Over<A>, T: Tables<A>, S: Springs<X>>(
         }
     }
     let slides = if slip.slides > 0.0 { slid(t, c, &v) } else { zero };
-    let one = [A::constant(1.0); N];
-    if slip.middle.set != 0 {
-        let (before, first) = (limits_before(t, c, rise[0]), slip.middle.set.trailing_zeros() as usize);
-        let theta = (slides + X::constant(1.0)).scale(0.5);
-        let (mut at, mut limits) = (v, Limits { start: before, rise: before, part: None });
-        for i in first..end {
-            limits.rise[i] = one[i] - before[i];
-            limits.start[i] = if slip.slides > 0.0 { before[i] } else { (before[i] + one[i]).scale(0.5) };
-        }
-        limits.part = if slip.slides > 0.0 { Some(theta) } else { None };
-        for k in 0..2 {
-            for j in first..end {
-                let old = s.get(k * N + j);
-                at[k][j] = old + part_of(v[k][j] - old, limits.part, 0.5);
+    let (far, one) = (slip.slides > 0.0, A::constant(1.0));
+    let theta = (slides + X::constant(1.0)).scale(0.5);
+    for stage in 0..2 {
+        let (middle, now) = if stage == 0 { (true, &slip.middle) } else { (false, &slip.end) };
+        let first = (now.set.trailing_zeros() as usize).min(end);
+        let mut limits = Limits { start: [one; N], rise: [one; N], part: None };
+        if middle {
+            let before = limits_before(t, c, rise[0]);
+            limits.part = if far { Some(theta) } else { None };
+            for i in first..end {
+                limits.rise[i] = one - before[i];
+                limits.start[i] = if far { before[i] } else { (before[i] + one).scale(0.5) };
             }
+            in_part(&mut v, s, limits.part, 0.5, [first, end]);
         }
-        slide(t, c, &limits, &mut at, &slip.middle);
-        let per = if slip.slides > 0.0 { Some(theta.inverse()) } else { None };
-        for k in 0..2 {
-            for j in first..end {
-                let old = s.get(k * N + j);
-                v[k][j] = old + part_of(at[k][j] - old, per, 2.0);
-            }
+        if now.set != 0 {
+            slide(t, c, &limits, &mut v, now);
         }
-    }
-    if slip.end.set != 0 {
-        slide(t, c, &Limits { start: one, rise: one, part: None }, &mut v, &slip.end);
+        if middle {
+            let per = if far { Some(theta.inverse()) } else { None };
+            in_part(&mut v, s, per, 2.0, [first, end]);
+        }
     }
     finish(t, c, motion, slip, slides, v, s)
 }
 
-/// A number times a part, which is a constant if none is given.
+/// Springs after a part of their motion, which is a constant if none is given.
 #[inline(always)]
-fn part_of<X: Real>(x: X, part: Option<X>, constant: f64) -> X {
-    match part {
-        Some(part) => x * part,
-        None => x.scale(constant),
+fn in_part<X: Real, S: Springs<X>>(
+    v: &mut Both<Row<X>>,
+    s: &S,
+    part: Option<X>,
+    constant: f64,
+    [first, end]: [usize; 2],
+) {
+    for k in 0..2 {
+        for j in first..end.min(N) {
+            let old = s.get(k * N + j);
+            let by = v[k][j] - old;
+            v[k][j] = old + if let Some(part) = part { by * part } else { by.scale(constant) };
+        }
     }
 }
 
