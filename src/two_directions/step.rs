@@ -306,69 +306,64 @@ fn slide_with_gaps<A: Real, X: Over<A>, T: Tables<A>>(
     [first, end]: [usize; 2],
 ) {
     let (zero, end) = (X::constant(0.0), end.min(N));
-    let first = first.min(end);
-    let mut excess = [[zero; N]; 2];
+    let (first, mut slips, mut residual) = (first.min(end), [[zero; N]; 2], [zero; N]);
     for k in 0..2 {
-        // Springs by which σ relaxes the contact, and the excess of r* - A σ over l e.
-        let mut relaxed = [A::constant(0.0); N];
-        let (mut before, mut per_slip) = (A::constant(0.0), [A::constant(0.0); N]);
+        let (mut sigma, mut excess) = ([zero; N], [zero; N]);
         for i in first..end {
-            per_slip[i] = c.per_pressure[i].scale(if slip.contains(i) { slip.sigma[k][i] } else { 0.0 });
+            sigma[i] = X::constant(if slip.contains(i) { slip.sigma[k][i] } else { 0.0 });
         }
-        for j in first..end {
-            let (mut sum, next) = (A::constant(0.0), (j + 1).min(N));
-            for i in first..next {
-                sum = sum + c.map(t, k, j, i) * per_slip[i];
-            }
-            relaxed[j] = (sum - before) * c.flexibility(t, k, j);
-            before = sum;
-        }
-        let mut d = [zero; N];
-        for j in first..end {
-            d[j] = v[k][j].minus(relaxed[j]);
-        }
-        for j in first + 1..end {
-            d[j - 1] = d[j - 1] - d[j];
-        }
+        relax(t, c, k, &sigma, &mut v[k], [first, end]);
         for i in first..end {
             if slip.contains(i) {
                 let mut sum = zero;
                 for j in i..end {
-                    sum.add_product(&d[j], c.map(t, k, j, i));
+                    let above = if j + 1 < end { v[k][j + 1] } else { zero };
+                    sum.add_product(&(v[k][j] - above), c.map(t, k, j, i));
                 }
-                excess[k][i] = sum.times(c.per_pressure[i]);
-                excess[k][i].add_scaled(&level[i], -slip.e[k][i]);
+                excess[i] = sum.times(c.per_pressure[i]);
+                excess[i].add_scaled(&level[i], -slip.e[k][i]);
             }
         }
+        slips[k] = product(&slip.k[k], [first, end], &excess);
     }
-    let slips = both!(|k| product(&slip.k[k], [first, end], &excess[k]));
-    let mut residual = [zero; N];
     for i in first..end {
         residual[i] = slips[1][i].scale(slip.e[0][i]) - slips[0][i].scale(slip.e[1][i]);
     }
     let turn = product(&slip.inverse, [first, end], &residual);
     for k in 0..2 {
-        let (across, sign) = if k == 0 { (&slip.e[1], -1.0) } else { (&slip.e[0], 1.0) };
+        let (across, sign) = if k == 0 { (&slip.e[1], 1.0) } else { (&slip.e[0], -1.0) };
         let mut change = [zero; N];
         for i in first..end {
             if slip.contains(i) {
-                change[i] = turn[i].scale(-sign * across[i] * slip.level[i]);
+                change[i] = turn[i].scale(sign * across[i] * slip.level[i]);
             }
         }
         let mut sigma = product(&slip.k[k], [first, end], &change);
         for i in first..end {
-            let own = if slip.contains(i) { slip.sigma[k][i] } else { 0.0 };
-            sigma[i] = (sigma[i] + slips[k][i] + X::constant(own)).times(c.per_pressure[i]);
+            sigma[i] = sigma[i] + slips[k][i];
         }
-        let mut before = zero;
-        for j in first..end {
-            let (mut sum, next) = (zero, (j + 1).min(N));
-            for i in first..next {
-                sum.add_product(&sigma[i], c.map(t, k, j, i));
-            }
-            v[k][j] = v[k][j] - (sum - before).times(c.flexibility(t, k, j));
-            before = sum;
+        relax(t, c, k, &sigma, &mut v[k], [first, end]);
+    }
+}
+
+/// Takes what slip relaxes from the springs: `w⁻¹ C'σ`.
+#[inline(always)]
+fn relax<A: Real, X: Over<A>, T: Tables<A>>(
+    t: &T,
+    c: &Contact<A>,
+    k: usize,
+    sigma: &Row<X>,
+    v: &mut Row<X>,
+    [first, end]: [usize; 2],
+) {
+    let mut before = X::constant(0.0);
+    for j in first..end.min(N) {
+        let mut sum = X::constant(0.0);
+        for i in first..(j + 1).min(N) {
+            sum.add_product(&sigma[i].times(c.per_pressure[i]), c.map(t, k, j, i));
         }
+        v[j] = v[j] - (sum - before).times(c.flexibility(t, k, j));
+        before = sum;
     }
 }
 
