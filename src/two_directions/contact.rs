@@ -165,8 +165,7 @@ impl<A: Real> Contact<A> {
     #[inline(always)]
     fn new(t: &impl Tables<A>, now: &Pressed<A>, [last, part]: [usize; 2], under_flat: usize) -> Contact<A> {
         let (zero, one, last) = (A::constant(0.0), A::constant(1.0), last.min(N - 1));
-        let start = starts(under_flat);
-        let (first_part, first) = (start[last], last <= under_flat);
+        let first_part = starts(under_flat)[last];
         let before = last.max(1) - 1;
         let mut contact = Contact {
             edge: [[zero; N]; 2],
@@ -200,38 +199,44 @@ impl<A: Real> Contact<A> {
             contact.edge[1][i] = traction * per_step[1];
         }
         for k in 0..2 {
-            let (load, shift) = (LOAD, SHIFT + k * FINE / N);
-            let own = (now.load - t.at(load, first_part)) * per_step[k];
+            let own = (now.load - t.at(LOAD, first_part)) * per_step[k];
             let inner = if last > 0 { t.at(SECANT + k, before) } else { zero };
             let (rise, least) = (own - inner, own.scale(LEAST_STIFFNESS));
             contact.stiffness[k] = if rise.value() > least.value() { rise } else { least };
             contact.flexibility[k] = contact.stiffness[k].inverse();
-            // Fine springs from the last one of the shell before; N of the outermost part is unbiased when the edge passes it.
-            let from = contact.first_edge();
-            let inside = [now.inside[0], now.inside[1 + k]];
-            let per_part = (t.at(shift, part + 1) - t.at(shift, part)).inverse();
-            let passed = (inside[1] - t.at(shift, part)) * per_part;
-            let corner = |f: usize| {
-                let bias = t.at(BIAS, f);
-                [t.at(load, f) - if f < part { bias } else { bias * passed }, t.at(shift, f)]
-            };
-            let mut slope = if from > 0 { t.at(FINE_SECANT + k * FINE / N, from - 1) } else { zero };
-            let mut lower = corner(from);
-            for f in from..=part {
-                let upper = if f < part { corner(f + 1) } else { inside };
-                let secant = (upper[0] - lower[0]) * (upper[1] - lower[1]).inverse();
-                let mut law = zero;
-                if f == first_part {
-                    law = own - if first { zero } else { inner };
-                } else if f == start[before] {
-                    law = t.at(if before > under_flat { STIFFNESS } else { SECANT } + k, before);
-                }
-                contact.fine[k][(f - from).min(MOST_PARTS - 1)] = secant - slope - law;
-                (slope, lower) = (secant, upper);
-            }
-            contact.fine[k][(part + 1 - from).min(MOST_PARTS - 1)] = contact.total(k) - slope;
+            contact.press_fine(t, k, [own, inner]);
         }
         contact
+    }
+
+    /// Fine springs from the last one of the shell before, from the secants of the last shell and of those within.
+    #[inline(always)]
+    fn press_fine(&mut self, t: &impl Tables<A>, k: usize, [own, inner]: [A; 2]) {
+        let (zero, start, before) = (A::constant(0.0), starts(self.under_flat), self.last.max(1) - 1);
+        let (load, shift, part, from) = (LOAD, SHIFT + k * FINE / N, self.part, self.first_edge());
+        let inside = [self.now.inside[0], self.now.inside[1 + k]];
+        // N of the outermost part is unbiased when the edge passes it.
+        let per_part = (t.at(shift, part + 1) - t.at(shift, part)).inverse();
+        let passed = (inside[1] - t.at(shift, part)) * per_part;
+        let corner = |f: usize| {
+            let bias = t.at(BIAS, f);
+            [t.at(load, f) - if f < part { bias } else { bias * passed }, t.at(shift, f)]
+        };
+        let mut slope = if from > 0 { t.at(FINE_SECANT + k * FINE / N, from - 1) } else { zero };
+        let mut lower = corner(from);
+        for f in from..=part {
+            let upper = if f < part { corner(f + 1) } else { inside };
+            let secant = (upper[0] - lower[0]) * (upper[1] - lower[1]).inverse();
+            let mut law = zero;
+            if f == self.first_part {
+                law = own - if self.last <= self.under_flat { zero } else { inner };
+            } else if f == start[before.min(N)] {
+                law = t.at(if before > self.under_flat { STIFFNESS } else { SECANT } + k, before);
+            }
+            self.fine[k][(f - from).min(MOST_PARTS - 1)] = secant - slope - law;
+            (slope, lower) = (secant, upper);
+        }
+        self.fine[k][(part + 1 - from).min(MOST_PARTS - 1)] = self.total(k) - slope;
     }
 
     /// G of a shell at a point.

@@ -267,7 +267,27 @@ struct Taken {
     closed: [bool; 2],
 }
 
-impl Walk<'_> {
+impl<'a> Walk<'a> {
+    /// Pressed by a normal component.
+    fn new(element: &'a Element, units: Units, tables: (&'a Rows, &'a DualRows), top: f64) -> Walk<'a> {
+        let mut walk = Walk {
+            element,
+            units,
+            tables: tables.0,
+            dual_tables: tables.1,
+            at: [0.0, 0.0, top],
+            contact: Contact::NONE,
+            slopes: Pressed::NONE,
+            derived: None,
+            normal: Normal::OPEN,
+            springs: [[0.0; N]; SPRINGS / N],
+            slip: Slips::NONE,
+            inverse: [[[0.0; N]; N]; 2],
+        };
+        walk.press(top);
+        walk
+    }
+
     /// Advances to a sample.
     fn advance(&mut self, to: [f64; 3], requested: Requested) -> Taken {
         let (was_closed, closes) = (self.contact.now.load > 0.0, self.element.is_closed(to[2]));
@@ -409,13 +429,29 @@ fn columns_kernel<const L: usize, const M: usize>(
 }
 
 /// Tables with their derivatives by the logarithm of the reference size, from those of a slightly larger and a smaller one.
-fn derive_tables(tables: &Rows, [larger, smaller]: [&Rows; 2], dual_tables: &mut DualRows) {
+fn derive_tables(
+    element: &Element,
+    units: &Units,
+    tables: &Rows,
+    [larger, smaller]: [&mut Rows; 2],
+    dual_tables: &mut DualRows,
+) {
+    fill(larger, element, units, 1.0 + NEIGHBOUR);
+    fill(smaller, element, units, 1.0 - NEIGHBOUR);
     let neighbours = larger.as_flattened().iter().zip(smaller.as_flattened());
     let places = dual_tables.as_flattened_mut().iter_mut().zip(tables.as_flattened());
     for ((place, value), (larger, smaller)) in places.zip(neighbours) {
         let mut dual = Dual::<1>::constant(*value);
         dual.0[0][ALIGNMENT] = (larger - smaller) * (0.5 / NEIGHBOUR);
         [*place] = dual.0;
+    }
+}
+
+/// The normal forces of a motion that was synthesised.
+fn without_friction(element: &Element, samples: &mut [[f64; SAMPLE]]) {
+    for sample in samples {
+        let normal = if element.is_closed(sample[2]) { element.normal(sample[2]) } else { Normal::OPEN };
+        [sample[3], sample[4], sample[5], sample[6]] = [normal.load, normal.load_slope, 0.0, 0.0];
     }
 }
 
@@ -437,27 +473,11 @@ fn walk(element: &Element, workspace: &mut Workspace, output: HarmonicOutput) {
     if slides && let ([tables, larger, smaller, ..], [dual_tables, ..]) = (&mut *memory.0, &mut *memory.1) {
         fill(tables, element, &units, 1.0);
         if requested.tangent {
-            fill(larger, element, &units, 1.0 + NEIGHBOUR);
-            fill(smaller, element, &units, 1.0 - NEIGHBOUR);
-            derive_tables(tables, [larger, smaller], dual_tables);
+            derive_tables(element, &units, tables, [larger, smaller], dual_tables);
             workspace.derivatives.fill(0.0);
             workspace.sums.fill(0.0);
         }
-        let mut walk = Walk {
-            element,
-            units,
-            tables,
-            dual_tables,
-            at: [0.0, 0.0, top],
-            contact: Contact::NONE,
-            slopes: Pressed::NONE,
-            derived: None,
-            normal: Normal::OPEN,
-            springs: [[0.0; N]; SPRINGS / N],
-            slip: Slips::NONE,
-            inverse: [[[0.0; N]; N]; 2],
-        };
-        walk.press(top);
+        let mut walk = Walk::new(element, units, (tables, dual_tables), top);
         // Of the logarithm of the reference size by the normal component.
         let by_top = if top_load >= units.load * 0.99 { 0.5 * walk.slopes.size } else { 0.0 };
         let mut before = None;
@@ -488,10 +508,7 @@ fn walk(element: &Element, workspace: &mut Workspace, output: HarmonicOutput) {
             }
         }
     } else {
-        for sample in workspace.samples.iter_mut() {
-            let normal = if element.is_closed(sample[2]) { element.normal(sample[2]) } else { Normal::OPEN };
-            [sample[3], sample[4], sample[5], sample[6]] = [normal.load, normal.load_slope, 0.0, 0.0];
-        }
+        without_friction(element, workspace.samples);
     }
     (workspace.tables, workspace.dual_tables) = memory;
     if let Some(dissipated) = dissipated {
