@@ -127,7 +127,6 @@ module microslip
     !! 2*length > b and a positive initial stiffness
   integer(mslip_int), parameter, public :: MSLIP_OUT_OF_RANGE = 13
     !! parameters out of range: a derived quantity would exceed 1e-150 .. 1e150
-  integer(mslip_int), parameter, public :: MSLIP_BAD_SPRINGS = 14  !! springs must be 0, 8, 12 or 16
   integer(mslip_int), parameter, public :: MSLIP_BAD_NORMAL_COMPLIANCE = 15
     !! normal_compliance of a layer must be finite and >= 0, and under normal_force at most 2^40 times that of the
     !! contact and 0 or 1e-150 .. 1e150
@@ -265,9 +264,6 @@ module microslip
     real(mslip_real) :: friction_coefficient = unset  !! Friction coefficient mu >= 0.
     type(mslip_material) :: material(2)  !! The two bodies.
     type(mslip_layer) :: layer  !! A layer in series with the contact; all zero: none.
-    integer(mslip_int) :: springs = 0
-      !! Springs of an element with two directions: 8, 12 or 16, more accurate and slower; 0: the default.
-    integer(mslip_int) :: reserved = 0  !! Leave 0.
   end type mslip_elliptic_parameters
 
   ! The reserved components are public, because `write` rejects types with private ones.
@@ -298,7 +294,7 @@ module microslip
     integer(mslip_int) :: directions = 0
       !! Number of tangential directions, 1 or 2: a displacement is [u, w] or [u, v, w], a force [T, N] or [Tx, Ty, N].
     integer(mslip_int) :: normal_input = 0  !! MSLIP_INPUT_APPROACH or MSLIP_INPUT_NORMAL_FORCE.
-    real(mslip_real) :: reserved(1857) = 0  !! Internal tables.
+    real(mslip_real) :: reserved(1856) = 0  !! Internal tables.
   end type mslip_element
   ! </generated>
 
@@ -935,7 +931,7 @@ contains
   end subroutine mslip_parameters_default
 
   subroutine mslip_elliptic_parameters_default(parameters)
-    !! Every value unset (NaN, so that a forgotten one is rejected by name), default springs.
+    !! Every value unset (NaN, so that a forgotten one is rejected by name).
     type(mslip_elliptic_parameters), intent(out) :: parameters  !! The parameters to reset.
 
     call c_elliptic_parameters_default(parameters)
@@ -1990,7 +1986,7 @@ contains
     !! Number of doubles in the state of an element; 0 if directions is neither 1 nor 2. For one tangential direction it
     !! has a capacity of `pieces` pieces of the memory diagram, at least 4, and is never full: if the capacity is
     !! exceeded, the two adjacent pieces are merged for which later forces change least. For two directions the length
-    !! is fixed, and `pieces` is ignored; as long as v does not change, the state is a memory diagram of that length.
+    !! is fixed, and `pieces` is ignored.
     integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1 or 2.
     integer(mslip_size), intent(in) :: pieces  !! Pieces of the memory diagram, >= 0; ignored for two directions.
     integer(mslip_size) :: length  !! The length. It may dimension an array.
@@ -2023,8 +2019,7 @@ contains
 
   subroutine mslip_element_state_error(directions, state, force_error, status)
     !! Bound on the error [N] of the tangential force due to merged pieces: 0 if none was merged since the last gross
-    !! slip or separation. For two directions it is that bound as long as v has not changed since the contact closed,
-    !! and 0 otherwise: pieces are merged only there. The error of the law for two directions is not included.
+    !! slip or separation. For two directions it is 0: the error of their law is not included.
     integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1 or 2.
     real(mslip_real), intent(in) :: state(:)  !! A state.
     real(mslip_real), intent(inout), target :: force_error  !! Bound on the error [N].

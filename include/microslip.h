@@ -73,9 +73,6 @@
 // parameters out of range: a derived quantity would exceed 1e-150 .. 1e150
 #define MSLIP_OUT_OF_RANGE 13
 
-// springs must be 0, 8, 12 or 16
-#define MSLIP_BAD_SPRINGS 14
-
 // normal_compliance of a layer must be finite and >= 0, and under normal_force at most 2^40 times that of the contact and 0 or 1e-150 .. 1e150
 #define MSLIP_BAD_NORMAL_COMPLIANCE 15
 
@@ -257,8 +254,8 @@ typedef struct mslip_parameters {
     struct mslip_layer layer;
     // `MSLIP_RIGID_STRIP` (1, corrected to 3-D, for the contact of a machine) or `MSLIP_CENTRE_POINT` (0, as in the paper).
     int32_t displacement_reference;
-    // Springs of an element with two tangential directions: 8, 12 or 16, more accurate and slower; 0: the default.
-    int32_t springs;
+    // Not read; set to 0.
+    int32_t reserved;
 } mslip_parameters;
 
 // Elliptical Hertz contact (section 3.3); a sphere if both semi-axes are equal.
@@ -275,10 +272,6 @@ typedef struct mslip_elliptic_parameters {
     struct mslip_material material[2];
     // A layer in series with the contact; all zero: none.
     struct mslip_layer layer;
-    // Springs of an element with two tangential directions: 8, 12 or 16, more accurate and slower; 0: the default.
-    int32_t springs;
-    // Not read; set to 0.
-    int32_t reserved;
 } mslip_elliptic_parameters;
 
 // A contact under a constant normal force: initialised once and only read afterwards. Plain data of fixed size that may be copied,
@@ -322,7 +315,7 @@ typedef struct mslip_element {
     // MSLIP_INPUT_APPROACH or MSLIP_INPUT_NORMAL_FORCE.
     int32_t normal_input;
     // Internal tables.
-    double reserved[1857];
+    double reserved[1856];
 } mslip_element;
 
 #ifdef __cplusplus
@@ -773,8 +766,7 @@ int32_t mslip_element_displacement(const struct mslip_element *element,
 
 // Number of doubles in the state of an element; 0 if directions is neither 1 nor 2. For one tangential direction it has a capacity
 // of `pieces` pieces of the memory diagram, at least 4, and is never full: if the capacity is exceeded, the two adjacent pieces
-// are merged for which later forces change least. For two directions the length is fixed, and `pieces` is ignored; as long as v
-// does not change, the state is a memory diagram of that length.
+// are merged for which later forces change least. For two directions the length is fixed, and `pieces` is ignored.
 size_t mslip_element_state_length(int32_t directions,
                                   size_t pieces);
 
@@ -795,8 +787,7 @@ int32_t mslip_element_state_check(int32_t directions,
                                   const double *state);
 
 // Bound on the error [N] of the tangential force due to merged pieces: 0 if none was merged since the last gross slip or
-// separation. For two directions it is that bound as long as v has not changed since the contact closed, and 0 otherwise: pieces are
-// merged only there. The error of the law for two directions is not included.
+// separation. For two directions it is 0: the error of their law is not included.
 //
 // Returns MSLIP_BAD_DIRECTIONS, also for the state of another number of directions, MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or
 // MSLIP_BAD_STATE.

@@ -83,12 +83,7 @@ pub struct Element {
     /// times N, and a number that two shapes hardly share.
     lateral: [f64; 2],
     pub(crate) key: f64,
-    /// Springs of a contact, 8, 12 or 16; 0 with one direction.
-    pub(crate) springs: usize,
 }
-
-/// The number of springs unless another one is requested.
-const SPRINGS: usize = 16;
 
 const TAG: u64 = (0x6d73_6c69_7065 << 16) | (LAYOUT << 8);
 const ELLIPTIC: u64 = 1;
@@ -202,7 +197,7 @@ impl Element {
         directions: Directions,
         input: NormalInput,
     ) -> Result<(), Error> {
-        let Common { normal_force, friction_coefficient, springs, .. } = *parameters;
+        let Common { normal_force, friction_coefficient, .. } = *parameters;
         let plane = shape.plane();
         let layer = plane.layer;
         let [w, largest] = sizes(shape, normal_force, directions)?;
@@ -230,7 +225,6 @@ impl Element {
         let smallest = if directions == Directions::Two { SMALLEST_OF_SPRINGS } else { SMALLEST_LOAD };
         self.smallest_input = smallest * if input == NormalInput::Force { normal_force } else { approach };
         self.friction_coefficient = friction_coefficient;
-        self.springs = springs_of(springs, directions);
         self.per_two_mu = if friction_coefficient > 0.0 { 0.5 / friction_coefficient.max(TINY) } else { 0.0 };
         self.normal_force = normal_force;
         self.half_width = shape.half_width(w);
@@ -676,15 +670,6 @@ fn sizes(shape: &dyn Shape, normal_force: f64, directions: Directions) -> Result
         }
     }
     if w >= largest { Err(Error::LengthTooShort) } else { Ok([w, largest]) }
-}
-
-/// The number of springs of parameters that were checked.
-fn springs_of(requested: i32, directions: Directions) -> usize {
-    match (directions, requested) {
-        (Directions::One, _) => 0,
-        (Directions::Two, 0) => SPRINGS,
-        (Directions::Two, springs) => springs.unsigned_abs() as usize,
-    }
 }
 
 /// A number from 1 to 2 that depends on the bits of all values.

@@ -62,7 +62,6 @@ status_codes! {
     LengthTooShort, MSLIP_LENGTH_TOO_SHORT = 12:
         "length too small for the half-width b of the contact, or approach or force of an element too large: requires 2*length > b and a positive initial stiffness";
     OutOfRange, MSLIP_OUT_OF_RANGE = 13: "parameters out of range: a derived quantity would exceed 1e-150 .. 1e150";
-    BadSprings, MSLIP_BAD_SPRINGS = 14: "springs must be 0, 8, 12 or 16";
     BadNormalCompliance, MSLIP_BAD_NORMAL_COMPLIANCE = 15:
         "normal_compliance of a layer must be finite and >= 0, and under normal_force at most 2^40 times that of the contact and 0 or 1e-150 .. 1e150";
     BadTangentialCompliance, MSLIP_BAD_TANGENTIAL_COMPLIANCE = 16:

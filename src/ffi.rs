@@ -120,7 +120,7 @@ pub struct mslip_element {
     /// MSLIP_INPUT_APPROACH or MSLIP_INPUT_NORMAL_FORCE.
     pub normal_input: i32,
     /// Internal tables.
-    pub reserved: [f64; 1857],
+    pub reserved: [f64; 1856],
 }
 
 const _: () = {
@@ -135,9 +135,9 @@ const _: () = {
     assert!(offset_of!(Contact, composite_modulus) == 0 && offset_of!(Contact, half_width) == 8);
     assert!(offset_of!(Contact, slip_force) == 16 && offset_of!(Contact, slip_displacement) == 24);
     assert!(offset_of!(Contact, initial_stiffness) == 32 && offset_of!(Contact, slip_energy) == 40);
-    assert!(size_of::<Parameters>() == 112 && size_of::<EllipticParameters>() == 104);
+    assert!(size_of::<Parameters>() == 112 && size_of::<EllipticParameters>() == 96);
     assert!(offset_of!(Parameters, material) == 40 && offset_of!(Parameters, layer) == 72);
-    assert!(offset_of!(Parameters, springs) == 108 && offset_of!(EllipticParameters, springs) == 96);
+    assert!(offset_of!(Parameters, reserved) == 108);
     assert!(offset_of!(EllipticParameters, material) == 32 && offset_of!(EllipticParameters, layer) == 64);
 };
 

@@ -87,8 +87,8 @@ pub struct Parameters {
     pub layer: Layer,
     /// `MSLIP_RIGID_STRIP` (1, corrected to 3-D, for the contact of a machine) or `MSLIP_CENTRE_POINT` (0, as in the paper).
     pub displacement_reference: i32,
-    /// Springs of an element with two tangential directions: 8, 12 or 16, more accurate and slower; 0: the default.
-    pub springs: i32,
+    /// Not read; set to 0.
+    pub reserved: i32,
 }
 
 /// Elliptical Hertz contact (section 3.3); a sphere if both semi-axes are equal.
@@ -107,10 +107,6 @@ pub struct EllipticParameters {
     pub material: [Material; 2],
     /// A layer in series with the contact; all zero: none.
     pub layer: Layer,
-    /// Springs of an element with two tangential directions: 8, 12 or 16, more accurate and slower; 0: the default.
-    pub springs: i32,
-    /// Not read; set to 0.
-    pub reserved: i32,
 }
 
 /// Default of the numbers: NaN, and of the displacement reference: -1, so that an omitted parameter is rejected by its own error.
@@ -129,7 +125,7 @@ impl Default for Parameters {
             material: [UNSET_MATERIAL; 2],
             layer: Layer::none(),
             displacement_reference: -1,
-            springs: 0,
+            reserved: 0,
         }
     }
 }
@@ -143,8 +139,6 @@ impl Default for EllipticParameters {
             friction_coefficient: UNSET,
             material: [UNSET_MATERIAL; 2],
             layer: Layer::none(),
-            springs: 0,
-            reserved: 0,
         }
     }
 }
@@ -178,7 +172,6 @@ pub(crate) struct Common {
     pub friction_coefficient: f64,
     pub material: [Material; 2],
     pub layer: Layer,
-    pub springs: i32,
 }
 
 impl Common {
@@ -192,10 +185,6 @@ impl Common {
             }
         }
         self.layer.check(self.normal_force)
-    }
-
-    fn check_springs(&self) -> Result<(), Error> {
-        if matches!(self.springs, 0 | 8 | 12 | 16) { Ok(()) } else { Err(Error::BadSprings) }
     }
 
     /// E* of parameters that were checked.
@@ -219,14 +208,14 @@ impl Parameters {
         positive(self.length, Error::BadLength)?;
         self.common().check()?;
         match self.displacement_reference {
-            CENTRE_POINT | RIGID_STRIP => self.common().check_springs(),
+            CENTRE_POINT | RIGID_STRIP => Ok(()),
             _ => Err(Error::BadDisplacementReference),
         }
     }
 
     pub(crate) fn common(&self) -> Common {
-        let Parameters { normal_force, friction_coefficient, material, layer, springs, .. } = *self;
-        Common { normal_force, friction_coefficient, material, layer, springs }
+        let Parameters { normal_force, friction_coefficient, material, layer, .. } = *self;
+        Common { normal_force, friction_coefficient, material, layer }
     }
 }
 
@@ -238,13 +227,12 @@ impl EllipticParameters {
     pub fn check(&self) -> Result<(), Error> {
         positive(self.semi_axis_x, Error::BadSemiAxisX)?;
         positive(self.semi_axis_y, Error::BadSemiAxisY)?;
-        self.common().check()?;
-        self.common().check_springs()
+        self.common().check()
     }
 
     pub(crate) fn common(&self) -> Common {
-        let EllipticParameters { normal_force, friction_coefficient, material, layer, springs, .. } = *self;
-        Common { normal_force, friction_coefficient, material, layer, springs }
+        let EllipticParameters { normal_force, friction_coefficient, material, layer, .. } = *self;
+        Common { normal_force, friction_coefficient, material, layer }
     }
 }
 
@@ -310,24 +298,6 @@ mod tests {
         }
         one = Parameters { friction_coefficient: f64::INFINITY, ..steel() };
         assert_eq!(one.check(), Err(Error::BadFrictionCoefficient));
-        for springs in [0, 8, 12, 16] {
-            assert_eq!(Parameters { springs, ..steel() }.check(), Ok(()));
-        }
-        for springs in [-8, 1, 13, 24] {
-            assert_eq!(Parameters { springs, ..steel() }.check(), Err(Error::BadSprings));
-            let Parameters { normal_force, friction_coefficient, material, .. } = steel();
-            let ellipse = EllipticParameters {
-                semi_axis_x: 1e-4,
-                semi_axis_y: 1e-4,
-                normal_force,
-                friction_coefficient,
-                material,
-                springs,
-                ..EllipticParameters::default()
-            };
-            assert_eq!(ellipse.check(), Err(Error::BadSprings));
-            assert_eq!(EllipticParameters { springs: 12, ..ellipse }.check(), Ok(()));
-        }
     }
 
     #[test]

@@ -4,34 +4,25 @@
 //! the family carry the displacement of the sizes within; the tractions at one point of each shell are a triangular map of them, and
 //! Coulomb's law holds at these points, with slip in the direction of the traction.
 //!
-//! - `springs`: the springs of a shape, aligned with a size, and the map;
-//! - `edge`: the shell that ends at the present size;
-//! - `slip`: Coulomb's law at the points, by Newton's method for the angles of the tractions;
-//! - `energy`: energy that springs dissipate in a step;
-//! - `spring_state`, `step`, `tangent`: the state of the springs, a step, and its derivatives;
-//! - `stick`: a step in which nothing slips;
-//! - `load_path`: a step between contacts that may be open;
-//! - `state`, `advance`: the state in the caller's memory, and a step of it;
+//! - `scalar`: numbers over which the law is written, values and duals;
+//! - `tables`, `contact`: the springs of a shape, aligned with a size, and under a present load;
+//! - `trial`, `slip`, `step`: a step without slip, Coulomb's law at the points in its middle and at its end, and the step itself with its
+//!   energy;
+//! - `stick`: a step under a constant load without slip;
+//! - `path`, `state`: a step between contacts that may be open, and the state in the caller's memory;
 //! - [`harmonic_force`]: Fourier coefficients of the forces of a periodic motion.
-//!
-//! A motion on a line parallel to x is that of one direction: as long as v does not change, the state is the memory diagram of
-//! [`crate::one_direction`]. The first step with a change of v turns it into springs (`from_diagram`), the next separation back.
 
 pub mod harmonic_force;
 
-mod advance;
-mod edge;
-mod energy;
-mod fine;
-mod from_diagram;
-mod load_path;
+mod contact;
+mod path;
+mod scalar;
 mod slip;
-mod spring_state;
-mod springs;
 mod state;
 mod step;
 mod stick;
-mod tangent;
+mod tables;
+mod trial;
 
 use crate::element::{Directions, Element};
 use crate::error::Error;
@@ -40,7 +31,7 @@ use crate::limits::check_displacement;
 use crate::tag::Kind;
 
 pub use crate::law::PathOutput;
-pub use state::{force_error, state_check, state_init, state_length};
+pub use state::{state_check, state_init, state_length};
 
 /// Result of a step: forces `[Tx, Ty, N]`, tangent 3 x 3 (column-major), 0 unless requested, and dissipated energy.
 pub type Step = law::StepResult<[f64; 3], [f64; 9]>;
@@ -77,8 +68,8 @@ impl ElementLaw for TwoDirections {
         state::check_tag(tag)
     }
 
-    fn force_error(state: &[f64]) -> f64 {
-        force_error(state)
+    fn force_error(_: &[f64]) -> f64 {
+        0.0
     }
 
     #[inline(always)]
@@ -95,12 +86,12 @@ impl ElementLaw for TwoDirections {
 
     #[inline(always)]
     fn trial(element: &Element, old: &[f64], displacement: [f64; 3], requested: Requested) -> Step {
-        advance::trial(element, old, displacement, requested)
+        state::trial_step(element, old, displacement, requested)
     }
 
     #[inline(always)]
     fn advance(element: &Element, state: &mut [f64], displacement: [f64; 3], requested: Requested) -> Step {
-        advance::advance(element, state, displacement, requested)
+        state::advance_state(element, state, displacement, requested)
     }
 
     fn check_path(element: &Element, path: &[f64]) -> Result<(), Error> {

@@ -61,9 +61,6 @@ pub struct ContactArgs {
     /// Reference of the displacement of a flat: rigid_strip for the contact of a machine
     #[arg(long, value_name = "NAME")]
     displacement_reference: Option<Reference>,
-    /// Springs of histories in two directions: 8, 12 or 16, more accurate and slower [default: 0, that of the library]
-    #[arg(long, value_name = "COUNT", allow_hyphen_values = true)]
-    springs: Option<i32>,
     /// Units of input and output; must agree with those of a parameter file [default: si]
     #[arg(long, value_name = "NAME")]
     units: Option<Units>,
@@ -249,7 +246,6 @@ impl ContactArgs {
             *to = values;
         }
         self.displacement_reference = self.displacement_reference.or(file.displacement_reference);
-        self.springs = self.springs.or(file.springs);
         self.units = self.units.or(file.units);
         Ok(())
     }
@@ -294,7 +290,6 @@ impl ContactArgs {
         // Missing numbers were reported; the library rejects NaN.
         let number = |value: Option<f64>| value.unwrap_or(f64::NAN);
         let [normal_force, friction_coefficient] = [self.normal_force, self.friction_coefficient].map(number);
-        let springs = self.springs.unwrap_or(0);
         let layer = Layer {
             normal_compliance: self.normal_compliance.unwrap_or(0.0),
             tangential_compliance: self.tangential_compliance.unwrap_or(0.0),
@@ -310,8 +305,6 @@ impl ContactArgs {
                 friction_coefficient,
                 material,
                 layer,
-                springs,
-                ..EllipticParameters::default()
             })
         } else {
             ShapeParameters::Flat(Parameters {
@@ -327,7 +320,7 @@ impl ContactArgs {
                     None => Parameters::default().displacement_reference,
                 },
                 layer,
-                springs,
+                reserved: 0,
             })
         })
     }
@@ -420,9 +413,6 @@ impl ContactArgs {
             Some(Reference::CentrePoint) => " --displacement-reference centre_point",
             None => "",
         });
-        if let Some(springs) = self.springs {
-            options.push_str(&format!(" --springs {springs}"));
-        }
         if self.units == Some(Units::Mm) {
             options.push_str(" --units mm");
         }

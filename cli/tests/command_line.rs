@@ -750,7 +750,6 @@ fn the_command_in_a_result_repeats_it() {
             "history contact.toml --displacements two.csv --column u --approach-column 2 --relative",
             "history contact.toml --displacements two.csv --column u --column-y v --normal-force-column N",
             "history contact.toml --displacements two.csv --column u --column-y v --approach-column N --relative",
-            "history contact.toml --displacements two.csv --column u --column-y v --normal-force-column N --springs 16",
             "history contact.toml --displacements two.csv --column u --column-y 2",
             "normal contact.toml --points 5",
             "normal contact.toml --force 7",
@@ -802,7 +801,6 @@ fn messages_name_the_error_and_what_is_allowed() {
         ("normal $FLAT --force 10,-2", "--force -2: ", Error::BadNormalForce, ""),
         ("normal $FLAT --approach nan", "--approach NaN: ", Error::BadDisplacement, ""),
         ("normal $FLAT --to 1", "--to 1: ", Error::LengthTooShort, ""),
-        ("contact $FLAT --springs 13", "", Error::BadSprings, ""),
         ("loop $FLAT --phase 0 --normal-amplitude -5%", "--normal-amplitude -7.5: ", Error::BadForceAmplitude, ""),
     ] {
         shell.check_error(&format!("microslip {arguments}"), 1, &format!("{before}{error}{after}"));

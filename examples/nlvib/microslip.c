@@ -80,8 +80,7 @@ static void read_material(const mxArray *values, double *first, double *second)
 }
 
 /* Fields that the struct does not have stay NaN; the library rejects them by name. */
-static void read_parameters(const mxArray *p, const field *fields, void *parameters, mslip_material *material, int32_t *reference,
-                            int32_t *springs)
+static void read_parameters(const mxArray *p, const field *fields, void *parameters, mslip_material *material, int32_t *reference)
 {
     require(mxIsStruct(p) && mxGetNumberOfElements(p) == 1, "the parameters are a struct");
     for (int i = 0; i < mxGetNumberOfFields(p); i++) {
@@ -98,8 +97,6 @@ static void read_parameters(const mxArray *p, const field *fields, void *paramet
             read_material(value, &material[0].poisson_ratio, &material[1].poisson_ratio);
         } else if (reference && strcmp(name, "displacement_reference") == 0) {
             *reference = constant(value, name);
-        } else if (strcmp(name, "springs") == 0) {
-            *springs = constant(value, name);
         } else {
             mexErrMsgIdAndTxt("microslip:argument", "unknown parameter %s", name);
         }
@@ -110,7 +107,7 @@ static mslip_parameters line_parameters(const mxArray *p)
 {
     mslip_parameters parameters;
     mslip_parameters_default(&parameters);
-    read_parameters(p, line_fields, &parameters, parameters.material, &parameters.displacement_reference, &parameters.springs);
+    read_parameters(p, line_fields, &parameters, parameters.material, &parameters.displacement_reference);
     return parameters;
 }
 
@@ -118,7 +115,7 @@ static mslip_elliptic_parameters elliptic_parameters(const mxArray *p)
 {
     mslip_elliptic_parameters parameters;
     mslip_elliptic_parameters_default(&parameters);
-    read_parameters(p, elliptic_fields, &parameters, parameters.material, NULL, &parameters.springs);
+    read_parameters(p, elliptic_fields, &parameters, parameters.material, NULL);
     return parameters;
 }
 

@@ -176,7 +176,7 @@ contains
     !> A variable that is not given keeps the value of the contact before. The library checks geometry, load and material.
     subroutine read_contacts()
       character(len=name_length) :: name, law, second_direction, displacement_reference
-      integer :: dof(6), count, springs
+      integer :: dof(6), count
       logical :: load_varied
       integer :: m
       real(wp) :: angle, interference
@@ -186,12 +186,11 @@ contains
       type(contact_input) :: c
       namelist /contact/ name, law, dof, second_direction, angle, interference, count, load_varied, parameter_file, &
         flat_half_width, edge_radius, length, normal_force, friction_coefficient, young_modulus, poisson_ratio, &
-        displacement_reference, springs, normal_compliance, tangential_compliance, stiffening_load, reference_load
+        displacement_reference, normal_compliance, tangential_compliance, stiffening_load, reference_load
 
       law = ' '
       second_direction = with_friction
       displacement_reference = ' '
-      springs = 0
       count = 1
       load_varied = .true.
       angle = 0.0_wp
@@ -252,7 +251,6 @@ contains
         c%parameters%material%poisson_ratio = poisson_ratio
         c%parameters%displacement_reference = merge(MSLIP_RIGID_STRIP, MSLIP_CENTRE_POINT, &
                                                     displacement_reference == 'rigid_strip')
-        c%parameters%springs = springs
         c%parameters%layer = mslip_layer(normal_compliance, tangential_compliance, stiffening_load, reference_load)
         if (len_trim(parameter_file) > 0) call read_parameter_file(parameter_file, c%parameters)
         data%contacts = [data%contacts, c]
@@ -468,8 +466,6 @@ contains
         read (value, *, iostat=status) parameters%layer%stiffening_load
       case ('reference_load')
         read (value, *, iostat=status) parameters%layer%reference_load
-      case ('springs')
-        read (value, *, iostat=status) parameters%springs
       case ('young_modulus')
         read (value, *, iostat=status) parameters%material(max(bodies, 1))%young_modulus
       case ('poisson_ratio')

@@ -68,9 +68,8 @@ class Element(_Law):
 
     With `directions` = 1 a displacement is [u, w] and a force [T, N]; with 2 they are [u, v, w] and [Tx, Ty, N]. The normal
     component w is the approach [m], open if w <= 0, with `normal_input` = `INPUT_APPROACH`, or the normal force [N] with
-    `INPUT_NORMAL_FORCE`. `normal_force` > 0 is the largest force [N] for which the element is tabulated. `springs` of
-    two directions are 8, 12 or 16, more accurate and slower; 0 is the default. The other parameters are those of `Contact`. The
-    element of an elliptical contact is made by `Element.elliptic`.
+    `INPUT_NORMAL_FORCE`. `normal_force` > 0 is the largest force [N] for which the element is tabulated. The other
+    parameters are those of `Contact`. The element of an elliptical contact is made by `Element.elliptic`.
     """
 
     _type = "mslip_element"
@@ -102,7 +101,6 @@ class Element(_Law):
         tangential_compliance: float = 0.0,
         stiffening_load: float = 0.0,
         reference_load: float = 0.0,
-        springs: int = 0,
         directions: int = 1,
         normal_input: Constant = 16,
     ) -> None:
@@ -123,7 +121,6 @@ class Element(_Law):
         tangential_compliance: float = 0.0,
         stiffening_load: float = 0.0,
         reference_load: float = 0.0,
-        springs: int = 0,
         directions: int = 1,
         normal_input: Constant = 16,
     ) -> Element:

@@ -125,7 +125,7 @@ class _Law(_Components):
             if name == "displacement_reference":
                 checked[name] = choice(value, name, REFERENCES)
             else:
-                checked[name] = integer(value, name) if name == "springs" else number(value, name)
+                checked[name] = number(value, name)
             setattr(parameters, name, checked[name])
         bodies = {name: tuple(pair(given[name], name)) for name in ("young_modulus", "poisson_ratio")}
         parameters.material = list(zip(*bodies.values()))

@@ -22,8 +22,7 @@ _FROM_MM = {"young_modulus": 1e6, **dict.fromkeys(_LENGTHS + _COMPLIANCES, 1e-3)
 
 def read_parameters(path: str | os.PathLike[str]) -> dict[str, Any]:
     """The arguments of `Contact`, or of `Contact.elliptic`, in a parameter file of the command line, such as `microslip fit
-    --fitted fitted.toml` writes: `Contact(**read_parameters("fitted.toml"))`. In SI units, also of a file in millimetres. `springs`
-    is left out.
+    --fitted fitted.toml` writes: `Contact(**read_parameters("fitted.toml"))`. In SI units, also of a file in millimetres.
     """
     if not isinstance(path, (str, os.PathLike)):
         raise TypeError(f"path must be a string or a path, not {type(path).__name__}")
@@ -31,7 +30,6 @@ def read_parameters(path: str | os.PathLike[str]) -> dict[str, Any]:
     bodies, units = given.pop("material", []), given.pop("units", "si")
     if units not in ("si", "mm"):
         raise ValueError(f"{path}: units must be 'si' or 'mm', not {units!r}")
-    given.pop("springs", None)
     for name in ("young_modulus", "poisson_ratio"):
         values = [body[name] for body in bodies if name in body]
         if values:

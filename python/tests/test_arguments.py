@@ -34,7 +34,7 @@ SLIP = contact.slip_displacement
 TIME = np.linspace(0, 4 * np.pi, 160)
 LOOP = 2 * SLIP * np.cos(TIME), contact.update(state, 2 * SLIP * np.cos(TIME)).force
 LAYER = {"normal_compliance": 0.0, "tangential_compliance": 0.0, "stiffening_load": 100.0, "reference_load": 50.0}
-DIRECTIONS = {"springs": 12, "directions": 1, "normal_input": "approach"}
+DIRECTIONS = {"directions": 1, "normal_input": "approach"}
 MANY = {"index": [0, 1], "active": [1, 1]}
 
 

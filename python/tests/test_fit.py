@@ -184,7 +184,7 @@ def test_parameter_files_of_the_command_line(tmp_path):
     titanium = {"young_modulus": 114e9, "poisson_ratio": 0.32, "displacement_reference": "rigid_strip"}
     assert microslip.Contact(**microslip.read_parameters(file)) == microslip.Contact(**damper | titanium)
     text = (
-        "units = 'mm'\nspring = 1\nsprings = 8\nedge_radius = 3\ntangential_compliance = 2e-6\n[[material]]\nyoung_modulus = 2e5\n"
+        "units = 'mm'\nspring = 1\nedge_radius = 3\ntangential_compliance = 2e-6\n[[material]]\nyoung_modulus = 2e5\n"
     )
     (tmp_path / "mm.toml").write_text(text)
     # Products by powers of ten.

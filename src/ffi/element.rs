@@ -210,8 +210,7 @@ unsafe fn normal_law(
 
 /// Number of doubles in the state of an element; 0 if directions is neither 1 nor 2. For one tangential direction it has a capacity
 /// of `pieces` pieces of the memory diagram, at least 4, and is never full: if the capacity is exceeded, the two adjacent pieces
-/// are merged for which later forces change least. For two directions the length is fixed, and `pieces` is ignored; as long as v
-/// does not change, the state is a memory diagram of that length.
+/// are merged for which later forces change least. For two directions the length is fixed, and `pieces` is ignored.
 #[unsafe(no_mangle)]
 pub extern "C" fn mslip_element_state_length(directions: i32, pieces: size_t) -> size_t {
     match directions_of(directions) {
@@ -251,8 +250,7 @@ pub unsafe extern "C" fn mslip_element_state_check(directions: i32, state_length
 }
 
 /// Bound on the error \[N\] of the tangential force due to merged pieces: 0 if none was merged since the last gross slip or
-/// separation. For two directions it is that bound as long as v has not changed since the contact closed, and 0 otherwise: pieces are
-/// merged only there. The error of the law for two directions is not included.
+/// separation. For two directions it is 0: the error of their law is not included.
 ///
 /// Returns MSLIP_BAD_DIRECTIONS, also for the state of another number of directions, MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or
 /// MSLIP_BAD_STATE.

@@ -85,16 +85,14 @@ impl Point {
 /// A state whose header was checked: the tangential displacement, the normal force, and the knots.
 pub(crate) struct View<'a> {
     pub displacement: f64,
-    pub input: f64,
     pub load: f64,
-    pub shift: f64,
     pub knots: &'a [[f64; PER_KNOT]],
 }
 
 pub(crate) fn view(state: &[f64]) -> View<'_> {
     let (header, knots) = parts(state);
-    let Point { displacement, input, normal, .. } = Point::read(header);
-    View { displacement, input, load: normal.load, shift: normal.shift, knots }
+    let Point { displacement, normal, .. } = Point::read(header);
+    View { displacement, load: normal.load, knots }
 }
 
 /// Header and knots in use of a state whose header was checked.

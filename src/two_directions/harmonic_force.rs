@@ -7,23 +7,22 @@
 //! springs are aligned with the largest normal force.
 //!
 //! The Jacobian is the exact derivative of these steps: the derivatives of the state with respect to all coefficients are carried
-//! along. A motion with v = 0 is that of one direction, whose force and Jacobian are used; only the stiffness along y is that of the
-//! springs.
+//! along. The tables and the contact have derivatives by the load at both ends of a step and by the alignment, the springs by the
+//! coefficients too, to which the former are added after each step.
 
-use super::advance::aligned;
-use super::load_path::{LoadPath, Place};
-use super::spring_state::SpringState;
-use super::springs::{MOST, PressedSlopes, Springs, TABLES, fill};
-use super::state::Header;
-use super::step::StepRecord;
-use super::tangent::{self, Derivatives, IncrementColumns, Parameter, Taken, Wide, inner_after, rows};
-use super::{Requested, Step};
+use super::Requested;
+use super::contact::{Contact, Pressed, derive};
+use super::path::Path;
+use super::scalar::{Dual, Real};
+use super::slip::Slips;
+use super::step::{advance, separated, step};
+use super::tables::{ALIGNMENT, Both, END, N, PARAMETERS, ROWS, Rows, START, Units, fill, under_flat};
+use super::trial::{Motion, SPRINGS, Springs, Values, trial};
 use crate::element::{Element, Normal};
 use crate::error::Error;
 use crate::fourier::workspace::{HEADER, Parts, Size, WorkspaceLayout, padded};
 use crate::limits::check_coefficients;
-use crate::one_direction::harmonic_force as one_direction;
-use crate::simd::dispatch;
+use crate::simd::{dispatch, plus};
 use crate::tag::Kind;
 use core::f64::consts::TAU;
 
@@ -49,35 +48,27 @@ pub fn workspace_init(harmonics: usize, samples: usize, periods: usize, workspac
 /// nodes are close, and a rounding error over it.
 const NEIGHBOUR: f64 = 1e-6;
 
-/// Columns that are advanced at once.
-const BLOCK: usize = 12;
+/// Columns that are advanced at once: for one harmonic, and for more.
+const NARROW: usize = 12;
+const WIDE: usize = 36;
 
 pub(crate) struct Layout(Size);
 
 impl Layout {
-    fn one_direction_length(&self) -> usize {
-        padded(one_direction::workspace_length(self.0.harmonics, self.0.samples))
-    }
-
-    /// Blocks of columns, one for each coefficient of the motion.
-    fn blocks(&self) -> usize {
-        (3 * self.0.coefficients()).div_ceil(BLOCK)
-    }
-
-    /// Doubles of the motion, the force and the Jacobian of one direction.
-    fn line_length(&self) -> usize {
-        let n = 2 * self.0.coefficients();
-        padded(n) + padded(n) + padded(n * n)
+    /// Columns, one for each coefficient of the motion, in whole blocks: in each, those of the normal component, of u and of v.
+    fn columns(&self) -> usize {
+        let lanes = if 3 * self.0.coefficients() <= NARROW { NARROW } else { WIDE };
+        lanes * self.0.coefficients().div_ceil(lanes / 3)
     }
 
     /// Sums of the derivatives of both forces times 1, cos t, sin t, ...
     fn sums_length(&self) -> usize {
-        2 * self.0.coefficients() * self.blocks() * BLOCK
+        2 * self.0.coefficients() * self.columns()
     }
 }
 
-/// Doubles of a sample: the motion, the normal state and its derivatives, w², and the tangential forces.
-const SAMPLE: usize = 12;
+/// Doubles of a sample: the motion, the normal force and its derivative, and the tangential forces.
+const SAMPLE: usize = 8;
 
 impl WorkspaceLayout for Layout {
     const KIND: Kind = Kind::TwoDirectionsSampling;
@@ -97,22 +88,20 @@ impl WorkspaceLayout for Layout {
     }
 
     fn tables_length(&self) -> usize {
-        padded(self.0.coefficients() * self.0.samples) + self.one_direction_length()
+        padded(self.0.coefficients() * self.0.samples)
     }
 
     fn length(&self) -> usize {
         HEADER
             + self.tables_length()
             + SAMPLE * self.0.samples
-            + 3 * TABLES
-            + (rows(MOST) + 2) * BLOCK * self.blocks()
+            + 3 * N * ROWS
+            + (SPRINGS + 2) * self.columns()
             + self.sums_length()
-            + self.line_length()
     }
 
     fn fill_tables(&self, tables: &mut Parts) -> Result<(), Error> {
-        let Size { harmonics, samples, .. } = self.0;
-        let n = self.0.coefficients();
+        let (n, Size { samples, .. }) = (self.0.coefficients(), self.0);
         let basis = tables.take(n * samples)?;
         for (sample, values) in basis.chunks_exact_mut(n).enumerate() {
             for (c, value) in values.iter_mut().enumerate() {
@@ -121,7 +110,7 @@ impl WorkspaceLayout for Layout {
                 *value = if c % 2 == 0 && c > 0 { angle.sin() } else { angle.cos() };
             }
         }
-        one_direction::workspace_init(harmonics, samples, tables.take(self.one_direction_length())?)
+        Ok(())
     }
 }
 
@@ -131,15 +120,13 @@ pub struct Workspace<'a> {
     size: Size,
     /// Values of `[1, cos t, sin t, ...]`, sample after sample.
     basis: &'a [f64],
-    one_direction: one_direction::Workspace<'a>,
     samples: &'a mut [[f64; SAMPLE]],
-    /// Tables of the springs, their derivatives by the size of the alignment, and those of a slightly smaller size.
-    springs: &'a mut [f64],
-    /// Derivatives of the state, and those of both forces, block after block of columns.
-    derivatives: &'a mut [[f64; BLOCK]],
-    forces: &'a mut [[f64; BLOCK]],
+    /// Tables of the springs, their derivatives by the logarithm of the reference size, and those of a slightly smaller one.
+    tables: &'a mut [Rows],
+    /// Derivatives of the springs, and those of both forces, block after block of columns.
+    derivatives: &'a mut [f64],
+    forces: &'a mut [f64],
     sums: &'a mut [f64],
-    line: &'a mut [f64],
 }
 
 impl<'a> Workspace<'a> {
@@ -149,19 +136,16 @@ impl<'a> Workspace<'a> {
     /// `BadWorkspace` if uninitialised or too short.
     pub fn new(memory: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
         let (layout, mut parts) = Layout::open(memory)?;
-        let (size, blocks) = (layout.0, layout.blocks());
+        let (size, columns) = (layout.0, layout.columns());
         let basis = parts.take(size.coefficients() * size.samples)?;
-        let one_direction = one_direction::Workspace::new(parts.take(layout.one_direction_length())?)?;
         Ok(Workspace {
             size,
             basis,
-            one_direction,
             samples: parts.take(SAMPLE * size.samples)?.as_chunks_mut().0,
-            springs: parts.take(3 * TABLES)?,
-            derivatives: parts.take(rows(MOST) * BLOCK * blocks)?.as_chunks_mut().0,
-            forces: parts.take(2 * BLOCK * blocks)?.as_chunks_mut().0,
+            tables: parts.take(3 * N * ROWS)?.as_chunks_mut::<N>().0.as_chunks_mut().0,
+            derivatives: parts.take(SPRINGS * columns)?,
+            forces: parts.take(2 * columns)?,
             sums: parts.take(layout.sums_length())?,
-            line: parts.take(layout.line_length())?,
         })
     }
 
@@ -207,26 +191,9 @@ impl<'a> Workspace<'a> {
         Ok(())
     }
 
-    /// Evaluates the normal states of the samples, with w² in the units of the springs.
-    fn press(&mut self, element: &Element, from: &Header) {
-        let (mut before, mut known) = (f64::NAN, Place::NONE);
-        for sample in self.samples.iter_mut() {
-            let [u, v, input, ..] = *sample;
-            if input.to_bits() != before.to_bits() {
-                known = Place::new(element, from, [u, v, input]);
-            }
-            before = input;
-            let Normal { load, shift, load_slope, shift_slope } = known.normal;
-            let closed = f64::from(u8::from(known.closed));
-            *sample = [u, v, input, closed, load, shift, load_slope, shift_slope, known.size, 0.0, 0.0, 0.0];
-        }
-    }
-
-    fn place(&self, index: usize) -> Place {
-        let [u, v, input, closed, load, shift, load_slope, shift_slope, size, ..] =
-            self.samples.get(index).copied().unwrap_or([0.0; SAMPLE]);
-        let normal = Normal { load, shift, load_slope, shift_slope };
-        Place { displacement: [u, v, input], closed: closed > 0.0, normal, size }
+    /// The displacement and the normal component at a sample.
+    fn place(&self, index: usize) -> [f64; 3] {
+        self.samples.get(index).map_or([0.0; 3], |[u, v, input, ..]| [*u, *v, *input])
     }
 }
 
@@ -235,7 +202,7 @@ impl<'a> Workspace<'a> {
 ///
 /// The force has 3 (2H + 1) coefficients \[N\], Tx, Ty, N. The Jacobian has (3 (2H + 1))² entries, column by column: their derivatives
 /// with respect to the coefficients of the motion. The drift is the largest difference of the tangential force between the period that
-/// counts and the one before, over μ times the largest normal force; 0 if the contact opens or moves on a line.
+/// counts and the one before, over μ times the largest normal force; 0 if the contact opens.
 ///
 /// # Errors
 /// `BadArraySize` if a length does not agree with the workspace; `BadDisplacement` if a coefficient is not finite or exceeds 1e150;
@@ -248,34 +215,14 @@ pub fn harmonic_force(
     output: HarmonicOutput,
 ) -> Result<(), Error> {
     let n = workspace.coefficients();
-    let HarmonicOutput { mut force, mut jacobian, mut dissipated, mut drift } = output;
+    let HarmonicOutput { force, jacobian, dissipated, drift } = output;
     let fits = |output: &Option<&mut [f64]>, length: usize| output.as_ref().is_none_or(|o| o.len() == length);
     if displacement.len() != 3 * n || !fits(&force, 3 * n) || !fits(&jacobian, 9 * n * n) {
         return Err(Error::BadArraySize);
     }
     check_coefficients(displacement)?;
     workspace.synthesise(element, displacement)?;
-    let on_line = displacement.iter().skip(n).take(n).all(|value| *value == 0.0);
-    if on_line {
-        let with_jacobian = jacobian.is_some();
-        line(element, workspace, displacement, force.as_deref_mut(), with_jacobian, dissipated.as_deref_mut())?;
-        if let Some(drift) = drift.take() {
-            *drift = 0.0;
-        }
-        if !with_jacobian {
-            return Ok(());
-        }
-        (force, dissipated) = (None, None);
-    }
-    let output = HarmonicOutput { force, jacobian: jacobian.as_deref_mut(), dissipated, drift };
-    match element.springs {
-        8 => walk(element, workspace, output, &mut Walker::<8>::relaxed()),
-        12 => walk(element, workspace, output, &mut Walker::<12>::relaxed()),
-        _ => walk(element, workspace, output, &mut Walker::<16>::relaxed()),
-    }
-    if on_line && let Some(jacobian) = jacobian {
-        merge_line(workspace, jacobian);
-    }
+    walk(element, workspace, HarmonicOutput { force, jacobian, dissipated, drift });
     Ok(())
 }
 
@@ -288,150 +235,259 @@ fn first_of_largest_load(workspace: &Workspace) -> (usize, f64) {
     largest
 }
 
-/// Springs that take the steps of a motion.
-trait Walk {
-    fn advance(&mut self, path: &LoadPath, springs: &Springs, requested: Requested) -> Step;
-
-    /// What the derivatives of the step need, and the first shell whose spring has slipped, from that before the step.
-    fn taken<'a>(
-        &'a mut self,
-        path: &'a LoadPath,
-        springs: [&'a Springs<'a>; 2],
-        slopes: [PressedSlopes; 2],
-        inner: usize,
-    ) -> (Taken<'a, MOST>, &'a [Parameter<MOST>; 2], usize);
+/// The walk along a motion that was synthesised.
+struct Walk<'a> {
+    element: &'a Element,
+    units: Units,
+    tables: [&'a Rows; 2],
+    at: [f64; 3],
+    /// The contact, its derivatives by the normal component, those with respect to parameters, and its normal force.
+    contact: Contact<f64>,
+    slopes: Pressed<f64>,
+    derived: Option<Contact<Dual<1>>>,
+    normal: Normal,
+    springs: Values,
+    slip: Slips,
+    inverse: Both<super::tables::Matrix>,
 }
 
-/// The state of N springs and the last step.
-struct Walker<const N: usize> {
-    state: SpringState<N>,
-    record: StepRecord<N>,
-    wide: Wide,
+/// What a step gives besides the state.
+struct Taken {
+    force: Both<f64>,
+    dissipated: f64,
+    /// Springs at the start, the motion, and whether the contact was closed.
+    old: Values,
+    motion: Motion<f64, f64>,
+    path: Path,
+    /// The derivatives of the state before, by the normal component.
+    before: Pressed<f64>,
+    closed: [bool; 2],
 }
 
-impl<const N: usize> Walker<N> {
-    fn relaxed() -> Walker<N> {
-        Walker { state: SpringState::RELAXED, record: StepRecord::NONE, wide: Wide::NONE }
+impl Walk<'_> {
+    /// Advances to a sample.
+    fn advance(&mut self, to: [f64; 3], requested: Requested) -> Taken {
+        let (was_closed, closes) = (self.contact.now.load > 0.0, self.element.is_closed(to[2]));
+        let closed = [was_closed, closes];
+        let same = was_closed && to[2].to_bits() == self.at[2].to_bits();
+        let path = Path::new(self.element, &self.units, [self.at, to], closed);
+        let (from, old, before) = (self.contact, self.springs, if was_closed { self.slopes } else { Pressed::NONE });
+        self.at = to;
+        if !closes {
+            let energy = was_closed && requested.energy;
+            let dissipated = if energy { separated(self.tables[0], &from, &Pressed::NONE, path.by, &old) } else { 0.0 };
+            self.open();
+            let motion = path.motion(&from, &from, true);
+            return Taken { force: [0.0; 2], dissipated: dissipated * path.scale, old, motion, path, before, closed };
+        }
+        if !same {
+            self.press(to[2]);
+        }
+        let motion = path.motion(&from, &self.contact, same);
+        let trial = trial(self.tables[0], &self.contact, &motion, &old);
+        self.slip.find(self.tables[0], &self.contact, &self.inverse, &motion, (&trial, &old), requested.tangent);
+        let contacts = [&from, &self.contact];
+        let (force, dissipated) =
+            advance(self.tables[0], contacts, &motion, &self.slip, requested.energy, &mut self.springs);
+        Taken { force, dissipated: dissipated * path.scale, old, motion, path, before, closed }
+    }
+
+    /// The contact under a normal component that closes it.
+    fn press(&mut self, input: f64) {
+        self.normal = self.element.normal(input);
+        let now;
+        [now, self.slopes] = Pressed::new(self.element, &self.units, input, &self.normal);
+        let under_flat = under_flat(self.element, &self.units);
+        self.contact = Contact::press(self.tables[0], &now, under_flat, &mut self.inverse);
+        self.derived = None;
+    }
+
+    fn open(&mut self) {
+        (self.contact, self.springs, self.normal) = (Contact::NONE, [[0.0; N]; SPRINGS / N], Normal::OPEN);
     }
 }
 
-impl<const N: usize> Walk for Walker<N> {
-    fn advance(&mut self, path: &LoadPath, springs: &Springs, requested: Requested) -> Step {
-        path.advance(springs, &mut self.state, requested, &mut self.record)
+/// Columns of the springs in the workspace, beside their values at the start of a step.
+struct Columns<'a, const L: usize> {
+    values: &'a Values,
+    springs: &'a mut [[[f64; 4]; L]; SPRINGS],
+    /// Derivatives of the parameters of a contact by the coefficients.
+    parameters: &'a [[[f64; 4]; L]; PARAMETERS],
+}
+
+impl<const L: usize> Columns<'_, L> {
+    /// Columns of a number: derivatives by the parameters, which are in its first block, are added.
+    #[inline(always)]
+    fn of<const M: usize>(&self, x: &Dual<M>) -> [[f64; 4]; L] {
+        let mut columns = [[0.0; 4]; L];
+        for (column, slopes) in columns.iter_mut().zip(x.0.iter().skip(1)) {
+            *column = *slopes;
+        }
+        let slopes = &x.0[0];
+        for p in 0..PARAMETERS {
+            for c in 0..L / 3 {
+                columns[c] = plus(columns[c], slopes[p], self.parameters[p][c]);
+            }
+        }
+        columns
+    }
+}
+
+/// With a block of the parameters: M = L + 1.
+impl<const L: usize, const M: usize> Springs<Dual<M>> for Columns<'_, L> {
+    const KEPT: bool = true;
+
+    #[inline(always)]
+    fn get(&self, place: usize) -> Dual<M> {
+        let mut dual = Dual::constant(0.0);
+        if let (Some(value), Some(columns)) = (self.values.as_flattened().get(place), self.springs.get(place)) {
+            dual = Dual::constant(*value);
+            for (slopes, column) in dual.0.iter_mut().skip(1).zip(columns) {
+                *slopes = *column;
+            }
+        }
+        dual
     }
 
-    fn taken<'a>(
-        &'a mut self,
-        path: &'a LoadPath,
-        [springs, table_slopes]: [&'a Springs<'a>; 2],
-        [start_slopes, slopes]: [PressedSlopes; 2],
-        inner: usize,
-    ) -> (Taken<'a, MOST>, &'a [Parameter<MOST>; 2], usize) {
-        let (new, record, motion) = (&self.state, &self.record, &path.motion);
-        let taken = Taken { springs, new, motion, record, slopes, start_slopes, table_slopes: Some(table_slopes) };
-        let (load, alignment) = (Parameter::load(&taken), Parameter::alignment(&taken, table_slopes));
-        let inner = inner_after(&taken, inner);
-        let (taken, parameters) = self.wide.of(&taken, [&load, &alignment]);
-        (taken, parameters, inner)
+    #[inline(always)]
+    fn put(&mut self, place: usize, x: Dual<M>) {
+        let columns = self.of(&x);
+        if let Some(place) = self.springs.get_mut(place) {
+            *place = columns;
+        }
     }
+}
+
+/// Derivatives below are 0, after this number of steps: memory that fades would end in subnormal numbers, which are slow.
+const LEAST_SLOPE: f64 = 1e-200;
+const FADING: usize = 8;
+
+fn fade(derivatives: &mut [f64]) {
+    for x in derivatives {
+        *x = if x.abs() > LEAST_SLOPE { *x } else { 0.0 };
+    }
+}
+
+/// A step in columns: the derivatives of both forces.
+fn columns<const L: usize, const M: usize>(
+    tables: [&Rows; 2],
+    contact: &Contact<Dual<1>>,
+    motion: &Motion<Dual<1>, Dual<M>>,
+    slip: &Slips,
+    springs: &mut Columns<L>,
+) -> Both<[[f64; 4]; L]> {
+    dispatch!(columns_kernel(tables, contact, motion, slip, springs))
+}
+
+#[inline(always)]
+fn columns_kernel<const L: usize, const M: usize>(
+    tables: [&Rows; 2],
+    contact: &Contact<Dual<1>>,
+    motion: &Motion<Dual<1>, Dual<M>>,
+    slip: &Slips,
+    springs: &mut Columns<L>,
+) -> Both<[[f64; 4]; L]> {
+    let force = step(&tables, contact, motion, slip, springs);
+    [springs.of(&force[0]), springs.of(&force[1])]
 }
 
 /// The periods of a motion that was synthesised.
-fn walk(element: &Element, workspace: &mut Workspace, output: HarmonicOutput, walker: &mut dyn Walk) {
-    let (n, Size { samples: count, periods, .. }) = (workspace.coefficients(), workspace.size);
+fn walk(element: &Element, workspace: &mut Workspace, output: HarmonicOutput) {
+    let Size { samples: count, periods, .. } = workspace.size;
     let HarmonicOutput { force, jacobian, dissipated, drift } = output;
     let requested = Requested { tangent: jacobian.is_some(), energy: dissipated.is_some() };
     let (largest, top) = first_of_largest_load(workspace);
     let slides = element.friction_coefficient > 0.0 && element.is_closed(top);
     let top_load = if slides { element.normal(top).load } else { element.normal_force };
-    let mut from = aligned(element, &Header::NONE, top_load);
-    workspace.press(element, &from);
+    let units = Units::of(element, top_load);
+    let unit = element.friction_coefficient * units.load;
     // A contact that opens forgets: whatever was before, the second period is the steady state.
     let opens = workspace.samples.iter().any(|sample| !element.is_closed(sample[2]));
     let periods = if opens { 1 } else { periods };
     let (mut energy, mut largest_change) = (0.0, 0.0f64);
-    if slides {
-        let memory = core::mem::take(&mut workspace.springs);
-        let (tables, neighbours) = memory.split_at_mut(memory.len() / 3);
-        let (slopes, smaller) = neighbours.split_at_mut(neighbours.len() / 2);
-        fill(tables, element, &from.units, 1.0);
+    let memory = core::mem::take(&mut workspace.tables);
+    if slides && let [tables, slopes, smaller, ..] = memory {
+        fill(tables, element, &units, 1.0);
         if requested.tangent {
-            fill(slopes, element, &from.units, 1.0 + NEIGHBOUR);
-            fill(smaller, element, &from.units, 1.0 - NEIGHBOUR);
-            for (slope, smaller) in slopes.iter_mut().zip(smaller) {
+            fill(slopes, element, &units, 1.0 + NEIGHBOUR);
+            fill(smaller, element, &units, 1.0 - NEIGHBOUR);
+            for (slope, smaller) in slopes.as_flattened_mut().iter_mut().zip(smaller.as_flattened()) {
                 *slope = (*slope - *smaller) * (0.5 / NEIGHBOUR);
             }
+            workspace.derivatives.fill(0.0);
+            workspace.sums.fill(0.0);
         }
-        let at = |tables| Springs::new(from.under_flat, tables);
-        if let (Some(springs), Some(table_slopes)) = (at(tables), at(slopes)) {
-            // Of the logarithm of the reference size by the coefficients of the normal component.
-            let top_normal = element.normal(top);
-            let by_load = from.units.slopes(element, &top_normal, from.units.size_under(element, top_load)).size;
-            let by_top = if top_load >= from.units.load * 0.99 { 0.5 * by_load } else { 0.0 };
-            let mut slopes = PressedSlopes::default();
-            let mut inner = MOST;
+        let mut walk = Walk {
+            element,
+            units,
+            tables: [tables, slopes],
+            at: [0.0, 0.0, top],
+            contact: Contact::NONE,
+            slopes: Pressed::NONE,
+            derived: None,
+            normal: Normal::OPEN,
+            springs: [[0.0; N]; SPRINGS / N],
+            slip: Slips::NONE,
+            inverse: [[[0.0; N]; N]; 2],
+        };
+        walk.press(top);
+        // Of the logarithm of the reference size by the normal component.
+        let by_top = if top_load >= units.load * 0.99 { 0.5 * walk.slopes.size } else { 0.0 };
+        let mut before = None;
+        for step in 0..=(periods + 1) * count {
+            let index = (largest + step).checked_rem(count).unwrap_or(0);
+            let counts = step > periods * count;
+            let asked = Requested { energy: requested.energy && counts, ..requested };
+            let taken = walk.advance(workspace.place(index), asked);
             if requested.tangent {
-                workspace.derivatives.fill([0.0; BLOCK]);
-                workspace.sums.fill(0.0);
-            }
-            let at_top = workspace.place(largest);
-            let press = LoadPath::new(element, &from, &Place { displacement: [0.0, 0.0, top], ..at_top });
-            walker.advance(&press, &springs, Requested { tangent: false, energy: false });
-            from = press.to;
-            let mut before = largest;
-            for step in 0..=(periods + 1) * count {
-                let index = (largest + step).checked_rem(count).unwrap_or(0);
-                let counts = step > periods * count;
-                let path = LoadPath::new(element, &from, &workspace.place(index));
-                let asked = Requested { energy: requested.energy && counts, ..requested };
-                let result = walker.advance(&path, &springs, asked);
-                if requested.tangent {
-                    if !path.closed || !path.was_closed {
-                        workspace.derivatives.fill([0.0; BLOCK]);
-                        inner = MOST;
-                    }
-                    if path.closed {
-                        let start = if path.was_closed { slopes } else { PressedSlopes::default() };
-                        slopes = path.to.units.slopes(element, &path.normal, path.to.size);
-                        // The first displacement begins at rest, not at a sample, under the load of its sample.
-                        let first = step == 0;
-                        let start_slopes = if first { slopes } else { start };
-                        let springs = [&springs, &table_slopes];
-                        let (taken, parameters, now) = walker.taken(&path, springs, [start_slopes, slopes], inner);
-                        inner = now;
-                        let samples = [if first { None } else { Some(before) }, Some(index), Some(largest)];
-                        differentiate(workspace, &path, &taken, parameters, samples, by_top, inner);
+                if taken.closed != [true, true] {
+                    workspace.derivatives.fill(0.0);
+                } else if step % FADING == 0 {
+                    fade(workspace.derivatives);
+                }
+                if taken.closed[1] {
+                    let samples = [before, Some(index), Some(largest)];
+                    if workspace.forces.len() == 2 * NARROW {
+                        differentiate::<{ NARROW / 4 }, { NARROW / 4 + 1 }>(
+                            workspace, &mut walk, &taken, samples, by_top,
+                        );
                     } else {
-                        workspace.forces.fill([0.0; BLOCK]);
+                        differentiate::<{ WIDE / 4 }, { WIDE / 4 + 1 }>(workspace, &mut walk, &taken, samples, by_top);
                     }
-                    if counts {
-                        let basis = row(workspace.basis, n, index);
-                        accumulate(workspace.sums, basis, workspace.forces.as_flattened());
-                    }
+                } else {
+                    workspace.forces.fill(0.0);
                 }
-                from = path.to;
-                before = index;
-                energy += result.dissipated * f64::from(u8::from(counts));
-                let [x, y, _] = result.force;
-                if let Some([.., x_place, y_place, _]) = workspace.samples.get_mut(index) {
-                    if counts {
-                        let (dx, dy) = (x - *x_place, y - *y_place);
-                        largest_change = largest_change.max(dx * dx + dy * dy);
-                    }
-                    (*x_place, *y_place) = (x, y);
+                if counts {
+                    let basis = row(workspace.basis, workspace.size.coefficients(), index);
+                    accumulate(workspace.sums, basis, workspace.forces);
                 }
+            }
+            before = Some(index);
+            energy += taken.dissipated * f64::from(u8::from(counts));
+            if let Some(sample) = workspace.samples.get_mut(index) {
+                let [x, y] = taken.force.map(|force| unit * force);
+                if counts {
+                    let (dx, dy) = (x - sample[5], y - sample[6]);
+                    largest_change = largest_change.max(dx * dx + dy * dy);
+                }
+                [sample[3], sample[4], sample[5], sample[6]] = [walk.normal.load, walk.normal.load_slope, x, y];
             }
         }
-        workspace.springs = memory;
+    } else {
+        for sample in workspace.samples.iter_mut() {
+            let normal = if element.is_closed(sample[2]) { element.normal(sample[2]) } else { Normal::OPEN };
+            [sample[3], sample[4], sample[5], sample[6]] = [normal.load, normal.load_slope, 0.0, 0.0];
+        }
     }
+    workspace.tables = memory;
     if let Some(dissipated) = dissipated {
-        *dissipated = energy;
+        *dissipated = energy * unit * element.friction_coefficient * units.shift;
     }
     if let Some(force) = force {
         write_force(workspace, force);
     }
     if let Some(jacobian) = jacobian {
-        write_jacobian(workspace, slides.then_some(from.units.load * element.friction_coefficient), jacobian);
+        write_jacobian(workspace, slides.then_some(unit), jacobian);
     }
     if let Some(drift) = drift {
         let slip_force = (element.friction_coefficient * top_load).max(f64::MIN_POSITIVE);
@@ -443,7 +499,7 @@ fn write_force(workspace: &Workspace, force: &mut [f64]) {
     let (n, per_sample) = (workspace.coefficients(), 1.0 / workspace.size.samples as f64);
     force.fill(0.0);
     for (sample, basis) in workspace.samples.iter().zip(workspace.basis.chunks_exact(n)) {
-        let [_, _, _, _, load, .., x, y, _] = *sample;
+        let [_, _, _, load, _, x, y, _] = *sample;
         for (places, value) in force.chunks_exact_mut(n).zip([x, y, load]) {
             for (c, (place, basis)) in places.iter_mut().zip(basis).enumerate() {
                 *place += if c == 0 { per_sample } else { 2.0 * per_sample } * basis * value;
@@ -455,17 +511,22 @@ fn write_force(workspace: &Workspace, force: &mut [f64]) {
 /// The Jacobian from the sums, and that of the normal force.
 fn write_jacobian(workspace: &Workspace, unit: Option<f64>, jacobian: &mut [f64]) {
     let (n, per_sample) = (workspace.coefficients(), 1.0 / workspace.size.samples as f64);
-    let columns = workspace.forces.len() / 2 * BLOCK;
+    let columns = workspace.forces.len() / 2;
     let weight = |c: usize| if c == 0 { per_sample } else { 2.0 * per_sample };
+    let lanes = if columns == NARROW { NARROW } else { WIDE };
+    let lane = |j: usize| {
+        let (component, coefficient) = ((j / n + 1) % 3, j % n);
+        coefficient / (lanes / 3) * lanes + component * (lanes / 3) + coefficient % (lanes / 3)
+    };
     for (j, column) in jacobian.chunks_exact_mut(3 * n).enumerate() {
         for (c, place) in column.iter_mut().enumerate().take(2 * n) {
-            let sum = workspace.sums.get(c * columns + j).copied().unwrap_or(0.0);
+            let sum = workspace.sums.get(c * columns + lane(j)).copied().unwrap_or(0.0);
             *place = unit.map_or(0.0, |unit| unit * weight(c % n) * sum);
         }
         column.iter_mut().skip(2 * n).for_each(|place| *place = 0.0);
     }
     for (sample, basis) in workspace.samples.iter().zip(workspace.basis.chunks_exact(n)) {
-        let slope = sample[6];
+        let slope = sample[4];
         for (column, basis_j) in jacobian.chunks_exact_mut(3 * n).skip(2 * n).zip(basis) {
             for ((c, place), basis_c) in column.iter_mut().skip(2 * n).enumerate().zip(basis) {
                 *place += weight(c) * slope * basis_j * basis_c;
@@ -499,223 +560,46 @@ fn accumulate_kernel(sums: &mut [f64], basis: &[f64], forces: &[f64]) {
     }
 }
 
-/// Derivatives of the state and of the tangential forces at the end of a step between samples.
-fn differentiate(
+/// Derivatives of the springs and of the tangential forces at the end of a step between samples.
+fn differentiate<const L: usize, const M: usize>(
     workspace: &mut Workspace,
-    path: &LoadPath,
-    taken: &Taken<MOST>,
-    parameters: &[Parameter<MOST>],
+    walk: &mut Walk,
+    taken: &Taken,
     samples: [Option<usize>; 3],
     by_top: f64,
-    inner: usize,
 ) {
     let n = workspace.coefficients();
     let [start, end, top] = samples.map(|index| index.map_or(&[][..], |index| row(workspace.basis, n, index)));
     let at = |basis: &[f64], c: usize| basis.get(c).copied().unwrap_or(0.0);
-    let (per_distance, per_input) = (path.per_distance(), [path.per_input(0), path.per_input(1)]);
+    let Taken { motion, path, before, old, .. } = taken;
+    if walk.derived.is_none() {
+        walk.derived = Some(derive(&walk.contact, walk.tables, &walk.slopes));
+    }
+    let Some(contact) = &walk.derived else { return };
+    let mut shift = motion.before.map(Dual::constant);
+    shift.iter_mut().zip(before.shift).for_each(|(shift, slope)| shift.0[0][START] = slope);
     let (forces_x, forces_y) = workspace.forces.split_at_mut(workspace.forces.len() / 2);
-    let memories = workspace.derivatives.chunks_exact_mut(rows(MOST));
+    let blocks = workspace.derivatives.as_chunks_mut::<4>().0.as_chunks_mut::<L>().0;
+    let memories = blocks.as_chunks_mut::<SPRINGS>().0.iter_mut();
+    let [forces_x, forces_y] = [forces_x, forces_y].map(|forces| forces.as_chunks_mut::<4>().0.as_chunks_mut().0);
     for (block, (memory, (x, y))) in memories.zip(forces_x.iter_mut().zip(forces_y)).enumerate() {
-        let zero = [0.0; BLOCK];
-        let mut columns = IncrementColumns { by: [zero; 2], end: zero, start: zero, alignment: zero };
-        let (mut component, mut coefficient) = (block * BLOCK / n, block * BLOCK % n);
-        for c in 0..BLOCK {
+        let mut by = motion.by.map(Dual::<M>::constant);
+        let mut parameters = [[[0.0; 4]; L]; PARAMETERS];
+        let each = 4 * L / 3;
+        for c in 0..each.min(n - block * each) {
+            let (coefficient, part, lane) = (block * each + c, c / 4, c % 4);
             let (from, to) = (at(start, coefficient), at(end, coefficient));
-            match component {
-                0 | 1 => columns.by[component.min(1)][c] = per_distance * (to - from),
-                2 => {
-                    for k in 0..2 {
-                        columns.by[k][c] = per_input[k][0] * from + per_input[k][1] * to;
-                    }
-                    (columns.start[c], columns.end[c]) = (from, to);
-                    columns.alignment[c] = by_top * at(top, coefficient);
-                }
-                _ => {}
+            for k in 0..2 {
+                by[k].0[1 + part][lane] = path.per_input[k][0] * from + path.per_input[k][1] * to;
+                by[k].0[1 + (1 + k) * (L / 3) + part][lane] = path.per_distance * (to - from);
             }
-            coefficient += 1;
-            if coefficient == n {
-                (component, coefficient) = (component + 1, 0);
-            }
+            // The load at the start of the first step is that of the largest one.
+            let top = at(top, coefficient);
+            parameters[START][part][lane] = if start.is_empty() { top } else { from };
+            (parameters[END][part][lane], parameters[ALIGNMENT][part][lane]) = (to, by_top * top);
         }
-        let Some(mut derivatives) = Derivatives::<MOST, BLOCK>::new(memory) else { return };
-        [*x, *y] = tangent::tangent(taken, parameters, &columns, &mut derivatives, inner);
-    }
-}
-
-/// Force, energy and Jacobian of one direction, for a motion with v = 0; the Jacobian remains in the workspace.
-fn line(
-    element: &Element,
-    workspace: &mut Workspace,
-    displacement: &[f64],
-    force: Option<&mut [f64]>,
-    with_jacobian: bool,
-    dissipated: Option<&mut f64>,
-) -> Result<(), Error> {
-    let n = workspace.coefficients();
-    let mut parts = Parts::of(workspace.line);
-    let (motion, result, matrix) = (parts.take(2 * n)?, parts.take(2 * n)?, parts.take(4 * n * n)?);
-    let blocks = displacement.chunks_exact(n);
-    for (place, values) in motion.chunks_exact_mut(n).zip(blocks.step_by(2)) {
-        place.copy_from_slice(values);
-    }
-    let jacobian = if with_jacobian { Some(matrix) } else { None };
-    let requested = force.is_some().then_some(&mut *result);
-    let output = HarmonicOutput { force: requested, jacobian, dissipated, drift: None };
-    one_direction::harmonic_force(element, &mut workspace.one_direction, motion, output)?;
-    if let Some(force) = force {
-        force.fill(0.0);
-        for (place, values) in force.chunks_exact_mut(n).step_by(2).zip(result.chunks_exact(n)) {
-            place.copy_from_slice(values);
-        }
-    }
-    Ok(())
-}
-
-/// Replaces the Jacobian of u and the normal component by that of one direction; by symmetry they are independent of v.
-fn merge_line(workspace: &mut Workspace, jacobian: &mut [f64]) {
-    let n = workspace.coefficients();
-    let mut parts = Parts::of(workspace.line);
-    let (_, _, matrix) = (parts.take(2 * n), parts.take(2 * n), parts.take(4 * n * n));
-    let matrix = matrix.unwrap_or(&mut []);
-    for (j, column) in jacobian.chunks_exact_mut(3 * n).enumerate() {
-        let lateral = j >= n && j < 2 * n;
-        let source = if j < n { j } else { j.saturating_sub(n) };
-        for (block, place) in column.chunks_exact_mut(n).enumerate() {
-            if lateral != (block == 1) {
-                place.fill(0.0);
-            } else if !lateral {
-                let from = 2 * n * source + if block == 0 { 0 } else { n };
-                if let Some(values) = matrix.get(from..from + n) {
-                    place.copy_from_slice(values);
-                }
-            }
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::element::{Directions, NormalInput};
-    use crate::parameters::{CENTRE_POINT, EllipticParameters, Layer, Material, Parameters};
-    use std::prelude::rust_2024::*;
-    use std::vec;
-
-    const H: usize = 3;
-    const COEFFICIENTS: usize = 3 * (2 * H + 1);
-    const SAMPLES: usize = 32;
-
-    fn elements() -> Vec<Element> {
-        let material = [Material { young_modulus: 2e11, poisson_ratio: 0.3 }; 2];
-        let flat = |flat_half_width, input| {
-            let parameters = Parameters {
-                flat_half_width,
-                edge_radius: 0.05,
-                length: 0.02,
-                normal_force: 1000.0,
-                friction_coefficient: 0.4,
-                material,
-                displacement_reference: CENTRE_POINT,
-                layer: Layer::none(),
-                springs: 0,
-            };
-            Element::rounded_flat(&parameters, Directions::Two, input).unwrap()
-        };
-        let ellipse = EllipticParameters {
-            semi_axis_x: 1e-3,
-            semi_axis_y: 2e-3,
-            normal_force: 1000.0,
-            friction_coefficient: 0.4,
-            material,
-            ..EllipticParameters::default()
-        };
-        let ellipse = Element::elliptic(&ellipse, Directions::Two, NormalInput::Force).unwrap();
-        vec![flat(0.0, NormalInput::Approach), flat(1e-3, NormalInput::Force), ellipse]
-    }
-
-    /// Motions in units of the slip displacement and of the largest load: an ellipse, a figure of eight with a load that oscillates, one that
-    /// separates, and one on a line.
-    fn motion(element: &Element, kind: usize) -> [f64; COEFFICIENTS] {
-        let n = 2 * H + 1;
-        let unit = element.friction_coefficient * element.shift_under(element.normal_force);
-        let full = if element.by_approach() { element.approach } else { element.normal_force };
-        let mut motion = [0.0; COEFFICIENTS];
-        let lateral = if kind == 3 { 0.0 } else { unit };
-        (motion[0], motion[1], motion[3]) = (0.1 * unit, 0.7 * unit, 0.2 * unit);
-        (motion[n + 2], motion[n + 4]) = (0.5 * lateral, 0.2 * lateral);
-        motion[2 * n] = 0.7 * full;
-        if kind > 0 {
-            (motion[2 * n + 1], motion[2 * n + 4]) = (0.2 * full, 0.08 * full);
-        }
-        if kind == 2 && element.by_approach() {
-            motion[2 * n] = 0.15 * full;
-        }
-        motion
-    }
-
-    struct Result {
-        force: [f64; COEFFICIENTS],
-        jacobian: Vec<f64>,
-        dissipated: f64,
-    }
-
-    fn compute(element: &Element, motion: &[f64]) -> Result {
-        let mut memory = vec![0.0; workspace_length(H, SAMPLES)];
-        workspace_init(H, SAMPLES, 1, &mut memory).unwrap();
-        let mut workspace = Workspace::new(&mut memory).unwrap();
-        let mut result =
-            Result { force: [0.0; COEFFICIENTS], jacobian: vec![0.0; COEFFICIENTS * COEFFICIENTS], dissipated: 0.0 };
-        let output = HarmonicOutput {
-            force: Some(&mut result.force),
-            jacobian: Some(&mut result.jacobian),
-            dissipated: Some(&mut result.dissipated),
-            drift: None,
-        };
-        harmonic_force(element, &mut workspace, motion, output).unwrap();
-        result
-    }
-
-    #[test]
-    fn the_jacobian_is_the_derivative_of_the_force() {
-        for element in elements() {
-            let n = 2 * H + 1;
-            let unit = element.friction_coefficient * element.shift_under(element.normal_force);
-            let full = if element.by_approach() { element.approach } else { element.normal_force };
-            for kind in 0..4 {
-                let motion = motion(&element, kind);
-                let result = compute(&element, &motion);
-                for j in 0..COEFFICIENTS {
-                    // On a line, the force off it is that of the springs, which differs by the error of the law.
-                    if kind == 3 && j >= n && j < 2 * n {
-                        continue;
-                    }
-                    // A amplitude of a constant load decides which sample is the first.
-                    if kind == 0 && j > 2 * n {
-                        continue;
-                    }
-                    let scale = if j < 2 * n { unit } else { full };
-                    let h = 1e-6 * scale;
-                    let moved = |h: f64| {
-                        let mut motion = motion;
-                        motion[j] += h;
-                        compute(&element, &motion).force
-                    };
-                    // A point that begins to slip between both motions is a corner, which smaller differences avoid.
-                    let steps = [h, h / 128.0];
-                    let moved = steps.map(|h| [moved(h), moved(-h)]);
-                    for i in 0..COEFFICIENTS {
-                        let exact = result.jacobian[i + COEFFICIENTS * j];
-                        // Central differences: h² times the third derivative, 1e-12, and rounding over h, 1e-8 of the force.
-                        let error = |k: usize| {
-                            let difference = (moved[k][0][i] - moved[k][1][i]) / (2.0 * steps[k]);
-                            (difference - exact).abs() * scale / (0.4 * 1000.0)
-                        };
-                        let error = error(0).min(error(1));
-                        assert!(error < 1e-6, "kind {kind}, entry {i} {j}: {exact:e}, error {error:e}");
-                    }
-                }
-                assert!(result.dissipated > 0.0);
-            }
-        }
+        let motion = Motion { before: shift, by, constant_load: motion.constant_load };
+        let mut springs = Columns { values: old, springs: memory, parameters: &parameters };
+        [*x, *y] = columns(walk.tables, contact, &motion, &walk.slip, &mut springs);
     }
 }

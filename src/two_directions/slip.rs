@@ -1,120 +1,248 @@
-//! Slip at the points of a contact: Coulomb's law with the direction of slip, solved by Newton's method for the angles.
+//! The slip of a step: twice Coulomb's law at the points, `r = r* - A σ` with |r| <= l and σ = 0, or |r| = l and σ parallel to r.
 //!
-//! The slip σ_i at the points relaxes the springs from their trial state v*. With U the map from tractions to springs, from the innermost
-//! slipping point on, `v = U q` and `σ = U' w (v* - U q)`. A point sticks, σ_i = 0 and |q_i| <= p_i, or slips:
+//! The first time in the middle of the step, with the limits l of the load there. What slipped until then slips once more until the end,
+//! where the second time returns the tractions to their limits: the midpoint rule. A contact that slides far takes the end for the middle.
 //!
-//! ```text
-//! q_i = p_i e_i,    σ_i || n_i = e_i + β_i r_i,    β_i = u_i² max(0, e_i·r_i)/(1 + τ_i/3),    u_i = max(0, 2 |r_i|² - 1)
-//! ```
-//!
-//! where r_i is the traction over the pressure at the start of the step. A point that slips throughout a small step, |r_i| = 1, slips in the
-//! mean direction of both ends: second order in the step. In a long step the direction follows the exponential `e^-τ`, the mean of which
-//! gives the factor 1 - τ/3 to first order; τ is the overshoot of the trial state, relative to the limit of the spring. On a straight
-//! path all directions agree and β has no effect. β and its derivatives vanish for |r_i|² <= 1/2.
-//!
-//! With `S = U' w U` the residual of a point is σ × n, and its Jacobian by the angles of e
-//!
-//! ```text
-//! σ = U' w v* - S q,    J_im = p_m (n_x,i S^y_im e_x,m + n_y,i S^x_im e_y,m) + δ_im (σ × dn/dθ)
-//! ```
-//!
-//! a positive definite matrix and small changes: it is inverted in place without pivoting. Points that stick between slipping ones are
-//! eliminated from S.
+//! With K the inverse of A among the points that slip and e the direction of r, `σ = K (r* - l e)`, and the residual is `e × σ`: Newton's
+//! method for the angles of e. Slip without gaps, of all points from one on to the edge, has the springs `v = C⁻¹ l e` there, and
+//! `K = C⁻¹' w C⁻¹`, free of cancellation. σ is the minimum of the strictly convex `σ'Aσ/2 - σ·r* + Σ l |σ|`: there is one, it depends continuously on
+//! r* and l, and sweeps of the points, each to its own minimum, find the points that slip if Newton's method does not.
 
-use super::edge::Edge;
-use super::springs::{Both, Matrix, Row, Springs, add, dot, largest};
+use super::contact::Contact;
+use super::scalar::both;
+use super::tables::{Both, Matrix, N, Row, Rows};
+use super::trial::{Motion, ROUNDING, Trial, Values, limits_before, slid, tractions};
 use crate::shape::TINY;
+use crate::simd::dispatch;
 
-/// Newton's steps, and changes of the set of slipping points, after which each spring returns to its own limit.
-const STEPS: usize = 60;
-const CHANGES: usize = 12;
-/// Newton's steps after which the set is reviewed, which is at the end otherwise.
-const REVIEW: usize = 15;
-/// The error of the angles at which the iteration ends: some rounding errors, amplified by the condition of J.
-const CONVERGED: f64 = 1e-12;
-/// Turns up to this one show which further points slip.
-const CLOSE: f64 = 0.1;
-/// Turns up to this one need no new inverse.
-const RENEWED: f64 = 1e-2;
-/// The largest change of an angle.
-pub(crate) const LARGEST_TURN: f64 = 0.8;
-/// A turn of an iteration that diverges.
-pub(crate) const LOST: f64 = 1e4;
-/// Excess of the square of a traction by which a point that sticks may round.
-const EXCESS: f64 = 1e-10;
-/// Slip against the traction, relative to the terms whose difference it is, that is a rounding error.
-const BACKWARDS: f64 = 1e-12;
-
-/// Points as bits.
+/// Bits of points.
 pub(crate) type Set = u32;
 
-/// What the slip depends on besides the shells.
-pub(crate) struct Problem<'a, const N: usize> {
-    pub springs: &'a Springs<'a>,
-    pub edge: &'a Edge<N>,
-    /// Stiffnesses, and v*.
-    pub stiffness: &'a Both<Row<N>>,
-    pub trial: &'a Both<Row<N>>,
-    /// r_i, and τ_i.
-    pub start: &'a Both<Row<N>>,
-    pub overshoot: &'a Row<N>,
+/// Newton steps, and changes of the set, after which a guess is given up.
+const STEPS: usize = 60;
+const CHANGES: usize = 12;
+/// Changes of angles: the one that would be next, at the end, that up to which the inverse is renewed, and the largest one of a step.
+const CONVERGED: f64 = 1e-14;
+const RENEWED: f64 = 1e-2;
+const LARGEST_TURN: f64 = 0.8;
+/// A change over that before from which on, with a new inverse each, it is a rounding error.
+const STALLED: f64 = 0.5;
+/// Beyond this a guess is lost.
+const LOST: f64 = 1e4;
+/// Sweeps of the points before Newton's method is tried again, at first, and the most: the first ones have always been enough.
+const SWEEPS: usize = 30;
+const MOST_SWEEPS: usize = 100_000;
+/// Newton steps after which points that slip backwards stick: the angle of a point that hardly slips is undetermined.
+const REVIEW: usize = 15;
+/// Excess of |r|² from which on a point slips, and slip against the traction, over its scale, from which on it sticks: rounding errors.
+const EXCESS: f64 = 1e-12;
+const BACKWARDS: f64 = 1e-14;
+/// |r|² from which on a point has slipped before.
+pub(crate) const SLIPPED: f64 = 1.0 - 1e-9;
+/// Cosine of the angle between the tractions before and of the trial state up to which the one before is the first guess.
+const NEAR: f64 = 0.5;
+/// Cosine of the angle between a motion and a traction from which on a point turns back.
+const TURNS_BACK: f64 = -0.6;
+
+/// Both slips of a step.
+pub(crate) struct Slips {
+    pub middle: Slip,
+    pub end: Slip,
+    /// The part in which the contact slides far.
+    pub slides: f64,
+    /// The springs at the end.
+    pub v: Both<Row<f64>>,
+    /// Tractions at the start of the step before.
+    start: Both<Row<f64>>,
 }
 
-/// Where Newton's method begins: directions of the tractions, points that slip, the turn from which on it is given up, and the share of β:
-/// without it slip follows the traction at the end of the step alone, a convex problem.
-#[derive(Clone, Copy)]
-pub(crate) struct Guess<const N: usize> {
-    pub e: Both<Row<N>>,
-    pub set: Set,
-    pub largest_turn: f64,
-    pub bends: f64,
-}
-
-/// The slip at all points, and what its derivatives need.
-#[derive(Debug, Clone, Copy)]
+/// Points that slip, and what derivatives need.
 #[repr(align(32))]
-pub(crate) struct Slip<const N: usize> {
-    /// S after elimination, and the inverse of J as `[m][i]`.
-    pub square: Both<Matrix<N>>,
-    pub inverse: Matrix<N>,
-    /// All that slip, also as 1 and 0.
-    pub slips: Row<N>,
-    /// Direction of the traction, of the slip, and σ.
-    pub e: Both<Row<N>>,
-    pub n: Both<Row<N>>,
-    pub sigma: Both<Row<N>>,
-    /// Tractions of the points from the first one on.
-    pub q: Both<Row<N>>,
-    /// β/(e·r).
-    pub per_along: Row<N>,
-    /// Reciprocals of the pivots of the points that were eliminated, whose rows of S are those of the elimination, and the constants there.
-    pub pivots: Both<Row<N>>,
-    constants: Both<Row<N>>,
-    pub points: [usize; N],
-    pub count: usize,
-    /// The innermost point that slips.
-    pub first: usize,
+pub(crate) struct Slip {
     pub set: Set,
-    pub converged: bool,
+    /// The limits, the directions of r and σ.
+    pub level: Row<f64>,
+    pub e: Both<Row<f64>>,
+    pub sigma: Both<Row<f64>>,
+    /// K, and the inverse of the derivative of the residual by the angles, as `[m][i]`.
+    pub k: Both<Matrix>,
+    pub inverse: Matrix,
+    /// The points and the load of K.
+    known: (Set, f64),
 }
 
-impl<const N: usize> Slip<N> {
-    pub const NONE: Slip<N> = Slip {
-        square: [[[0.0; N]; N]; 2],
-        inverse: [[0.0; N]; N],
-        slips: [0.0; N],
-        e: [[0.0; N]; 2],
-        n: [[0.0; N]; 2],
-        sigma: [[0.0; N]; 2],
-        q: [[0.0; N]; 2],
-        per_along: [0.0; N],
-        pivots: [[0.0; N]; 2],
-        constants: [[0.0; N]; 2],
-        points: [0; N],
-        count: 0,
-        first: N,
+/// First directions, and points that slip.
+#[derive(Clone, Copy)]
+struct Guess {
+    e: Both<Row<f64>>,
+    set: Set,
+}
+
+/// Springs and r without slip, and what relates them: the contact and C⁻¹.
+#[derive(Clone, Copy)]
+struct Problem<'a> {
+    v: Both<Row<f64>>,
+    r: Both<Row<f64>>,
+    t: &'a Rows,
+    contact: &'a Contact<f64>,
+    inverse: &'a Both<Matrix>,
+    end: usize,
+}
+
+impl Slips {
+    pub const NONE: Slips =
+        Slips { middle: Slip::NONE, end: Slip::NONE, slides: 0.0, v: [[0.0; N]; 2], start: [[0.0; N]; 2] };
+
+    /// Whether nothing slips.
+    pub fn is_empty(&self) -> bool {
+        self.middle.set | self.end.set == 0
+    }
+
+    /// The slip of a step from its trial state and the springs at its start, and what derivatives need if they are requested.
+    pub fn find(
+        &mut self,
+        t: &Rows,
+        contact: &Contact<f64>,
+        inverse: &Both<Matrix>,
+        motion: &Motion<f64, f64>,
+        from: (&Trial, &Values),
+        derivatives: bool,
+    ) {
+        let slips = self;
+        dispatch!(find_kernel(slips, t, contact, inverse, motion, from, derivatives));
+    }
+
+    /// Guesses for the middle: a contact that slips on hardly turns; otherwise slip begins from the trial state.
+    #[inline(always)]
+    fn guesses(&mut self, r: &Both<Row<f64>>, start: &Both<Row<f64>>, by: &Both<f64>, end: usize) -> [Guess; 2] {
+        let (mut e, mut from_trial, mut continues) = (*r, *r, [0.0; N]);
+        let mut beyond = [0.0; N];
+        let backwards = TURNS_BACK * (by[0] * by[0] + by[1] * by[1]).sqrt();
+        for i in 0..N {
+            let (x, y) = (r[0][i], r[1][i]);
+            let (square, limit) = (x * x + y * y, self.middle.level[i]);
+            beyond[i] = if square > ROUNDING * limit * limit { 1.0 } else { 0.0 };
+            let length = (if square > TINY { square } else { TINY }).sqrt();
+            let (x, y) = (x / length, y / length);
+            (from_trial[0][i], from_trial[1][i]) = (x, y);
+            let (r_x, r_y) = (start[0][i], start[1][i]);
+            let slipped = r_x * r_x + r_y * r_y > SLIPPED;
+            let near = slipped && x * r_x + y * r_y > NEAR;
+            // A point that slipped in the step before as well turns on, by half.
+            let (b_x, b_y) = (self.start[0][i], self.start[1][i]);
+            let (cos, sin) = (b_x * r_x + b_y * r_y, b_x * r_y - b_y * r_x);
+            let turns = slipped && cos > NEAR && cos * cos + sin * sin > SLIPPED;
+            let (cos, sin) = if turns { (1.0 + cos, sin) } else { (1.0, 0.0) };
+            let (on_x, on_y) = (cos * r_x - sin * r_y, cos * r_y + sin * r_x);
+            let square = on_x * on_x + on_y * on_y;
+            let length = (if square > TINY { square } else { TINY }).sqrt();
+            (e[0][i], e[1][i]) = (if near { on_x / length } else { x }, if near { on_y / length } else { y });
+            continues[i] = if slipped && r_x * by[0] + r_y * by[1] >= backwards { 1.0 } else { 0.0 };
+        }
+        let (mut set, mut outside) = (0, 0);
+        for i in (0..end.min(N)).rev() {
+            outside |= Set::from(beyond[i] > 0.0) << i;
+            // A point that slipped before continues if the next one outside does.
+            let outer = set >> (i + 1) & 1 == 1;
+            set |= Set::from(beyond[i] > 0.0 || (continues[i] > 0.0 && outer)) << i;
+        }
+        self.start = *start;
+        [Guess { e, set }, Guess { e: from_trial, set: outside }]
+    }
+}
+
+#[inline(always)]
+fn find_kernel(
+    slips: &mut Slips,
+    t: &Rows,
+    contact: &Contact<f64>,
+    inverse: &Both<Matrix>,
+    motion: &Motion<f64, f64>,
+    (trial, old): (&Trial, &Values),
+    derivatives: bool,
+) {
+    let (end, start) = ((contact.last + 1).min(N), &trial.start);
+    (slips.middle.set, slips.end.set, slips.slides, slips.v) = (0, 0, 0.0, trial.v);
+    if trial.sticks {
+        return;
+    }
+    slips.slides = slid(&t, contact, &trial.v);
+    let theta = 0.5 * (1.0 + slips.slides);
+    (slips.middle.level, slips.end.level) = ([1.0; N], [1.0; N]);
+    if !motion.constant_load {
+        let before = limits_before(&t, contact, contact.now.shift[0] - motion.before[0]);
+        for i in 0..N {
+            slips.middle.level[i] = if i < end { before[i] + theta * (1.0 - before[i]) } else { 1.0 };
+        }
+    }
+    let mut problem = Problem { v: trial.v, r: *start, t, contact, inverse, end };
+    for k in 0..2 {
+        for i in 0..N {
+            problem.r[k][i] += theta * (trial.r[k][i] - start[k][i]);
+            problem.v[k][i] = old[k][i] + theta * (trial.v[k][i] - old[k][i]);
+        }
+    }
+    let mut guesses = slips.guesses(&problem.r, start, &motion.by, end);
+    for stage in 0..2 {
+        let middle = stage == 0;
+        let [slip, other] =
+            if middle { [&mut slips.middle, &mut slips.end] } else { [&mut slips.end, &mut slips.middle] };
+        if !middle {
+            for i in 0..end {
+                let (x, y) = (problem.r[0][i], problem.r[1][i]);
+                let square = x * x + y * y;
+                let length = (if square > TINY { square } else { TINY }).sqrt();
+                (guesses[0].e[0][i], guesses[0].e[1][i]) = (x / length, y / length);
+                guesses[0].set |= Set::from(square > ROUNDING) << i;
+            }
+            guesses[1] = guesses[0];
+            guesses[0].set |= other.set;
+        }
+        if guesses[1].set != 0 {
+            let mut converged = false;
+            for guess in &guesses {
+                converged = converged || slip.solve(other, &problem, guess, derivatives);
+            }
+            if !converged {
+                slip.descend(other, &problem, derivatives);
+            }
+        }
+        slips.v = if slip.set == 0 { problem.v } else { slip.springs(&problem) };
+        if !middle || (theta >= 1.0 && slip.set.count_ones() as usize == end) {
+            // The middle of a contact that slides far is its end.
+            break;
+        }
+        // The rest of the step slips as the middle did.
+        guesses[0].set = 0;
+        let at = problem.v;
+        (problem.v, problem.r) = (trial.v, trial.r);
+        if slip.set != 0 {
+            let (first, per) = (slip.set.trailing_zeros() as usize, 1.0 / theta);
+            for k in 0..2 {
+                let mut relaxed = [0.0; N];
+                for j in 0..N {
+                    relaxed[j] = (at[k][j] - slips.v[k][j]) * per;
+                    problem.v[k][j] -= relaxed[j];
+                }
+                let relaxed = tractions(t, contact, k, &relaxed, first);
+                for i in 0..N {
+                    let slipped = start[k][i] + (slip.level[i] * slip.e[k][i] - start[k][i]) * per;
+                    problem.r[k][i] = if slip.contains(i) { slipped } else { problem.r[k][i] - relaxed[i] };
+                }
+            }
+        }
+    }
+}
+
+impl Slip {
+    const NONE: Slip = Slip {
         set: 0,
-        converged: false,
+        level: [1.0; N],
+        e: [[0.0; N]; 2],
+        sigma: [[0.0; N]; 2],
+        k: [[[0.0; N]; N]; 2],
+        inverse: [[0.0; N]; N],
+        known: (0, 0.0),
     };
 
     #[inline(always)]
@@ -122,280 +250,303 @@ impl<const N: usize> Slip<N> {
         self.set >> i & 1 == 1
     }
 
-    /// Slip at a point, with the traction in a direction.
+    /// Whether all points from the first one that slips to the edge do.
     #[inline(always)]
-    pub fn begin(&mut self, i: usize, x: f64, y: f64) {
-        self.set |= 1 << i;
-        (self.e[0][i], self.e[1][i]) = (x, y);
+    pub fn without_gaps(&self, end: usize) -> bool {
+        let first = self.set.trailing_zeros();
+        (self.set >> first.min(31)).trailing_ones() as usize + first as usize == end
     }
 
-    /// Solves the problem: springs at the end. The inverse of J there is computed if it is requested.
+    /// The springs after slip.
     #[inline(always)]
-    pub fn solve(&mut self, problem: &Problem<N>, guess: &Guess<N>, inverse: bool, end: &mut Both<Row<N>>) {
-        let Problem { edge, start, overshoot, .. } = *problem;
-        let last = edge.last.min(N - 1);
-        (self.e, self.set, self.count, self.converged) = (guess.e, guess.set, 0, false);
-        for i in 0..N {
-            let square = start[0][i] * start[0][i] + start[1][i] * start[1][i];
-            let u = 2.0 * square - 1.0;
-            let u = if u > 0.0 { u } else { 0.0 };
-            self.per_along[i] = guess.bends * u * u / (1.0 + overshoot[i] * (1.0 / 3.0));
-        }
-        let (mut changes, mut steps) = (0, 0);
-        'sets: while changes <= CHANGES && self.set != 0 {
-            changes += 1;
-            let constant = self.prepare(problem);
-            let first = self.first;
-            let (mut turn, mut before, mut fresh, mut reviewed) = (9.0f64, 9.0, false, false);
-            let mut done = false;
-            loop {
-                let mut q = self.e;
-                for k in 0..2 {
-                    for i in 0..N {
-                        q[k][i] *= self.slips[i] * edge.pressure[i];
-                    }
+    fn springs(&self, problem: &Problem) -> Both<Row<f64>> {
+        let Problem { mut v, t, contact, inverse, end, .. } = *problem;
+        let end = end.min(N);
+        let first = (self.set.trailing_zeros() as usize).min(end);
+        if self.without_gaps(end) {
+            for k in 0..2 {
+                let mut limits = [0.0; N];
+                for i in 0..N {
+                    limits[i] = if self.contains(i) { self.level[i] * self.e[k][i] } else { 0.0 };
                 }
-                let (residual, diagonal) = self.residual(&constant, &q, start, last);
-                if done || (turn <= CLOSE && !reviewed) {
-                    if done || first > 0 || self.count > 0 {
-                        self.springs(problem, &q, end);
-                        if self.review(problem, &constant, end, done) {
-                            continue 'sets;
+                for j in first..end {
+                    v[k][j] = dot(&inverse[k][j], &limits);
+                }
+            }
+            return v;
+        }
+        for k in 0..2 {
+            let mut per_slip = [0.0; N];
+            for i in 0..N {
+                per_slip[i] = if self.contains(i) { self.sigma[k][i] * contact.per_pressure[i] } else { 0.0 };
+            }
+            let mut before = 0.0;
+            for j in first..end {
+                let row = contact.row(t, k, j);
+                let sum = dot(row, &per_slip);
+                v[k][j] -= (sum - before) * contact.flexibility(&t, k, j);
+                before = sum;
+            }
+        }
+        v
+    }
+
+    /// K of the points that slip.
+    #[inline(always)]
+    fn stiffen(&mut self, problem: &Problem) {
+        let &Problem { t, contact, inverse, end, .. } = problem;
+        let end = end.min(N);
+        let first = (self.set.trailing_zeros() as usize).min(end);
+        if self.without_gaps(end) {
+            for k in 0..2 {
+                let mut sum = [[0.0; N]; N];
+                for j in first..end {
+                    let w = contact.stiffness(&t, k, j);
+                    for m in j..end {
+                        let scale = w * inverse[k][j][m];
+                        for i in 0..N {
+                            sum[m][i] += scale * inverse[k][j][i];
                         }
                     }
-                    reviewed = true;
-                    if done && !inverse {
-                        self.converged = true;
-                        return;
+                }
+                self.k[k] = sum;
+            }
+            return;
+        }
+        for k in 0..2 {
+            let a = compliance(problem, k, first);
+            for i in first..end {
+                for m in 0..N {
+                    self.k[k][i][m] = if self.contains(i) && self.contains(m) { a[i][m] } else { 0.0 };
+                }
+            }
+            invert(&mut self.k[k], self.set, [first, end]);
+        }
+    }
+
+    /// Newton's method from a guess; whether it converged. What derivatives need is computed if they are requested.
+    #[inline(always)]
+    fn solve(&mut self, other: &Slip, problem: &Problem, guess: &Guess, derivatives: bool) -> bool {
+        let Problem { r: r_trial, contact, end, .. } = problem;
+        let end = (*end).min(N);
+        (self.set, self.e) = (guess.set, guess.e);
+        let mut steps = 0;
+        'sets: for _ in 0..CHANGES {
+            let set = self.set;
+            let first = (set.trailing_zeros() as usize).min(end);
+            let mut slips = [0.0; N];
+            for i in 0..N {
+                slips[i] = if set >> i & 1 == 1 { 1.0 } else { 0.0 };
+            }
+            if self.known != (set, contact.now.load) {
+                self.known = (set, contact.now.load);
+                if other.known == self.known {
+                    self.k = other.k;
+                } else {
+                    self.stiffen(problem);
+                }
+            }
+            let constant = both!(|k| times(&self.k[k], [first, end], &r_trial[k]));
+            let (mut turn, mut reviewed, mut done, mut fresh) = (9.0f64, false, false, false);
+            let mut renewed = [false; 2];
+            loop {
+                let ([e_x, e_y], level) = (self.e, self.level);
+                for k in 0..2 {
+                    let mut r = self.e[k];
+                    for i in 0..N {
+                        r[i] *= level[i];
+                    }
+                    let own = times(&self.k[k], [first, end], &r);
+                    for i in 0..N {
+                        self.sigma[k][i] = slips[i] * (constant[k][i] - own[i]);
                     }
                 }
-                if done || turn > RENEWED || turn > 0.1 * before {
-                    self.linearise(&q, &diagonal, first, last);
-                    invert(&mut self.inverse, first, last);
-                    fresh = true;
-                }
-                if done {
-                    self.converged = true;
-                    return;
-                }
-                let mut turns = [0.0; N];
-                for m in first..=last {
-                    add(&mut turns, residual[m], &self.inverse[m]);
-                }
-                before = turn;
-                let mut sizes = [0.0; N];
+                let (mut residual, mut diagonal) = ([0.0; N], [0.0; N]);
+                let [s_x, s_y] = self.sigma;
                 for i in 0..N {
-                    turns[i] *= self.slips[i];
-                    sizes[i] = turns[i].abs();
+                    residual[i] = e_x[i] * s_y[i] - e_y[i] * s_x[i];
+                    diagonal[i] = e_x[i] * s_x[i] + e_y[i] * s_y[i];
                 }
-                turn = largest(&sizes);
-                steps += 1;
-                if steps > STEPS || turn > guess.largest_turn {
-                    return;
-                }
-                // The angle of a point that hardly slips is undetermined: it may have to stick.
-                if steps % REVIEW == 0 {
-                    self.springs(problem, &q, end);
-                    if self.review(problem, &constant, end, true) {
+                if done || (turn <= 0.1 && !reviewed) {
+                    reviewed = true;
+                    if self.review(problem, done) {
                         continue 'sets;
                     }
                 }
-                self.rotate(&turns, LARGEST_TURN / turn.max(LARGEST_TURN));
-                // Newton's method converges quadratically with a new inverse, linearly with an old one.
-                let rate = if fresh { turn } else { turn / before.max(TINY) };
-                done = turn * rate.min(1.0) <= CONVERGED;
-                fresh = false;
-            }
-        }
-    }
-
-    /// e turned by angles, by Cayley's formula.
-    #[inline(always)]
-    fn rotate(&mut self, turns: &Row<N>, damping: f64) {
-        let (mut e_x, mut e_y) = (self.e[0], self.e[1]);
-        for i in 0..N {
-            let half = 0.5 * damping * turns[i];
-            let square = half * half;
-            let scale = 1.0 / (1.0 + square);
-            let (cosine, sine) = ((1.0 - square) * scale, 2.0 * half * scale);
-            let (x, y) = (e_x[i], e_y[i]);
-            e_x[i] = cosine * x - sine * y;
-            e_y[i] = cosine * y + sine * x;
-        }
-        self.e = [e_x, e_y];
-    }
-
-    /// S and `U' w v*` of the set.
-    #[inline(always)]
-    fn prepare(&mut self, problem: &Problem<N>) -> Both<Row<N>> {
-        let Problem { springs, edge, stiffness, trial, .. } = *problem;
-        let last = edge.last.min(N - 1);
-        let first = (self.set.trailing_zeros() as usize).min(last);
-        (self.first, self.count) = (first, 0);
-        for i in 0..N {
-            self.slips[i] = if self.set >> i & 1 == 1 { 1.0 } else { 0.0 };
-        }
-        let mut constant = [[0.0; N]; 2];
-        for k in 0..2 {
-            let (mut rows, mut weighted) = ([[0.0; N]; N], [[0.0; N]; N]);
-            let mut sum = [0.0; N];
-            for j in first..=last {
-                let row = edge.displacement(springs, k, j);
-                let w = stiffness[k][j];
-                let mut heavy = [0.0; N];
-                for i in 0..N {
-                    heavy[i] = w * row[i];
-                    sum[i] += heavy[i] * trial[k][j];
+                renewed = [renewed[1], turn > RENEWED || !fresh];
+                if (done && derivatives) || (!done && renewed[1]) {
+                    for m in first..end {
+                        for i in 0..N {
+                            let own = if i == m { diagonal[i] } else { 0.0 };
+                            let (k_x, k_y) = (self.k[0][m][i], self.k[1][m][i]);
+                            let turns = e_x[i] * e_x[m] * k_y + e_y[i] * e_y[m] * k_x;
+                            self.inverse[m][i] = slips[i] * (turns * level[m] + own);
+                        }
+                    }
+                    invert(&mut self.inverse, set, [first, end]);
                 }
-                (rows[j], weighted[j]) = (row, heavy);
+                if done {
+                    return true;
+                }
+                let turns = times(&self.inverse, [first, end], &residual);
+                let (before, mut largest) = (turn, 0.0);
+                for i in 0..N {
+                    let size = slips[i] * turns[i].abs();
+                    largest = if size > largest { size } else { largest };
+                }
+                turn = largest;
+                steps += 1;
+                if steps > STEPS || turn > LOST {
+                    return false;
+                }
+                if steps % REVIEW == 0 && self.review(problem, true) {
+                    continue 'sets;
+                }
+                let damping = LARGEST_TURN / if turn > LARGEST_TURN { turn } else { LARGEST_TURN };
+                let (mut x, mut y) = (e_x, e_y);
+                for i in 0..N {
+                    // Cayley's formula.
+                    let half = 0.5 * damping * turns[i] * slips[i];
+                    let scale = 1.0 / (1.0 + half * half);
+                    let (cos, sin) = ((1.0 - half * half) * scale, 2.0 * half * scale);
+                    (x[i], y[i]) = (cos * e_x[i] - sin * e_y[i], cos * e_y[i] + sin * e_x[i]);
+                }
+                self.e = [x, y];
+                // Quadratic with a new inverse, linear with an old one.
+                let linear = turn / if before > TINY { before } else { TINY };
+                let rate = if turn > RENEWED || before > RENEWED { turn } else { linear };
+                let stalled = renewed == [true; 2] && before <= 1e-9 && turn >= STALLED * before;
+                done = stalled || turn * (if rate < 1.0 { rate } else { 1.0 }) <= CONVERGED;
+                fresh = turn <= 0.1 * before && turn <= RENEWED;
             }
-            constant[k] = sum;
-            for i in first..=last {
-                let mut sum = [0.0; N];
-                for j in first..=i {
-                    let factor = weighted[j][i];
-                    for m in 0..N {
-                        sum[m] += factor * rows[j][m];
+        }
+        false
+    }
+
+    /// From sweeps of the points.
+    #[cold]
+    #[inline(never)]
+    fn descend(&mut self, other: &Slip, problem: &Problem, derivatives: bool) {
+        let Problem { r, end, .. } = problem;
+        let compliance = both!(|k| compliance(problem, k, 0));
+        let (mut guess, mut sigma, mut sweeps, mut r) = (Guess { e: *r, set: 0 }, [[0.0; N]; 2], SWEEPS, *r);
+        while sweeps < MOST_SWEEPS {
+            for _ in 0..sweeps {
+                for i in (0..(*end).min(N)).rev() {
+                    let (a, limit) = ([compliance[0][i][i], compliance[1][i][i]], self.level[i]);
+                    let g = [r[0][i] + a[0] * sigma[0][i], r[1][i] + a[1] * sigma[1][i]];
+                    guess.set &= !(1 << i);
+                    let mut now = [0.0; 2];
+                    if g[0] * g[0] + g[1] * g[1] > limit * limit {
+                        let (size, e) = own_slip(g.map(|g| g / limit), a.map(|a| a / limit));
+                        now = e.map(|e| size * e);
+                        guess.set |= 1 << i;
+                        (guess.e[0][i], guess.e[1][i]) = (e[0], e[1]);
+                    }
+                    for k in 0..2 {
+                        let change = now[k] - sigma[k][i];
+                        sigma[k][i] = now[k];
+                        for m in 0..N {
+                            r[k][m] -= compliance[k][i][m] * change;
+                        }
                     }
                 }
-                self.square[k][i] = sum;
             }
-        }
-        for t in first..=last {
-            if !self.contains(t) {
-                self.eliminate(t, last, &mut constant);
+            if self.solve(other, problem, &guess, derivatives) {
+                return;
             }
+            sweeps *= 4;
         }
-        constant
     }
 
-    /// Eliminates a point that sticks.
+    /// Points beyond the limit slip; at the end of an iteration, those whose slip is against the traction stick. Whether any has changed.
     #[inline(always)]
-    fn eliminate(&mut self, t: usize, last: usize, constant: &mut Both<Row<N>>) {
-        for k in 0..2 {
-            let row = self.square[k][t];
-            let (pivot, there) = (1.0 / row[t].max(TINY), constant[k][t]);
-            for i in self.first..=last {
-                // Rows of points that were eliminated before remain.
-                if i > t || self.contains(i) {
-                    let factor = row[i] * pivot;
-                    add(&mut self.square[k][i], -factor, &row);
-                    constant[k][i] -= factor * there;
-                    self.square[k][i][t] = 0.0;
+    fn review(&mut self, problem: &Problem, done: bool) -> bool {
+        let (before, first, mut r) = (self.set, self.set.trailing_zeros() as usize, problem.r);
+        if before != 0 && !(first == 0 && self.without_gaps(problem.end)) {
+            let v = self.springs(problem);
+            for k in 0..2 {
+                let mut relaxed = v[k];
+                for j in 0..N {
+                    relaxed[j] = problem.v[k][j] - v[k][j];
                 }
-            }
-            self.square[k][t] = row;
-            constant[k][t] = 0.0;
-            self.pivots[k][t] = pivot;
-            self.constants[k][t] = there;
-        }
-        self.points[self.count.min(N - 1)] = t;
-        self.count += 1;
-    }
-
-    /// Finds σ and n for the tractions q: the residuals, and the diagonal terms of J.
-    #[inline(always)]
-    fn residual(
-        &mut self,
-        constant: &Both<Row<N>>,
-        q: &Both<Row<N>>,
-        start: &Both<Row<N>>,
-        last: usize,
-    ) -> (Row<N>, Row<N>) {
-        for k in 0..2 {
-            let mut sigma = constant[k];
-            for m in self.first..=last {
+                let relaxed = tractions(problem.t, problem.contact, k, &relaxed, first);
                 for i in 0..N {
-                    sigma[i] -= q[k][m] * self.square[k][m][i];
+                    r[k][i] -= relaxed[i];
                 }
             }
-            self.sigma[k] = sigma;
         }
-        let (mut residual, mut diagonal) = ([0.0; N], [0.0; N]);
-        let ([e_x, e_y], [s_x, s_y]) = (self.e, self.sigma);
-        let (mut n_x, mut n_y) = ([0.0; N], [0.0; N]);
-        for i in 0..N {
-            let (x, y, r_x, r_y) = (e_x[i], e_y[i], start[0][i], start[1][i]);
-            let along = x * r_x + y * r_y;
-            let factor = if along > 0.0 { self.per_along[i] } else { 0.0 };
-            let (beta, slope) = (factor * along, factor * (x * r_y - y * r_x));
-            (n_x[i], n_y[i]) = (x + beta * r_x, y + beta * r_y);
-            residual[i] = self.slips[i] * (s_y[i] * n_x[i] - s_x[i] * n_y[i]);
-            let turned = s_x[i] * (slope * r_y + x) - s_y[i] * (slope * r_x - y);
-            diagonal[i] = if self.slips[i] > 0.0 { turned } else { 1.0 };
-        }
-        self.n = [n_x, n_y];
-        (residual, diagonal)
-    }
-
-    /// J as `[m][i]`.
-    #[inline(always)]
-    fn linearise(&mut self, q: &Both<Row<N>>, diagonal: &Row<N>, first: usize, last: usize) {
-        let [n_x, n_y] = self.n;
-        for m in first..=last {
-            let (q_x, q_y) = (q[0][m], q[1][m]);
-            let (s_x, s_y) = (self.square[0][m], self.square[1][m]);
-            let mut row = [0.0; N];
-            for i in 0..N {
-                let own = if i == m { diagonal[i] } else { 0.0 };
-                row[i] = n_x[i] * (q_x * s_y[i]) + n_y[i] * (q_y * s_x[i]) + own;
-            }
-            self.inverse[m] = row;
-        }
-    }
-
-    /// Springs at the end, and the tractions of the points between slipping ones.
-    #[inline(always)]
-    fn springs(&mut self, problem: &Problem<N>, q: &Both<Row<N>>, end: &mut Both<Row<N>>) {
-        let last = problem.edge.last.min(N - 1);
-        self.q = *q;
-        for k in 0..2 {
-            for n in (0..self.count.min(N)).rev() {
-                let t = self.points[n].min(N - 1);
-                self.q[k][t] = 0.0;
-                self.q[k][t] = self.pivots[k][t] * (self.constants[k][t] - dot(&self.square[k][t], &self.q[k]));
-            }
-            end[k] = problem.trial[k];
-            for j in self.first..=last {
-                end[k][j] = dot(&problem.edge.displacement(problem.springs, k, j), &self.q[k]);
-            }
-        }
-    }
-
-    /// Points beyond Coulomb's limit slip; at the end of an iteration, those whose slip is against the traction stick. Whether any has
-    /// changed.
-    #[inline(always)]
-    fn review(&mut self, problem: &Problem<N>, constant: &Both<Row<N>>, end: &Both<Row<N>>, done: bool) -> bool {
-        let edge = problem.edge;
-        let before = self.set;
-        if done {
-            for i in 0..N {
+        for i in 0..problem.end.min(N) {
+            let (x, y, limit) = (r[0][i], r[1][i], self.level[i]);
+            let square = x * x + y * y;
+            if before >> i & 1 == 1 {
                 let along = self.sigma[0][i] * self.e[0][i] + self.sigma[1][i] * self.e[1][i];
-                let rounding = BACKWARDS * (constant[0][i].abs() + constant[1][i].abs());
-                let sticks = self.slips[i] > 0.0 && along < -rounding;
-                self.set &= !(Set::from(sticks) << i);
-            }
-        }
-        if self.first > 0 || self.count > 0 {
-            let q = [edge.tractions(problem.springs, 0, &end[0]), edge.tractions(problem.springs, 1, &end[1])];
-            for i in 0..N {
-                let square = q[0][i] * q[0][i] + q[1][i] * q[1][i];
-                let outside = square > edge.pressure[i] * edge.pressure[i] * (1.0 + EXCESS);
-                if outside && i <= edge.last && before >> i & 1 == 0 {
-                    let per_length = 1.0 / square.max(TINY).sqrt();
-                    self.begin(i, q[0][i] * per_length, q[1][i] * per_length);
-                }
+                let scale = self.k[0][i][i] + self.k[1][i][i];
+                self.set &= !(Set::from(done && along < -BACKWARDS * scale) << i);
+            } else if square > (1.0 + EXCESS) * limit * limit {
+                let length = square.sqrt();
+                self.set |= 1 << i;
+                (self.e[0][i], self.e[1][i]) = (x / length, y / length);
             }
         }
         self.set != before
     }
 }
 
-/// The inverse of the block from `first` to `last`, in place, by Gauss and Jordan. Single elements are chosen by their place in the lanes:
-/// a vector that is loaded right after one of its elements was stored would wait for it.
+/// A = C w⁻¹ C' of the points from one on, `C_ij = (G_ij - G_i,j-1)/p_i`.
 #[inline(always)]
-fn invert<const N: usize>(matrix: &mut Matrix<N>, first: usize, last: usize) {
-    for p in first..=last {
+fn compliance(problem: &Problem, k: usize, first: usize) -> Matrix {
+    let &Problem { t, contact, end, .. } = problem;
+    let (mut a, mut before) = ([[0.0; N]; N], [0.0; N]);
+    for j in 0..end.min(N) {
+        let row = contact.row(t, k, j);
+        let mut column = [0.0; N];
+        for i in 0..N {
+            column[i] = (row[i] - before[i]) * contact.per_pressure[i];
+        }
+        before = *row;
+        let flexibility = contact.flexibility(&t, k, j);
+        for (row, own) in a.iter_mut().zip(column).skip(first) {
+            for i in 0..N {
+                row[i] += own * flexibility * column[i];
+            }
+        }
+    }
+    a
+}
+
+/// Σ x_i y_i, in an order of vectors.
+#[inline(always)]
+fn dot(x: &Row<f64>, y: &Row<f64>) -> f64 {
+    let mut sums = [0.0; 4];
+    for b in 0..N / 4 {
+        for lane in 0..4 {
+            sums[lane] += x[4 * b + lane] * y[4 * b + lane];
+        }
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3])
+}
+
+/// Σ x_m matrix[m][i]: rows of points that stick are 0.
+#[inline(always)]
+fn times(matrix: &Matrix, [first, end]: [usize; 2], x: &Row<f64>) -> Row<f64> {
+    let mut y = [0.0; N];
+    for m in first..end {
+        for i in 0..N {
+            y[i] += x[m] * matrix[m][i];
+        }
+    }
+    y
+}
+
+/// The inverse of the block of a set, in place, by Gauss and Jordan. Single elements are chosen by their place in the lanes: a vector that
+/// is loaded right after one of its elements was stored would wait for it.
+#[inline(always)]
+fn invert(matrix: &mut Matrix, set: Set, [first, end]: [usize; 2]) {
+    for p in first..end {
+        if set >> p & 1 == 0 {
+            continue;
+        }
         let pivot = matrix[p][p];
         let reciprocal = 1.0 / if pivot.abs() > TINY { pivot } else { TINY };
         let (mut row, mut others) = (matrix[p], [0.0; N]);
@@ -403,7 +554,7 @@ fn invert<const N: usize>(matrix: &mut Matrix<N>, first: usize, last: usize) {
             row[j] = if j == p { reciprocal } else { row[j] * reciprocal };
             others[j] = if j == p { 0.0 } else { 1.0 };
         }
-        for i in first..=last {
+        for i in first..end {
             let old = matrix[i];
             let (factor, mut values) = (matrix[i][p], [0.0; N]);
             for j in 0..N {
@@ -413,4 +564,23 @@ fn invert<const N: usize>(matrix: &mut Matrix<N>, first: usize, last: usize) {
         }
         matrix[p] = row;
     }
+}
+
+/// The slip of a point on its own, whose traction without slip is g, over the limit: its size and direction, by Newton's method for the root
+/// of `|g/(1 + a size)|² = 1`, of which 1/sqrt is concave.
+fn own_slip(g: Both<f64>, a: Both<f64>) -> (f64, Both<f64>) {
+    let (mut size, mut e) = (0.0, g);
+    for _ in 0..40 {
+        let d = [1.0 / (1.0 + a[0] * size), 1.0 / (1.0 + a[1] * size)];
+        e = [g[0] * d[0], g[1] * d[1]];
+        let square = e[0] * e[0] + e[1] * e[1];
+        let slope = e[0] * e[0] * a[0] * d[0] + e[1] * e[1] * a[1] * d[1];
+        let by = (square.sqrt() - 1.0) * square / slope.max(TINY);
+        size += by;
+        if by.abs() <= 1e-14 * size {
+            break;
+        }
+    }
+    let length = (e[0] * e[0] + e[1] * e[1]).sqrt();
+    (size, e.map(|e| e / length))
 }

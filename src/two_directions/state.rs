@@ -1,26 +1,43 @@
-//! The state of an element with two directions in the caller's memory.
+//! The state of an element with two directions in the caller's memory, and a step of it.
 //!
 //! ```text
-//! on a line:  [tag 0, v, state of one direction]
-//! springs:    [tag 1, v, u, normal component, N, S, offset (2), force (2), key of the element, units of the springs (3), their number,
-//!              those under the flat, w², 0, 0, 0,
-//!              springs, tables]
+//! [tag, v, u, normal component, key of the element, units of the springs (3), springs under the flat, last shell and part,
+//!  N, N, S, w² of the present size in the units of the springs (4), stiffnesses at the edge (2), force of the springs (2) | rows of the edge | C⁻¹ | springs
+//!  | tables]
 //! ```
 //!
-//! The tables are those of the springs, aligned with a size: the state carries them, as they change with its history only.
+//! in rows of as many doubles as springs. The tables are aligned with a load: the state carries them, as they change with its history only.
+//! Present loads down to a part of the aligned one are as accurate, and derivatives of a step need none of the alignment. A contact that
+//! opens has the state of a new one.
 
-use crate::element::Element;
+use super::contact::{Contact, Pressed};
+use super::path::{LONGEST, Path};
+use super::scalar::{Dual, Real};
+use super::slip::Slips;
+use super::step::{advance, separated, step};
+use super::stick;
+use super::tables::{Both, END, FINE, INSIDE, MOST_PARTS, Matrix, N, ROWS, Row, Rows, Units, fill, starts, under_flat};
+use super::trial::{FINE_SPRING, Motion, SPRINGS, Values, trial};
+use super::{Requested, Step};
+use crate::element::{Element, Normal};
 use crate::error::Error;
 use crate::numerics::fp_class::is_finite;
-use crate::one_direction::state;
+use crate::shape::TINY;
+use crate::simd::dispatch;
 use crate::tag::Kind;
-use crate::two_directions::spring_state::{LONGEST, SpringState, StoredSprings, springs_length};
-use crate::two_directions::springs::{Both, MOST, Pressed, Springs, TABLES, Units};
 
-const HEADER: usize = 20;
-pub(super) const LENGTH: usize = HEADER + springs_length(MOST) + TABLES;
-/// Values before the state of one direction.
-const LINE: usize = 2;
+/// The springs are aligned with powers of this ratio times the normal force of the parameters, and anew from a load over it by the second
+/// ratio on. Both must differ by more than rounding.
+const LEVEL: f64 = 1.03;
+const OUTGROWN: f64 = 1.02;
+/// The least power: below, loads are aligned with the least reference load.
+const LEAST_LEVEL: f64 = -300.0;
+
+const HEADER_ROWS: usize = 2;
+const EDGE_ROWS: usize = 5;
+const INVERSE_ROWS: usize = 2 * N;
+const STATE_ROWS: usize = HEADER_ROWS + EDGE_ROWS + INVERSE_ROWS + SPRINGS / N + ROWS;
+pub(super) const LENGTH: usize = N * STATE_ROWS;
 
 /// Number of doubles in a state.
 #[must_use]
@@ -35,14 +52,9 @@ pub const fn state_length() -> usize {
 pub fn state_init(state: &mut [f64]) -> Result<(), Error> {
     let state = state.get_mut(..LENGTH).ok_or(Error::StateTooShort)?;
     state.fill(0.0);
-    let Some(([tag, _], line)) = state.split_first_chunk_mut::<LINE>() else { return Err(Error::StateTooShort) };
-    *tag = Kind::TwoDirectionsState.tag(ON_LINE);
-    state::state_init(line)
+    state.first_mut().into_iter().for_each(|tag| *tag = Kind::TwoDirectionsState.tag(0));
+    Ok(())
 }
-
-/// Counts in the tag: the two kinds of states.
-const ON_LINE: usize = 0;
-const SPRUNG: usize = 1;
 
 /// Checks the length and the tag of a state.
 ///
@@ -53,208 +65,44 @@ pub(super) fn check_header(state: &[f64]) -> Result<(), Error> {
     if state.len() < LENGTH {
         return Err(Error::StateTooShort);
     }
-    check_tag(state.first().copied().unwrap_or(0.0))?;
-    match line_of(state) {
-        Some(line) => state::check_header(line),
-        None => Ok(()),
-    }
+    check_tag(state.first().copied().unwrap_or(0.0))
 }
 
 /// Rejects the tag of what is no state.
 #[inline(always)]
 pub(super) fn check_tag(tag: f64) -> Result<(), Error> {
-    match Kind::TwoDirectionsState.count(tag) {
-        Some(ON_LINE | SPRUNG) => Ok(()),
-        _ => Err(Error::BadState),
-    }
+    if Kind::TwoDirectionsState.count(tag) == Some(0) { Ok(()) } else { Err(Error::BadState) }
 }
 
-/// The state of one direction in a state on a line.
-pub(super) fn line_of(state: &[f64]) -> Option<&[f64]> {
-    let on_line = Kind::TwoDirectionsState.count(*state.first()?) == Some(ON_LINE);
-    state.get(LINE..LENGTH).filter(|_| on_line)
-}
-
-/// Validates a state in full: finite values, springs and tractions within their limits. For states from outside the process.
+/// Validates a state in full: finite values, springs within their limits. For states from outside the process.
 ///
 /// # Errors
 /// `StateTooShort`; `BadState` for an array that was not initialised, or whose values no history leads to.
 pub fn state_check(state: &[f64]) -> Result<(), Error> {
     check_header(state)?;
-    let used = state.get(..LENGTH).ok_or(Error::StateTooShort)?;
-    if !used.iter().all(|value| is_finite(*value)) {
+    let mut copy = [0.0; LENGTH];
+    copy_used(state, &mut copy);
+    let Some(memory) = Memory::of(&mut copy) else { return Err(Error::StateTooShort) };
+    if !state.iter().take(LENGTH).all(|value| is_finite(*value)) {
         return Err(Error::BadState);
     }
-    if let Some(line) = line_of(state) {
-        return state::state_check(line);
+    let (header, contact) = memory.read();
+    if header.normal_force == 0.0 {
+        return Ok(());
     }
-    let header = read_header(state);
     let Units { load, shift, size } = header.units;
-    let loads = [header.load, header.shift, load, shift, size].iter().all(|value| *value > 0.0);
-    let held = header.offset.iter().all(|offset| offset.abs() <= LONGEST);
-    let within = match header.springs {
-        8 => stored::<8>(state).is_some_and(|springs| springs.is_within()),
-        12 => stored::<12>(state).is_some_and(|springs| springs.is_within()),
-        16 => stored::<16>(state).is_some_and(|springs| springs.is_within()),
-        _ => false,
-    };
-    if within && loads && held { Ok(()) } else { Err(Error::BadState) }
-}
-
-/// A bound on the error of the force \[N\] from merging pieces of the diagram on a line; 0 otherwise.
-#[must_use]
-pub fn force_error(state: &[f64]) -> f64 {
-    line_of(state).map_or(0.0, state::force_error)
-}
-
-/// Where a contact with springs is.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Header {
-    pub displacement: Both<f64>,
-    pub input: f64,
-    pub load: f64,
-    pub shift: f64,
-    /// w² in the units of the springs.
-    pub size: f64,
-    /// Motion of the springs since they last changed, and the sum of their forces then.
-    pub offset: Both<f64>,
-    pub sum: Both<f64>,
-    /// Of the element whose tables these are, their units and the number of springs.
-    pub key: f64,
-    pub units: Units,
-    pub springs: usize,
-    /// Springs under the flat.
-    pub under_flat: usize,
-}
-
-impl Header {
-    /// Without springs.
-    pub const NONE: Header = Header {
-        displacement: [0.0; 2],
-        input: 0.0,
-        load: 0.0,
-        shift: 0.0,
-        size: 0.0,
-        offset: [0.0; 2],
-        sum: [0.0; 2],
-        key: 0.0,
-        units: Units::NONE,
-        springs: 0,
-        under_flat: 0,
-    };
-
-    /// The normal state in the units of the springs.
-    #[inline(always)]
-    pub fn pressed(&self, element: &Element) -> Pressed {
-        self.units.pressed(element, self.load, self.shift, self.size)
-    }
-
-    /// Whether the tables are those of an element.
-    #[inline(always)]
-    pub fn belongs_to(&self, element: &Element) -> bool {
-        self.key == element.key && self.springs == element.springs
-    }
-}
-
-#[inline(always)]
-pub(super) fn stored<const N: usize>(state: &[f64]) -> Option<StoredSprings<'_, N>> {
-    StoredSprings::new(state.get(HEADER..)?)
-}
-
-/// The tables in a state.
-#[inline(always)]
-pub(super) fn tables<'a>(header: &Header, state: &'a [f64]) -> Option<Springs<'a>> {
-    Springs::new(header.under_flat, state.get(HEADER + springs_length(MOST)..)?)
-}
-
-/// Writes the tables to a state.
-pub(super) fn write_tables(state: &mut [f64], tables: &[f64; TABLES]) {
-    if let Some(place) = state.get_mut(HEADER + springs_length(MOST)..).and_then(<[f64]>::first_chunk_mut) {
-        *place = *tables;
-    }
-}
-
-#[inline(always)]
-pub(super) fn read_header(state: &[f64]) -> Header {
-    let [
-        _,
-        v,
-        u,
-        input,
-        load,
-        shift,
-        offset_x,
-        offset_y,
-        sum_x,
-        sum_y,
-        key,
-        unit_load,
-        unit_shift,
-        unit_size,
-        count,
-        flat,
-        size,
-        ..,
-    ] = *state.first_chunk::<HEADER>().unwrap_or(&[0.0; HEADER]);
-    Header {
-        displacement: [u, v],
-        input,
-        load,
-        shift,
-        size,
-        offset: [offset_x, offset_y],
-        sum: [sum_x, sum_y],
-        key,
-        units: Units { load: unit_load, shift: unit_shift, size: unit_size },
-        springs: count as usize,
-        under_flat: flat as usize,
-    }
-}
-
-/// Writes a state of springs, except for the tables.
-pub(super) fn write<const N: usize>(state: &mut [f64], header: &Header, springs: &SpringState<N>) {
-    let Some((place, rest)) = state.split_first_chunk_mut::<HEADER>() else { return };
-    let Header { displacement: [u, v], input, load, shift, offset: [x, y], sum: [sum_x, sum_y], key, units, .. } =
-        *header;
-    let under_flat = header.under_flat as f64;
-    let tag = Kind::TwoDirectionsState.tag(SPRUNG);
-    let Units { load: unit_load, shift: unit_shift, size: unit_size } = units;
-    *place = [
-        tag,
-        v,
-        u,
-        input,
-        load,
-        shift,
-        x,
-        y,
-        sum_x,
-        sum_y,
-        key,
-        unit_load,
-        unit_shift,
-        unit_size,
-        N as f64,
-        under_flat,
-        header.size,
-        0.0,
-        0.0,
-        0.0,
-    ];
-    springs.write(rest);
-}
-
-/// Moves the springs of a state in which nothing slipped.
-pub(super) fn move_springs(state: &mut [f64], [u, v]: Both<f64>, offset: Both<f64>) {
-    if let Some([_, v_place, u_place, _, _, _, offset_x, offset_y, ..]) = state.first_chunk_mut::<HEADER>() {
-        (*v_place, *u_place, [*offset_x, *offset_y]) = (v, u, offset);
-    }
-}
-
-/// The state of one direction in a state on a line, and its v.
-pub(super) fn line_mut(state: &mut [f64]) -> Option<(&mut f64, &mut [f64])> {
-    let ([_, v], line) = state.get_mut(..LENGTH)?.split_first_chunk_mut::<LINE>()?;
-    Some((v, line))
+    let positive =
+        [header.normal_force, load, shift, size, contact.now.load, contact.now.shift[0], contact.now.shift[1]];
+    let held = memory.springs.as_flattened().iter().all(|value| value.abs() <= LONGEST);
+    let edge = contact.edge.as_flattened().iter().chain(&contact.per_pressure).all(|value| *value >= 0.0);
+    let start = starts(contact.under_flat);
+    let within = (0..2).all(|k| {
+        // Of extreme parameters rounding leaves springs beyond their limits.
+        let rounding = 1e-2 * contact.now.shift[k];
+        let limit = |j: usize| contact.limit(&&*memory.tables, k, start[j]) + rounding;
+        (0..=contact.last.min(N - 1)).all(|j| memory.springs[k][j].abs() <= limit(j))
+    });
+    if within && held && edge && positive.iter().all(|value| *value > 0.0) { Ok(()) } else { Err(Error::BadState) }
 }
 
 /// Copies a state whose header was checked to one that is as long.
@@ -263,4 +111,302 @@ pub(super) fn copy_used(from: &[f64], to: &mut [f64]) {
     if let (Some(from), Some(to)) = (from.first_chunk::<LENGTH>(), to.first_chunk_mut::<LENGTH>()) {
         *to = *from;
     }
+}
+
+/// Where a contact is, and its alignment; open if the normal force is 0.
+#[derive(Debug, Clone, Copy)]
+struct Header {
+    displacement: [f64; 3],
+    normal_force: f64,
+    /// Of the element whose tables these are.
+    key: f64,
+    units: Units,
+    /// Of the springs, in their units.
+    force: Both<f64>,
+}
+
+/// The parts of a state.
+struct Memory<'a> {
+    header: &'a mut [Row<f64>; HEADER_ROWS],
+    edge: &'a mut [Row<f64>; EDGE_ROWS],
+    inverse: &'a mut Both<Matrix>,
+    springs: &'a mut Values,
+    tables: &'a mut Rows,
+}
+
+impl Memory<'_> {
+    #[inline(always)]
+    fn of(state: &mut [f64]) -> Option<Memory<'_>> {
+        let (header, rest) = state.as_chunks_mut::<N>().0.split_first_chunk_mut()?;
+        let (edge, rest) = rest.split_first_chunk_mut()?;
+        let (inverse, rest) = rest.split_at_mut_checked(INVERSE_ROWS)?;
+        let (springs, rest) = rest.split_first_chunk_mut()?;
+        let inverse = inverse.as_chunks_mut::<N>().0.first_chunk_mut()?;
+        Some(Memory { header, edge, inverse, springs, tables: rest.first_chunk_mut()? })
+    }
+
+    #[inline(always)]
+    fn read(&self) -> (Header, Contact<f64>) {
+        let [
+            [_, v, u, input, key, unit_load, unit_shift, unit_size, flat, last, part, normal_force],
+            [load, x, y, size, w_x, w_y, force_x, force_y, inner_load, inner_x, inner_y, _],
+        ] = *self.header;
+        let [edge_x, edge_y, per_pressure, fine_x, fine_y] = &*self.edge;
+        let under_flat = if flat > 0.0 { 2 } else { 0 };
+        // Counts from outside the process may be too large.
+        let last = (last as usize).clamp(under_flat, N - 1);
+        let part = (part as usize).min(FINE - 1);
+        let fine = |row: &Row<f64>| row.first_chunk::<MOST_PARTS>().copied().unwrap_or([0.0; MOST_PARTS]);
+        let contact = Contact {
+            edge: [*edge_x, *edge_y],
+            per_pressure: *per_pressure,
+            stiffness: [w_x, w_y],
+            flexibility: [1.0 / w_x.max(TINY), 1.0 / w_y.max(TINY)],
+            fine: [fine(fine_x), fine(fine_y)],
+            now: Pressed { load, shift: [x, y], size, inside: [inner_load, inner_x, inner_y] },
+            last,
+            part,
+            first_part: starts(under_flat)[last],
+            under_flat,
+        };
+        let units = Units { load: unit_load, shift: unit_shift, size: unit_size };
+        (Header { displacement: [u, v, input], normal_force, key, units, force: [force_x, force_y] }, contact)
+    }
+
+    #[inline(always)]
+    fn write(&mut self, header: &Header, contact: &Contact<f64>) {
+        let Header { displacement: [u, v, input], normal_force, key, units, force } = *header;
+        let Units { load, shift, size } = units;
+        let [flat, last, part] = [contact.under_flat, contact.last, contact.part].map(|count| count as f64);
+        let tag = Kind::TwoDirectionsState.tag(0);
+        let Pressed { load: now, shift: [x, y], size: area, inside: [inner_load, inner_x, inner_y] } = contact.now;
+        let [w_x, w_y] = contact.stiffness;
+        *self.header = [
+            [tag, v, u, input, key, load, shift, size, flat, last, part, normal_force],
+            [now, x, y, area, w_x, w_y, force[0], force[1], inner_load, inner_x, inner_y, 0.0],
+        ];
+        let [edge_x, edge_y, per_pressure, fine_x, fine_y] = &mut *self.edge;
+        (*edge_x, *edge_y, *per_pressure) = (contact.edge[0], contact.edge[1], contact.per_pressure);
+        for (row, fine) in [fine_x, fine_y].into_iter().zip(&contact.fine) {
+            row.iter_mut().zip(fine).for_each(|(place, value)| *place = *value);
+        }
+    }
+
+    /// The state of a new contact, at a place.
+    fn open(&mut self, [u, v, input]: [f64; 3]) {
+        let [_, _, _, _, key, ..] = self.header[0];
+        if key != 0.0 {
+            (*self.edge, *self.springs) = ([[0.0; N]; EDGE_ROWS], [[0.0; N]; SPRINGS / N]);
+            (*self.inverse, *self.tables) = ([[[0.0; N]; N]; 2], [[0.0; N]; ROWS]);
+            *self.header = [[0.0; N]; HEADER_ROWS];
+        }
+        let tag = Kind::TwoDirectionsState.tag(0);
+        [self.header[0][0], self.header[0][1], self.header[0][2], self.header[0][3]] = [tag, v, u, input];
+    }
+
+    /// A step to a displacement under the same load, unless something slips; the displacement of the spring at the edge.
+    fn stick(&mut self, contact: &Contact<f64>, path: &Path, header: &mut Header) -> Option<Both<f64>> {
+        let force = [0, 1].map(|k| header.force[k] + path.by[k] * contact.total(k));
+        let bound = contact.now.load * contact.now.load;
+        if path.scale > 1.0 || force[0] * force[0] + force[1] * force[1] > bound {
+            return None;
+        }
+        let edge = stick::stick(self.tables, contact, &path.by, self.springs)?;
+        let ends = |k: usize| self.springs[(FINE_SPRING + k * FINE + INSIDE) / N][INSIDE % N];
+        header.force = [0, 1].map(|k| force[k] + contact.fine_inside(k) * (ends(k) - edge[k]));
+        Some(edge)
+    }
+
+    /// The place of a state in which nothing slipped.
+    fn move_to(&mut self, [u, v, _]: [f64; 3], force: &Both<f64>) {
+        let [[_, v_place, u_place, ..], [_, _, _, _, _, _, x, y, ..]] = &mut *self.header;
+        (*v_place, *u_place, *x, *y) = (v, u, force[0], force[1]);
+    }
+
+    /// Aligns the springs with a load. Those of another element are relaxed.
+    #[inline(never)]
+    fn align(&mut self, element: &Element, header: &mut Header, contact: &mut Contact<f64>, load: f64) {
+        let level = ((load / (OUTGROWN * element.normal_force)).ln() / LEVEL.ln()).ceil().max(LEAST_LEVEL);
+        let load = element.normal_force * (level * LEVEL.ln()).exp();
+        let units = Units::of(element, load.min(element.largest_load));
+        let inner = under_flat(element, &units);
+        let (belongs, ratio) = (header.key == element.key, header.units.shift / units.shift);
+        let (old, old_tables) = (*self.springs, *self.tables);
+        (header.key, header.units) = (element.key, units);
+        fill(self.tables, element, &units, 1.0);
+        *self.springs = [[0.0; N]; SPRINGS / N];
+        let from = core::mem::replace(contact, Contact { under_flat: inner, ..Contact::NONE });
+        if !element.is_closed(header.displacement[2]) || header.normal_force <= 0.0 {
+            header.normal_force = 0.0;
+            return;
+        }
+        let input = header.displacement[2];
+        let [now, _] = Pressed::new(element, &units, input, &element.normal(input));
+        *contact = Contact::press(self.tables, &now, inner, self.inverse);
+        if belongs {
+            transfer([&old_tables, self.tables], [&from, contact], ratio, &old, self.springs);
+        }
+    }
+}
+
+/// Springs of another alignment, whose unit of S is the given part: their displacements, as functions of the distance to the edge, are
+/// polygons with the nodes as corners.
+fn transfer(
+    [old_tables, tables]: [&Rows; 2],
+    [from, to]: [&Contact<f64>; 2],
+    ratio: f64,
+    old: &Values,
+    new: &mut Values,
+) {
+    let [start, to_start] = [from, to].map(|contact| starts(contact.under_flat));
+    for k in 0..2 {
+        let fine_at = |f: usize| old.as_flattened().get(FINE_SPRING + k * FINE + f).copied().unwrap_or(0.0);
+        let fine = |limit: f64| {
+            polygon(limit / ratio, (0..=from.part).rev().map(|f| [from.limit(&old_tables, k, f), fine_at(f)])) * ratio
+        };
+        let own = |j: usize| [from.limit(&old_tables, k, start[j]), old[k][j] - fine_at(start[j])];
+        for (f, place) in new.as_flattened_mut().iter_mut().skip(FINE_SPRING + k * FINE).take(to.part + 1).enumerate() {
+            *place = fine(to.limit(&tables, k, f));
+        }
+        for j in 0..=to.last.min(N - 1) {
+            let limit = to.limit(&tables, k, to_start[j]);
+            let corners = (from.under_flat..=from.last).rev().map(|j| own(j.min(N - 1)));
+            let inner = j < from.under_flat && j < to.under_flat;
+            new[k][j] = if inner { ratio * old[k][j] } else { fine(limit) + ratio * polygon(limit / ratio, corners) };
+        }
+    }
+}
+
+/// The value at an abscissa of a polygon that begins at (0, 0).
+fn polygon(at: f64, corners: impl Iterator<Item = [f64; 2]>) -> f64 {
+    let mut before = [0.0; 2];
+    for corner in corners {
+        if corner[0] >= at {
+            let width = (corner[0] - before[0]).max(TINY);
+            return before[1] + (at - before[0]) / width * (corner[1] - before[1]);
+        }
+        before = corner;
+    }
+    before[1]
+}
+
+/// A step whose new state is discarded, with a state and a displacement that were checked.
+pub(super) fn trial_step(element: &Element, old: &[f64], displacement: [f64; 3], requested: Requested) -> Step {
+    let mut copy = [0.0; LENGTH];
+    copy_used(old, &mut copy);
+    advance_state(element, &mut copy, displacement, requested)
+}
+
+/// A step in place, with a state and a displacement that were checked.
+pub(super) fn advance_state(element: &Element, state: &mut [f64], to: [f64; 3], requested: Requested) -> Step {
+    let closes = element.is_closed(to[2]);
+    let mut result = Step::NONE;
+    let Some(mut memory) = Memory::of(state) else { return result };
+    let (mut header, mut from) = memory.read();
+    if element.friction_coefficient == 0.0 || !(closes || header.normal_force > 0.0) {
+        // Without friction, or open before and after, only the position changes.
+        if closes {
+            let normal = element.normal(to[2]);
+            (result.force[2], result.tangent[8]) = (normal.load, normal.load_slope);
+        }
+        memory.open(to);
+        return result;
+    }
+    let belongs = header.key == element.key;
+    let same = belongs && closes && header.normal_force > 0.0 && to[2].to_bits() == header.displacement[2].to_bits();
+    let normal = if closes && (!same || requested.tangent) {
+        element.normal(to[2])
+    } else {
+        Normal { load: header.normal_force, ..Normal::OPEN }
+    };
+    let largest = header.normal_force.max(normal.load);
+    if !belongs || (!same && largest > OUTGROWN * header.units.load) {
+        memory.align(element, &mut header, &mut from, largest);
+    }
+    let was_closed = header.normal_force > 0.0;
+    let units = header.units;
+    let path = Path::new(element, &units, [header.displacement, to], [was_closed, closes]);
+    let force_unit = element.friction_coefficient * units.load;
+    let energy_unit = force_unit * element.friction_coefficient * units.shift * path.scale;
+    if !closes {
+        if requested.energy {
+            let energy = separated(memory.tables, &from, &Pressed::NONE, path.by, memory.springs);
+            result.dissipated = energy_unit * energy;
+        }
+        memory.open(to);
+        return result;
+    }
+    let mut slopes = Pressed::NONE;
+    let mut contact = from;
+    if !same || requested.tangent {
+        let now;
+        [now, slopes] = Pressed::new(element, &units, to[2], &normal);
+        if !same {
+            contact = Contact::press(memory.tables, &now, from.under_flat, memory.inverse);
+        }
+    }
+    if same && let Some(edge) = memory.stick(&contact, &path, &mut header) {
+        result.force = [force_unit * header.force[0], force_unit * header.force[1], normal.load];
+        if requested.tangent {
+            let slopes = stick::tangent(memory.tables, &contact, &slopes, &edge, memory.springs);
+            for k in 0..2 {
+                let [w, x, y, _] = slopes[k].map(|slope| force_unit * slope);
+                let [u, v] = [x, y].map(|slope| path.per_distance * slope);
+                (result.tangent[k], result.tangent[3 + k], result.tangent[6 + k]) = (u, v, w);
+            }
+            result.tangent[8] = normal.load_slope;
+        }
+        memory.move_to(to, &header.force);
+        return result;
+    }
+    let motion = path.motion(&from, &contact, same);
+    let trial = trial(memory.tables, &contact, &motion, memory.springs);
+    let mut slip = Slips::NONE;
+    slip.find(memory.tables, &contact, memory.inverse, &motion, (&trial, memory.springs), requested.tangent);
+    if requested.tangent {
+        let by = [0, 1].map(|k| {
+            let mut by = Dual::constant(motion.by[k]);
+            (by.0[0][END], by.0[0][END + 1 + k]) = (path.per_input[k][1], path.per_distance);
+            by
+        });
+        let motion = Motion { before: motion.before.map(Dual::constant), by, constant_load: same };
+        let force = tangent(memory.tables, &contact, &slopes, &motion, &slip, memory.springs);
+        for k in 0..2 {
+            let [w, u, v, _] = force[k].0[0].map(|slope| force_unit * slope);
+            (result.tangent[k], result.tangent[3 + k], result.tangent[6 + k]) = (u, v, w);
+        }
+        result.tangent[8] = normal.load_slope;
+    }
+    let contacts = [&from, &contact];
+    let (force, energy) = advance(memory.tables, contacts, &motion, &slip, requested.energy, memory.springs);
+    result.force = [force_unit * force[0], force_unit * force[1], normal.load];
+    result.dissipated = energy_unit * energy;
+    let header = Header { displacement: to, normal_force: normal.load, force, ..header };
+    memory.write(&header, &contact);
+    result
+}
+
+/// The force of a step with its derivatives: by the normal component, u and v.
+fn tangent(
+    tables: &Rows,
+    contact: &Contact<f64>,
+    slopes: &Pressed<f64>,
+    motion: &Motion<Dual<1>, Dual<1>>,
+    slip: &Slips,
+    springs: &Values,
+) -> Both<Dual<1>> {
+    dispatch!(tangent_kernel(tables, contact, slopes, motion, slip, springs))
+}
+
+#[inline(always)]
+fn tangent_kernel(
+    tables: &Rows,
+    contact: &Contact<f64>,
+    slopes: &Pressed<f64>,
+    motion: &Motion<Dual<1>, Dual<1>>,
+    slip: &Slips,
+    mut springs: &Values,
+) -> Both<Dual<1>> {
+    let contact = contact.derived(&tables, slopes);
+    step(&tables, &contact, motion, slip, &mut springs)
 }

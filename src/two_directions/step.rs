@@ -1,369 +1,552 @@
-//! A step of a closed contact in both directions.
+//! A step of a closed contact, written once for values and for derivatives.
 //!
-//! The springs stick at first; a load that rises engages new ones, which follow the part of the motion from there on. If the
-//! traction at no point then exceeds the pressure, this is the end of the step; otherwise the points slip. All in the units of the springs.
+//! The springs stick at first; a load that rises engages new ones, which follow the part of the motion from there on. If |r| then exceeds 1
+//! at a point, the points slip: `slip` finds which and how, of values. The step itself begins there and takes one more step of Newton's
+//! method, the linear equation for σ first, then the angles: of values it halves the exponent of the error, of dual numbers it gives the
+//! derivatives. The fine springs have limits of their own.
 
-use super::edge::Edge;
-use super::energy;
-use super::fine;
-use super::slip::{Guess, LARGEST_TURN, LOST, Problem, Set, Slip};
-use super::spring_state::SpringState;
-use super::springs::{Both, Fine, Increment, PARTS, Row, Springs, dot, largest, total, used};
+use super::contact::{Contact, Pressed};
+use super::scalar::{Over, Real, both};
+use super::slip::{SLIPPED, Slip, Slips};
+use super::tables::{Both, FINE, INSIDE, Matrix, N, Row, Rows, SHIFT, Tables, starts};
+use super::trial::{FINE_SPRING, LEAST, Motion, Springs, Values, limits_before, moved, slid};
 use crate::shape::TINY;
 use crate::simd::dispatch;
 
-/// Excess of the square of a traction over that of its limit by which a state that has slipped may round: it sticks.
-pub(crate) const ROUNDING: f64 = 1e-14;
-/// |r|² from which on a point has slipped before.
-pub(crate) const SLIPPED: f64 = 1.0 - 1e-9;
-
-/// Cosine of the angle between the tractions before and of the trial state up to which the one before is the first guess.
-const NEAR: f64 = 0.5;
-/// Steps in which β grows.
-const PARTS_OF_BETA: u8 = 8;
-/// Cosine of the angle between a motion and a traction from which on a point turns back.
-const BACKWARDS: f64 = 0.6;
-
-/// What a step leads through.
-#[repr(align(32))]
-pub(crate) struct StepRecord<const N: usize> {
-    /// Distances S_b - S_j, the parts of the motion that the springs follow, and the trial state; 1, 1 and 0 outside.
-    pub limit: Both<Row<N>>,
-    pub part: Both<Row<N>>,
-    pub trial: Both<Row<N>>,
-    /// Stiffnesses.
-    pub stiffness: Both<Row<N>>,
-    /// τ, and r at the start.
-    pub overshoot: Row<N>,
-    pub start: Both<Row<N>>,
-    pub slip: Slip<N>,
-    /// Factors by which the fine springs return to their limits.
-    pub fine_scale: Fine<N>,
-    /// The last shell at the start, and its part.
-    pub last_before: usize,
-    pub part_before: usize,
-    /// Whether any point slips.
-    pub slips: bool,
-    /// Sum of the forces of the springs, before Coulomb's bound.
-    pub sum: Both<f64>,
-}
-
-impl<const N: usize> StepRecord<N> {
-    pub const NONE: StepRecord<N> = StepRecord {
-        limit: [[1.0; N]; 2],
-        part: [[1.0; N]; 2],
-        trial: [[0.0; N]; 2],
-        stiffness: [[0.0; N]; 2],
-        overshoot: [0.0; N],
-        start: [[0.0; N]; 2],
-        slip: Slip::NONE,
-        fine_scale: [[1.0; N]; PARTS],
-        last_before: 0,
-        part_before: 0,
-        slips: false,
-        sum: [0.0; 2],
-    };
-
-    /// Points that slip, found by Newton's method.
-    #[inline(always)]
-    pub fn slipping(&self) -> u32 {
-        if self.slips && self.slip.converged { self.slip.set } else { 0 }
-    }
-}
-
-/// Force and dissipated energy.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Outcome {
-    pub force: Both<f64>,
-    pub dissipated: f64,
-}
-
-/// Advances the state. Requested are the energy, and what the derivatives of the step need.
+/// A step whose slip is known, with derivatives: the force.
 #[inline(always)]
-pub(crate) fn step<const N: usize>(
-    springs: &Springs,
-    state: &mut SpringState<N>,
-    motion: &Increment,
-    requested: [bool; 2],
-    record: &mut StepRecord<N>,
-) -> Outcome {
-    dispatch!(kernel(springs, state, motion, requested, record))
-}
-
-#[inline(always)]
-fn kernel<const N: usize>(
-    springs: &Springs,
-    state: &mut SpringState<N>,
-    motion: &Increment,
-    [energy, derivatives]: [bool; 2],
-    record: &mut StepRecord<N>,
-) -> Outcome {
-    let Increment { before, now, by, constant_load, .. } = motion;
-    // Of springs that lose contact, before the edge is replaced.
-    let mut dissipated =
-        if energy && now.shift[0] < before.shift[0] { separated(springs, state, motion, false) } else { 0.0 };
-    (record.last_before, record.part_before) = (state.edge.last, state.edge.part);
-    if !constant_load {
-        state.edge = Edge::new(springs, now);
-    }
-    let SpringState { v, tractions, edge, .. } = state;
-    let last = edge.last.min(N - 1);
-    let old = *v;
-    let [mut limit_x, mut limit_y] = [[1.0; N]; 2];
-    for j in 0..N {
-        let inside = j <= last;
-        limit_x[j] = if inside { now.shift[0] - springs.shift[0][j] } else { 1.0 };
-        limit_y[j] = if inside { now.shift[1] - springs.shift[1][j] } else { 1.0 };
-        let [x, y] = motion.share(limit_x[j], limit_y[j]);
-        (record.part[0][j], record.part[1][j]) = (x, y);
-        record.trial[0][j] = if inside { old[0][j] + by[0] * x } else { 0.0 };
-        record.trial[1][j] = if inside { old[1][j] + by[1] * y } else { 0.0 };
-    }
-    record.limit = [limit_x, limit_y];
-    let before_start = core::mem::replace(&mut record.start, *tractions);
-    let mut q = [[0.0; N]; 2];
+pub(crate) fn step<A: Over<A>, X: Over<A>, T: Tables<A>, S: Springs<X>>(
+    t: &T,
+    c: &Contact<A>,
+    motion: &Motion<A, X>,
+    slip: &Slips,
+    s: &mut S,
+) -> Both<X> {
+    let (zero, start, end) = (X::constant(0.0), starts(c.under_flat), (c.last + 1).min(N));
+    let rise = both!(|k| c.now.shift[k] - motion.before[k]);
+    let mut v = [[zero; N]; 2];
     for k in 0..2 {
-        record.stiffness[k] = edge.stiffnesses(springs, k);
-        if *constant_load {
-            let per_step = by[k] / edge.step[k];
-            for i in 0..N {
-                q[k][i] = tractions[k][i] * edge.pressure[i] + edge.reach[i] * per_step;
-            }
-        } else {
-            q[k] = edge.tractions(springs, k, &record.trial[k]);
+        for j in 0..end {
+            v[k][j] = s.get(k * N + j) + moved(c.limit(t, k, start[j]), rise[k], motion.by[k]);
         }
     }
-    let mut beyond = [0.0; N];
-    for i in 0..N {
-        let p = edge.pressure[i];
-        beyond[i] = q[0][i] * q[0][i] + q[1][i] * q[1][i] - p * p * (1.0 + ROUNDING);
-    }
-    record.slips = largest(&beyond) > 0.0;
-    let mut end = record.trial;
-    let slips = record.slips;
-    if slips {
-        slide(springs, edge, [&q[0], &q[1]], &before_start, by, &beyond, derivatives, record, &mut end);
-        let every_point = record.slip.converged && record.slip.first == 0 && record.slip.count == 0;
-        if !every_point {
-            q = [edge.tractions(springs, 0, &end[0]), edge.tractions(springs, 1, &end[1])];
+    let slides = if slip.slides > 0.0 { slid(t, c, &v) } else { zero };
+    let one = [A::constant(1.0); N];
+    let relation = Relation::new(t, c, slip);
+    if slip.middle.set != 0 {
+        let (before, first) = (limits_before(t, c, rise[0]), slip.middle.set.trailing_zeros() as usize);
+        let theta = (slides + X::constant(1.0)).scale(0.5);
+        let (mut at, mut limits) = (v, Limits { start: before, rise: before, part: None });
+        for i in first..end {
+            limits.rise[i] = one[i] - before[i];
+            limits.start[i] = if slip.slides > 0.0 { before[i] } else { (before[i] + one[i]).scale(0.5) };
         }
-        if energy {
-            let loss = if *constant_load && record.slip.converged {
-                pointwise(springs, edge, record)
-            } else {
-                of_springs(springs, last, record, motion, &old, &end)
-            };
-            dissipated += loss;
-        }
-    }
-    // Tractions over the pressure, at most 1.
-    let slipping = record.slipping();
-    let mut r = [[0.0; N]; 2];
-    for i in 0..N {
-        let (x, y, p) = (q[0][i], q[1][i], edge.pressure[i]);
-        let square = x * x + y * y;
-        let bound = if square > p * p { square } else { p * p };
-        let scale = if i <= last { 1.0 / bound.sqrt() } else { 0.0 };
-        (r[0][i], r[1][i]) = (x * scale, y * scale);
-    }
-    if slipping != 0 {
+        limits.part = if slip.slides > 0.0 { Some(theta) } else { None };
         for k in 0..2 {
-            for i in 0..N {
-                r[k][i] = if record.slip.slips[i] > 0.0 { record.slip.e[k][i] } else { r[k][i] };
+            for j in first..end {
+                let old = s.get(k * N + j);
+                at[k][j] = old + part_of(v[k][j] - old, limits.part, 0.5);
+            }
+        }
+        slide(t, c, &relation, &limits, &mut at, &slip.middle);
+        let per = if slip.slides > 0.0 { Some(theta.inverse()) } else { None };
+        for k in 0..2 {
+            for j in first..end {
+                let old = s.get(k * N + j);
+                v[k][j] = old + part_of(at[k][j] - old, per, 2.0);
             }
         }
     }
-    (*tractions, *v) = (r, end);
-    let (addition, loss) = fine::step(springs, edge, &mut state.fine, motion, energy, &mut record.fine_scale);
-    let sum = [dot(&record.stiffness[0], &end[0]) + addition[0], dot(&record.stiffness[1], &end[1]) + addition[1]];
-    let over = ((sum[0] * sum[0] + sum[1] * sum[1]).sqrt() / now.load).max(1.0);
-    record.sum = sum;
-    Outcome { force: [sum[0] / over, sum[1] / over], dissipated: (dissipated + loss).max(0.0) }
+    if slip.end.set != 0 {
+        slide(t, c, &relation, &Limits { start: one, rise: one, part: None }, &mut v, &slip.end);
+    }
+    finish(t, c, motion, slip, slides, v, s)
 }
 
-/// The slip from a trial state that exceeds Coulomb's bound.
+/// A number times a part, which is a constant if none is given.
 #[inline(always)]
-#[expect(clippy::too_many_arguments, reason = "parts of one step")]
-fn slide<const N: usize>(
-    springs: &Springs,
-    edge: &Edge<N>,
-    q: [&Row<N>; 2],
-    before_start: &Both<Row<N>>,
-    by: &Both<f64>,
-    beyond: &Row<N>,
-    derivatives: bool,
-    record: &mut StepRecord<N>,
-    end: &mut Both<Row<N>>,
+fn part_of<X: Real>(x: X, part: Option<X>, constant: f64) -> X {
+    match part {
+        Some(part) => x * part,
+        None => x.scale(constant),
+    }
+}
+
+/// The end of a step, from its springs: those of a contact that slides far are blended, the fine springs advance; the force.
+#[inline(always)]
+fn finish<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
+    t: &T,
+    c: &Contact<A>,
+    motion: &Motion<A, X>,
+    slip: &Slips,
+    part: X,
+    mut v: Both<Row<X>>,
+    s: &mut S,
+) -> Both<X> {
+    let (zero, start, end) = (X::constant(0.0), starts(c.under_flat), (c.last + 1).min(N));
+    let rise = both!(|k| c.now.shift[k] - motion.before[k]);
+    let mut force = [zero; 2];
+    let far = if slip.slides > 0.0 { Some(Far::new(t, c, part, &v)) } else { None };
+    for k in 0..2 {
+        for j in 0..end {
+            if let Some(far) = &far {
+                v[k][j] = far.blend(k, v[k][j], c.limit(t, k, start[j]));
+            }
+            force[k].add_product(&v[k][j], c.stiffness(t, k, j));
+        }
+        if !S::KEPT {
+            continue;
+        }
+        for j in 0..N {
+            s.put(k * N + j, v[k][j]);
+        }
+    }
+    let (part, end) = (c.part.min(INSIDE - 1), c.part.min(INSIDE - 1) + 1);
+    for f in 0..end {
+        let w = both!(|k| c.fine(t, k, f));
+        let limit = both!(|k| c.limit(t, k, f));
+        let mut v = both!(|k| s.get(FINE_SPRING + k * FINE + f) + moved(limit[k], rise[k], motion.by[k]));
+        v = returned(v, &limit, far.as_ref());
+        for k in 0..2 {
+            force[k].add_product(&v[k], w[k]);
+            s.put(FINE_SPRING + k * FINE + f, v[k]);
+        }
+    }
+    // The spring at the edge is another one under another load.
+    let limit = both!(|k| c.limit_inside(k));
+    let mut v = both!(|k| moved(limit[k], rise[k], motion.by[k]));
+    if motion.constant_load {
+        v = both!(|k| v[k] + s.get(FINE_SPRING + k * FINE + INSIDE));
+    }
+    v = returned(v, &limit, far.as_ref());
+    for k in 0..2 {
+        force[k].add_product(&v[k], c.fine_inside(k));
+        if S::KEPT {
+            s.put(FINE_SPRING + k * FINE + INSIDE, v[k]);
+            for f in part + 1..INSIDE {
+                s.put(FINE_SPRING + k * FINE + f, zero);
+            }
+        }
+    }
+    // Coulomb's bound.
+    let bound = c.now.load;
+    let square = force[0] * force[0] + force[1] * force[1];
+    if square.value() > bound.value() * bound.value() {
+        let scale = square.at_least(TINY).sqrt().inverse().times(bound);
+        force = both!(|k| force[k] * scale);
+    }
+    force
+}
+
+/// Gross slip in the direction of the force, `v = (S_b - S) e`, into which springs of a contact that slides far are blended.
+pub(crate) struct Far<X> {
+    rest: X,
+    slides: Both<X>,
+}
+
+impl<X: Real> Far<X> {
+    #[inline(always)]
+    fn new<A: Real>(t: &impl Tables<A>, c: &Contact<A>, part: X, v: &Both<Row<X>>) -> Far<X>
+    where
+        X: Over<A>,
+    {
+        let mut force = [X::constant(0.0); 2];
+        for k in 0..2 {
+            for j in 0..(c.last + 1).min(N) {
+                force[k].add_product(&v[k][j], c.stiffness(t, k, j));
+            }
+        }
+        let square = force[0] * force[0] + force[1] * force[1];
+        let per = part * square.at_least(TINY).sqrt().inverse();
+        Far { rest: X::constant(1.0) - part, slides: both!(|k| force[k] * per) }
+    }
+
+    #[inline(always)]
+    fn blend<A: Real>(&self, k: usize, v: X, limit: A) -> X
+    where
+        X: Over<A>,
+    {
+        v * self.rest + self.slides[k].times(limit)
+    }
+}
+
+/// A fine spring, returned to its limit: by values its direction, and the derivatives of the direction and of the limit.
+#[inline(always)]
+pub(crate) fn returned<A: Real, X: Over<A>>(v: Both<X>, limit: &Both<A>, far: Option<&Far<X>>) -> Both<X> {
+    let [x, y] = both!(|k| limit[k].value());
+    let (across, along, bound) = (v[0].value() * y, v[1].value() * x, x * y);
+    let square = across * across + along * along;
+    let mut v = v;
+    if square > bound * bound {
+        let per_length = 1.0 / square.at_least(TINY).sqrt();
+        let (e_x, e_y) = (across * per_length, along * per_length);
+        let per = bound * per_length;
+        let turn = v[1].times(limit[1].inverse().scale(e_x * per)) - v[0].times(limit[0].inverse().scale(e_y * per));
+        v = [
+            (X::constant(e_x) - turn.scale(e_y)).times(limit[0]),
+            (X::constant(e_y) + turn.scale(e_x)).times(limit[1]),
+        ];
+    }
+    if let Some(far) = far {
+        v = both!(|k| far.blend(k, v[k], limit[k]));
+    }
+    v
+}
+
+/// The limits of the points: those at the start, and a part of their rise.
+struct Limits<A, X> {
+    start: Row<A>,
+    rise: Row<A>,
+    part: Option<X>,
+}
+
+/// The relation of springs and tractions r, as numbers: `G_i,j-1 - G_ij` as `[i][j]`, `1/G_ii` and p_i.
+struct Relation<A> {
+    falls: Both<[Row<A>; N]>,
+    per_map: Both<Row<A>>,
+    pressure: Row<A>,
+    stiffness: Both<Row<A>>,
+    end: usize,
+}
+
+impl<A: Over<A>> Relation<A> {
+    /// From the first point that slips on.
+    #[inline(always)]
+    fn new<T: Tables<A>>(t: &T, c: &Contact<A>, slip: &Slips) -> Relation<A> {
+        let (zero, end) = (A::constant(0.0), (c.last + 1).min(N));
+        let first = ((slip.middle.set | slip.end.set).trailing_zeros() as usize).min(end);
+        let row = [zero; N];
+        let mut relation =
+            Relation { falls: [[row; N]; 2], per_map: [row; 2], pressure: row, stiffness: [row; 2], end };
+        for i in first..end {
+            relation.pressure[i] = c.per_pressure[i].inverse();
+            for k in 0..2 {
+                (relation.per_map[k][i], relation.stiffness[k][i]) = (c.per_map(t, k, i), c.stiffness(t, k, i));
+                let mut before = c.map(t, k, i, i);
+                for j in i + 1..end {
+                    let map = c.map(t, k, j, i);
+                    relation.falls[k][i][j] = before - map;
+                    before = map;
+                }
+            }
+        }
+        relation
+    }
+
+    /// Springs from the tractions at the points from one on, in place: `v_i = [p_i r_i + Σ_{j>i} (G_i,j-1 - G_ij) v_j]/G_ii`.
+    #[inline(always)]
+    fn springs<X: Over<A>>(&self, k: usize, first: usize, r: &mut Row<X>) {
+        let end = self.end.min(N);
+        for i in (first..end).rev() {
+            let mut sum = r[i].times(self.pressure[i]);
+            for j in i + 1..end {
+                sum.add_product(&r[j], self.falls[k][i][j]);
+            }
+            r[i] = sum.times(self.per_map[k][i]);
+        }
+    }
+
+    /// The slip at the points from one on that moves springs by v, in place: `C'σ = w v`.
+    #[inline(always)]
+    fn slip<X: Over<A>>(&self, k: usize, first: usize, v: &mut Row<X>) {
+        let end = self.end.min(N);
+        for i in first..end {
+            let mut sum = v[i].times(self.stiffness[k][i]);
+            for j in first..i {
+                sum.add_product(&v[j], self.falls[k][j][i]);
+            }
+            v[i] = sum.times(self.per_map[k][i]);
+        }
+        for i in first..end {
+            v[i] = v[i].times(self.pressure[i]);
+        }
+    }
+}
+
+/// Springs that slip to the limits of their points, with derivatives: by a step of Newton's method from the slip.
+#[inline(always)]
+fn slide<A: Over<A>, X: Over<A>, T: Tables<A>>(
+    t: &T,
+    c: &Contact<A>,
+    relation: &Relation<A>,
+    limits: &Limits<A, X>,
+    v: &mut Both<Row<X>>,
+    slip: &Slip,
 ) {
-    let StepRecord { limit, trial, overshoot, start, slip, stiffness, .. } = record;
-    let last = edge.last.min(N - 1);
-    let ([mut trial_x, mut trial_y], [mut e_x, mut e_y]) = ([[0.0; N]; 2], [[0.0; N]; 2]);
-    let (mut over, mut continues) = ([0.0; N], [0.0; N]);
-    let backwards = -BACKWARDS * (by[0] * by[0] + by[1] * by[1]).sqrt();
-    for i in 0..N {
-        let (x, y) = (trial[0][i] / limit[0][i], trial[1][i] / limit[1][i]);
-        let square = x * x + y * y;
-        let outside = square > 1.0;
-        let (x, y) = if outside { (x, y) } else { (q[0][i], q[1][i]) };
-        let square = x * x + y * y;
-        let length = (if square > TINY { square } else { TINY }).sqrt();
-        let (x, y) = (x / length, y / length);
-        over[i] = if outside { length - 1.0 } else { 0.0 };
-        (trial_x[i], trial_y[i]) = (x, y);
-        let (r_x, r_y) = (start[0][i], start[1][i]);
-        let slipped = r_x * r_x + r_y * r_y > SLIPPED;
-        let near = slipped && x * r_x + y * r_y > NEAR;
-        // A point that slipped in the step before as well turns on.
-        let (b_x, b_y) = (before_start[0][i], before_start[1][i]);
-        let (cosine, sine) = (b_x * r_x + b_y * r_y, b_x * r_y - b_y * r_x);
-        let square = cosine * cosine + sine * sine;
-        let turns = square > SLIPPED && cosine > NEAR;
-        let (cosine, sine) = if turns { (cosine, sine) } else { (1.0, 0.0) };
-        let length = (if turns { square } else { 1.0 }).sqrt();
-        let (on_x, on_y) = ((cosine * r_x - sine * r_y) / length, (cosine * r_y + sine * r_x) / length);
-        (e_x[i], e_y[i]) = (if near { on_x } else { x }, if near { on_y } else { y });
-        continues[i] = if slipped && r_x * by[0] + r_y * by[1] > backwards { 1.0 } else { 0.0 };
+    let (zero, end) = (X::constant(0.0), (c.last + 1).min(N));
+    let first = (slip.set.trailing_zeros() as usize).min(end);
+    if !slip.without_gaps(end) {
+        let mut level = [zero; N];
+        for i in first..end {
+            level[i] = X::constant(1.0).times(limits.start[i]);
+            if let Some(part) = limits.part {
+                level[i] = level[i] + part.times(limits.rise[i]);
+            }
+        }
+        slide_with_gaps(t, c, &level, v, slip, [first, end]);
+        return;
     }
-    *overshoot = over;
-    let (mut outside, mut set) = (0, 0);
-    for i in (0..=last).rev() {
-        let is_outside = over[i] > 0.0 || beyond[i] > 0.0;
-        outside |= Set::from(is_outside) << i;
-        // A point that slipped before continues if the next one outside does.
-        let outer = set >> (i + 1) & 1 == 1;
-        set |= Set::from(is_outside || (outer && continues[i] > 0.0)) << i;
+    let mut residual = [zero; N];
+    for k in 0..2 {
+        let mut own = [A::constant(0.0); N];
+        for i in first..end {
+            own[i] = limits.start[i].scale(slip.e[k][i]);
+        }
+        relation.springs(k, first, &mut own);
+        for i in first..end {
+            v[k][i] = v[k][i].minus(own[i]);
+        }
+        if let Some(part) = limits.part {
+            for i in first..end {
+                own[i] = limits.rise[i].scale(slip.e[k][i]);
+            }
+            relation.springs(k, first, &mut own);
+            for i in first..end {
+                v[k][i] = v[k][i] - part.times(own[i]);
+            }
+        }
+        relation.slip(k, first, &mut v[k]);
+        let (across, sign) = if k == 0 { (&slip.e[1], -1.0) } else { (&slip.e[0], 1.0) };
+        for i in first..end {
+            residual[i].add_scaled(&v[k][i], sign * across[i]);
+        }
     }
-    let problem = Problem { springs, edge, stiffness, trial, start, overshoot };
-    // A contact that slips on hardly turns; otherwise slip begins from the trial state.
-    let from_start = Guess { e: [e_x, e_y], set, largest_turn: LARGEST_TURN, bends: 1.0 };
-    let from_trial = Guess { e: [trial_x, trial_y], set: outside, largest_turn: LOST, bends: 1.0 };
-    for guess in [from_start, from_trial] {
-        slip.solve(&problem, &guess, derivatives, end);
-        if slip.converged {
+    let turn = product(&slip.inverse, [first, end], &residual);
+    for k in 0..2 {
+        let (across, sign) = if k == 0 { (&slip.e[1], -1.0) } else { (&slip.e[0], 1.0) };
+        for i in first..end {
+            let e = slip.e[k][i];
+            v[k][i] = turn[i].scale(sign * across[i] * slip.level[i]).minus(limits.start[i].scale(-e));
+            if let Some(part) = limits.part {
+                v[k][i] = v[k][i] + part.times(limits.rise[i].scale(e));
+            }
+        }
+        relation.springs(k, first, &mut v[k]);
+    }
+}
+
+/// The same if a point sticks outside one that slips: `σ = K (r* - l e)`.
+#[inline(never)]
+fn slide_with_gaps<A: Real, X: Over<A>, T: Tables<A>>(
+    t: &T,
+    c: &Contact<A>,
+    level: &Row<X>,
+    v: &mut Both<Row<X>>,
+    slip: &Slip,
+    [first, end]: [usize; 2],
+) {
+    let (zero, end) = (X::constant(0.0), end.min(N));
+    let first = first.min(end);
+    let mut excess = [[zero; N]; 2];
+    for k in 0..2 {
+        // Springs by which σ relaxes the contact, and the excess of r* - A σ over l e.
+        let mut relaxed = [A::constant(0.0); N];
+        let (mut before, mut per_slip) = (A::constant(0.0), [A::constant(0.0); N]);
+        for i in first..end {
+            per_slip[i] = c.per_pressure[i].scale(if slip.contains(i) { slip.sigma[k][i] } else { 0.0 });
+        }
+        for j in first..end {
+            let (mut sum, next) = (A::constant(0.0), (j + 1).min(N));
+            for i in first..next {
+                sum = sum + c.map(t, k, j, i) * per_slip[i];
+            }
+            relaxed[j] = (sum - before) * c.flexibility(t, k, j);
+            before = sum;
+        }
+        let mut d = [zero; N];
+        for j in first..end {
+            d[j] = v[k][j].minus(relaxed[j]);
+        }
+        for j in first + 1..end {
+            d[j - 1] = d[j - 1] - d[j];
+        }
+        for i in first..end {
+            if slip.contains(i) {
+                let mut sum = zero;
+                for j in i..end {
+                    sum.add_product(&d[j], c.map(t, k, j, i));
+                }
+                excess[k][i] = sum.times(c.per_pressure[i]);
+                excess[k][i].add_scaled(&level[i], -slip.e[k][i]);
+            }
+        }
+    }
+    let slips = both!(|k| product(&slip.k[k], [first, end], &excess[k]));
+    let mut residual = [zero; N];
+    for i in first..end {
+        residual[i] = slips[1][i].scale(slip.e[0][i]) - slips[0][i].scale(slip.e[1][i]);
+    }
+    let turn = product(&slip.inverse, [first, end], &residual);
+    for k in 0..2 {
+        let (across, sign) = if k == 0 { (&slip.e[1], -1.0) } else { (&slip.e[0], 1.0) };
+        let mut change = [zero; N];
+        for i in first..end {
+            if slip.contains(i) {
+                change[i] = turn[i].scale(-sign * across[i] * slip.level[i]);
+            }
+        }
+        let mut sigma = product(&slip.k[k], [first, end], &change);
+        for i in first..end {
+            let own = if slip.contains(i) { slip.sigma[k][i] } else { 0.0 };
+            sigma[i] = (sigma[i] + slips[k][i] + X::constant(own)).times(c.per_pressure[i]);
+        }
+        let mut before = zero;
+        for j in first..end {
+            let (mut sum, next) = (zero, (j + 1).min(N));
+            for i in first..next {
+                sum.add_product(&sigma[i], c.map(t, k, j, i));
+            }
+            v[k][j] = v[k][j] - (sum - before).times(c.flexibility(t, k, j));
+            before = sum;
+        }
+    }
+}
+
+/// Σ x_m matrix[m][i]: rows of points that stick are 0.
+#[inline(always)]
+fn product<X: Real>(matrix: &Matrix, [first, end]: [usize; 2], x: &Row<X>) -> Row<X> {
+    let mut y = [X::constant(0.0); N];
+    for i in first..end {
+        let mut sum = X::constant(0.0);
+        for m in first..end {
+            sum.add_scaled(&x[m], matrix[m][i]);
+        }
+        y[i] = sum;
+    }
+    y
+}
+
+/// A step of values whose slip is known, in the units of the springs: force, and dissipated energy if requested.
+pub(crate) fn advance(
+    t: &Rows,
+    contacts: [&Contact<f64>; 2],
+    motion: &Motion<f64, f64>,
+    slip: &Slips,
+    energy: bool,
+    springs: &mut Values,
+) -> (Both<f64>, f64) {
+    dispatch!(kernel(t, contacts, motion, slip, energy, springs))
+}
+
+#[inline(always)]
+fn kernel(
+    t: &Rows,
+    [from, c]: [&Contact<f64>; 2],
+    motion: &Motion<f64, f64>,
+    slip: &Slips,
+    energy: bool,
+    springs: &mut Values,
+) -> (Both<f64>, f64) {
+    let old = *springs;
+    let force = finish(&t, c, motion, slip, slip.slides, slip.v, &mut &mut *springs);
+    let dissipated = if energy { dissipated(t, [from, c], motion, slip, [&old, springs]) } else { 0.0 };
+    (force, dissipated)
+}
+
+/// Energy that the springs dissipate in a step, each from where its path leaves its limit.
+#[inline(always)]
+fn dissipated(
+    t: &Rows,
+    [from, c]: [&Contact<f64>; 2],
+    motion: &Motion<f64, f64>,
+    slip: &Slips,
+    [old, new]: [&Values; 2],
+) -> f64 {
+    let rise = both!(|k| c.now.shift[k] - motion.before[k]);
+    let mut energy = if rise[0] < 0.0 { separated(t, from, &c.now, motion.by, old) } else { 0.0 };
+    let start = starts(c.under_flat);
+    if !slip.is_empty() {
+        for j in 0..(c.last + 1).min(N) {
+            let w = both!(|k| c.stiffness(&t, k, j));
+            let places = [[old[0][j], old[1][j]], [new[0][j], new[1][j]]];
+            energy += slipped(t, c, start[j], w, places, motion, slip.slides);
+        }
+    }
+    let at = |springs: &Values, f: usize| {
+        both!(|k| springs.as_flattened().get(FINE_SPRING + k * FINE + f).copied().unwrap_or(0.0))
+    };
+    for f in 0..=c.part.min(INSIDE - 1) {
+        let [x, y] = both!(|k| at(new, f)[k] / c.limit(&t, k, f));
+        if slip.slides > 0.0 || x * x + y * y > SLIPPED {
+            let w = both!(|k| c.fine(&t, k, f));
+            energy += slipped(t, c, f, w, [at(old, f), at(new, f)], motion, slip.slides);
+        }
+    }
+    if energy > 0.0 { energy } else { 0.0 }
+}
+
+/// Energy of a spring of stiffness w: it follows its trial path until it is as far from 0, over its limit, as at its end, and slips from there:
+/// neighbours that turn keep it within its limit, which changes evenly on the way. A spring that slides far does so in its last direction.
+#[inline(always)]
+fn slipped(
+    t: &Rows,
+    c: &Contact<f64>,
+    f: usize,
+    w: Both<f64>,
+    [old, new]: [Both<f64>; 2],
+    motion: &Motion<f64, f64>,
+    slides: f64,
+) -> f64 {
+    let limit = both!(|k| c.limit(&t, k, f));
+    let per_limit = both!(|k| 1.0 / if limit[k] > LEAST { limit[k] } else { LEAST });
+    let trial = both!(|k| old[k] + moved(limit[k], c.now.shift[k] - motion.before[k], motion.by[k]));
+    let before = motion.before[0] - Tables::<f64>::at(&t, SHIFT, f);
+    let ratio: f64 = if before > 0.0 { before * per_limit[0] } else { 0.0 };
+    let (x, y) = (old[0] * per_limit[0], old[1] * per_limit[1]);
+    let (t_x, t_y) = (trial[0] * per_limit[0], trial[1] * per_limit[1]);
+    let (dx, dy, change) = (t_x - x, t_y - y, ratio - 1.0);
+    let (end_x, end_y) = (new[0] * per_limit[0], new[1] * per_limit[1]);
+    let end = end_x * end_x + end_y * end_y;
+    let (qa, qb) = (dx * dx + dy * dy - end * change * change, x * dx + y * dy + end * ratio * change);
+    let part = exit(qa, qb, x * x + y * y - end * ratio * ratio);
+    let limit_there = slides * (ratio - change * part);
+    let of = |k: usize| {
+        let leaves = (1.0 - slides) * (old[k] + part * (trial[k] - old[k])) + limit_there * new[k];
+        w[k] * (leaves + new[k]) * (trial[k] - new[k])
+    };
+    0.5 * (of(0) + of(1))
+}
+
+/// Energy of springs that lose contact in a step to a lower load: each slips from where it reaches its limit, which falls to 0 within the
+/// part `limit/fall` of the motion, to nothing.
+pub(crate) fn separated(t: &Rows, from: &Contact<f64>, now: &Pressed<f64>, by: Both<f64>, old: &Values) -> f64 {
+    let (start, mut energy) = (starts(from.under_flat), 0.0);
+    let fall = both!(|k| from.now.shift[k] - now.shift[k]);
+    let mut lost = |f: usize, w: Both<f64>, old: Both<f64>| {
+        if now.load > 0.0 && Tables::<f64>::at(&t, SHIFT, f) < now.shift[0] {
             return;
         }
-    }
-    // Where neither converges, once in 2e5 steps of random motions, β grows from 0, a convex problem.
-    let mut guess = from_trial;
-    for part in 0..=PARTS_OF_BETA {
-        guess.bends = f64::from(part) / f64::from(PARTS_OF_BETA);
-        slip.solve(&problem, &guess, derivatives, end);
-        if !slip.converged {
-            break;
-        }
-        (guess.e, guess.set) = (slip.e, slip.set);
-    }
-    if !slip.converged {
-        // Never seen in 6e6 steps of random motions: each spring returns to its own limit.
+        let limit = both!(|k| from.limit(&t, k, f).max(LEAST));
+        let rate = both!(|k| limit[k] / fall[k].max(limit[k]) * by[k]);
+        let (x, y, dx, dy) = (old[0] / limit[0], old[1] / limit[1], rate[0] / limit[0], rate[1] / limit[1]);
+        let part = exit(dx * dx + dy * dy - 1.0, x * dx + y * dy + 1.0, x * x + y * y - 1.0);
         for k in 0..2 {
-            for j in 0..N {
-                end[k][j] = trial[k][j] / (1.0 + overshoot[j]);
-            }
+            let leaves = old[k] + part * rate[k];
+            energy += 0.5 * w[k] * leaves * ((1.0 - part) * rate[k] + leaves);
         }
+    };
+    for j in 0..(from.last + 1).min(N) {
+        lost(start[j], both!(|k| from.stiffness(&t, k, j)), [old[0][j], old[1][j]]);
     }
+    let fine = |k: usize, f: usize| old.as_flattened().get(FINE_SPRING + k * FINE + f).copied().unwrap_or(0.0);
+    for f in 0..=from.part.min(INSIDE - 1) {
+        lost(f, both!(|k| from.fine(&t, k, f)), both!(|k| fine(k, f)));
+    }
+    if energy > 0.0 { energy } else { 0.0 }
 }
 
-/// Energy dissipated at constant load: at each point the slip times the mean of the traction where its path leaves Coulomb's disc and at
-/// the end.
+/// The first t in [0, 1] at which `qa t² + 2 qb t + qc` becomes positive.
 #[inline(always)]
-fn pointwise<const N: usize>(springs: &Springs, edge: &Edge<N>, record: &StepRecord<N>) -> f64 {
-    let StepRecord { slip, start, stiffness, .. } = record;
-    let last = edge.last.min(N - 1);
-    // Σ C_ij²/w_j, the traction that a unit of slip at the point alone relaxes.
-    let mut relaxed = [[0.0; N]; 2];
-    for k in 0..2 {
-        let (mut sum, mut before) = ([0.0; N], [0.0; N]);
-        for j in slip.first..=last {
-            let fixed = j < last;
-            let row = if fixed { used(&springs.traction[j]) } else { &edge.reach };
-            let per_step = if fixed { springs.per_step[k][j] } else { 1.0 / edge.step[k] };
-            let per_stiffness = 1.0 / stiffness[k][j];
-            for i in 0..N {
-                let now = row[i] * per_step;
-                let entry = if i <= j { now - before[i] } else { 0.0 };
-                sum[i] += entry * entry * per_stiffness;
-                before[i] = now;
-            }
-        }
-        relaxed[k] = sum;
-    }
-    let mut energy = [0.0; N];
-    for i in 0..N {
-        let p = edge.pressure[i];
-        let (s_x, s_y) = (slip.sigma[0][i], slip.sigma[1][i]);
-        let (r_x, r_y) = (start[0][i] * p, start[1][i] * p);
-        let (q_x, q_y) = (slip.e[0][i] * p, slip.e[1][i] * p);
-        let (g_x, g_y) = (q_x + relaxed[0][i] * s_x - r_x, q_y + relaxed[1][i] * s_y - r_y);
-        let inside = r_x * r_x + r_y * r_y - p * p;
-        let inside = if inside < 0.0 { inside } else { 0.0 };
-        let part = energy::exit(g_x * g_x + g_y * g_y, r_x * g_x + r_y * g_y, inside);
-        let work = 0.5 * (s_x * (r_x + part * g_x + q_x) + s_y * (r_y + part * g_y + q_y));
-        energy[i] = if slip.slips[i] > 0.0 && work > 0.0 { work } else { 0.0 };
-    }
-    total(&energy)
-}
-
-/// Energy dissipated by the springs under a load that changes.
-#[inline(always)]
-fn of_springs<const N: usize>(
-    springs: &Springs,
-    last: usize,
-    record: &StepRecord<N>,
-    motion: &Increment,
-    old: &Both<Row<N>>,
-    end: &Both<Row<N>>,
-) -> f64 {
-    let StepRecord { limit, trial, start, slip, stiffness, .. } = record;
-    let mut energy = [0.0; N];
-    let converged = if slip.converged { 1.0 } else { 0.0 };
-    for j in 0..N {
-        let inside = j <= last;
-        let before = motion.before.shift[0] - springs.shift[0][j];
-        let before = if inside && before > 0.0 { before } else { 0.0 };
-        let old = [if inside { old[0][j] } else { 0.0 }, if inside { old[1][j] } else { 0.0 }];
-        let (w, trial) = ([stiffness[0][j], stiffness[1][j]], [trial[0][j], trial[1][j]]);
-        let along = slip.e[0][j] * start[0][j] + slip.e[1][j] * start[1][j];
-        let beta = if along > 0.0 { slip.per_along[j] * along * slip.slips[j] * converged } else { 0.0 };
-        let places = [old, trial, [end[0][j], end[1][j]]];
-        energy[j] = energy::slipped(w, places, [limit[0][j], limit[1][j]], before, 1.0 - beta);
-    }
-    total(&energy).max(0.0)
-}
-
-/// Energy of the springs of the law and of the fine correction that lose contact in a step: all if it opens.
-#[inline(never)]
-pub(crate) fn separated<const N: usize>(
-    springs: &Springs,
-    state: &SpringState<N>,
-    motion: &Increment,
-    opens: bool,
-) -> f64 {
-    let Increment { before, now, by, .. } = motion;
-    let edge = &state.edge;
-    let outer = edge.last.min(N - 1);
-    let last = if opens { 0 } else { springs.last_shell::<N>(now.shift[0]).min(outer) };
-    let part = if opens { 0 } else { springs.last_part(last, now.shift[0]) };
-    let fall = [before.shift[0] - now.shift[0], before.shift[1] - now.shift[1]];
-    let mut energy = 0.0;
-    for j in last..=outer {
-        for r in 0..PARTS {
-            if (!opens && j == last && r <= part) || (j == outer && r > edge.part) {
-                continue;
-            }
-            let (mut limit, mut w, mut fine) = ([0.0; 2], edge.stiffness, [0.0; 2]);
-            for k in 0..2 {
-                limit[k] = (before.shift[k] - springs.fine_shift[k][r][j]).max(TINY);
-                let inner = j < outer;
-                w[k] = if inner { springs.stiffness[k][j] } else { w[k] };
-                fine[k] = if inner { springs.fine_stiffness[k][r][j] } else { edge.fine_stiffness[k][r] };
-            }
-            if r == 0 {
-                energy += energy::lost(w, [state.v[0][j], state.v[1][j]], limit, fall, *by);
-            }
-            if j >= springs.under_flat {
-                energy += energy::lost(fine, [state.fine[0][r][j], state.fine[1][r][j]], limit, fall, *by);
-            }
-        }
-    }
-    energy.max(0.0)
+fn exit(qa: f64, qb: f64, qc: f64) -> f64 {
+    let square = qb * qb - qa * qc;
+    let root = if square > 0.0 { square } else { 0.0 }.sqrt();
+    // Quotients are at most 1 by their divisors: others may overflow.
+    let ratio = |numerator: f64, divisor: f64| {
+        let positive = if numerator > TINY { numerator } else { TINY };
+        positive / if divisor > positive { divisor } else { positive }
+    };
+    let outwards = if qc < 0.0 { ratio(-qc, qb + root) } else { 0.0 };
+    let inwards = if qa > 0.0 { ratio(root - qb, qa) } else { 1.0 };
+    let part = if qb >= 0.0 { outwards } else { inwards };
+    if part > 0.0 { part } else { 0.0 }
 }

@@ -1,93 +1,84 @@
-//! A step under a constant load in which nothing slips: all springs follow the motion, which the state keeps as one offset.
+//! A step under a constant load in which nothing slips: all springs follow the motion.
 
-use super::edge::Edge;
-use super::fine;
-use super::spring_state::{SpringState, StoredSprings};
-use super::springs::{Both, PARTS, Pressed, Springs, largest};
-use super::step::{ROUNDING, SLIPPED};
+use super::contact::{Contact, Pressed};
+use super::scalar::{Dual, Over, both};
+use super::step::returned;
+use super::tables::{Both, END, FINE, INSIDE, N, Rows, SHIFT};
+use super::trial::{FINE_SPRING, ROUNDING, Values, tractions};
 use crate::simd::dispatch;
 
-/// Stiffness, and derivatives of the force with respect to the load and to the shift.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Stuck {
-    pub stiffness: Both<f64>,
-    /// Whether a point is at its limit, so that another load makes it slip.
-    pub at_limit: bool,
-    pub per_load: Both<f64>,
-    pub per_shift: Both<f64>,
-}
-
-/// The contact if nothing slips with the offset, from the state without.
-#[inline(always)]
-pub(crate) fn stuck<const N: usize>(
-    springs: &Springs,
-    state: &StoredSprings<N>,
-    now: &Pressed,
-    offset: &Both<f64>,
-) -> Option<Stuck> {
-    dispatch!(kernel(springs, state, now, offset))
+/// Moves the springs, unless a point or a fine spring would slip; the displacement of the fine spring at the edge, which may, before it returns
+/// to its limit.
+pub(crate) fn stick(t: &Rows, c: &Contact<f64>, by: &Both<f64>, springs: &mut Values) -> Option<Both<f64>> {
+    dispatch!(kernel(t, c, by, springs))
 }
 
 #[inline(always)]
-fn kernel<const N: usize>(
-    springs: &Springs,
-    state: &StoredSprings<N>,
-    now: &Pressed,
-    offset: &Both<f64>,
-) -> Option<Stuck> {
-    let edge: &Edge<N> = &state.edge();
-    let last = edge.last.min(N - 1);
-    let per_step = [offset[0] / edge.step[0], offset[1] / edge.step[1]];
-    let (mut beyond, mut squares) = ([0.0; N], [0.0; N]);
-    let [x, y] = state.tractions;
-    for i in 0..N {
-        let p = state.pressure[i];
-        squares[i] = x[i] * x[i] + y[i] * y[i];
-        let x = x[i] * p + state.reach[i] * per_step[0];
-        let y = y[i] * p + state.reach[i] * per_step[1];
-        beyond[i] = x * x + y * y - p * p * (1.0 + ROUNDING);
-    }
-    for r in 0..PARTS {
-        let stop = if r <= edge.part { last + 1 } else { last };
-        let limit = fine::limits(springs, edge, &now.shift, r);
-        for j in 0..N {
-            let inside = j >= springs.under_flat && j < stop;
-            let (x, y) =
-                ((state.fine[0][r][j] + offset[0]) * limit[1][j], (state.fine[1][r][j] + offset[1]) * limit[0][j]);
-            let bound = limit[0][j] * limit[1][j];
-            let excess = x * x + y * y - bound * bound;
-            beyond[j] = if inside && excess > beyond[j] { excess } else { beyond[j] };
+fn kernel(t: &Rows, c: &Contact<f64>, by: &Both<f64>, springs: &mut Values) -> Option<Both<f64>> {
+    let mut largest = [0.0; N];
+    let mut r = both!(|k| tractions(t, c, k, &springs[k], 0));
+    for k in 0..2 {
+        for i in 0..N {
+            r[k][i] += c.edge[k][i] * c.per_pressure[i] * by[k];
         }
     }
-    if largest(&beyond) > 0.0 {
+    for i in 0..N {
+        largest[i] = r[0][i] * r[0][i] + r[1][i] * r[1][i] - ROUNDING;
+    }
+    // Rows of fine springs, up to that of the part at the edge, whose last ones are not in use.
+    let rows = FINE / N;
+    let mut fine = *springs;
+    for row in 0..rows {
+        for j in 0..N {
+            let inside = row * N + j <= c.part;
+            let (limit_x, limit_y) = (c.now.shift[0] - t[SHIFT + row][j], c.now.shift[1] - t[SHIFT + rows + row][j]);
+            let (x, y) = (springs[FINE_SPRING / N + row][j] + by[0], springs[FINE_SPRING / N + rows + row][j] + by[1]);
+            let (x, y) = (if inside { x } else { 0.0 }, if inside { y } else { 0.0 });
+            let (across, along, bound) = (x * limit_y, y * limit_x, limit_x * limit_y);
+            let excess = across * across + along * along - bound * bound;
+            largest[j] = if inside && excess > largest[j] { excess } else { largest[j] };
+            (fine[FINE_SPRING / N + row][j], fine[FINE_SPRING / N + rows + row][j]) = (x, y);
+        }
+    }
+    let mut most = largest[0];
+    for i in 1..N {
+        most = if largest[i] > most { largest[i] } else { most };
+    }
+    if most > 0.0 {
         return None;
     }
-    let at_limit = largest(&squares) > SLIPPED;
-    let mut stuck = Stuck { stiffness: edge.fine_secant, at_limit, per_load: [0.0; 2], per_shift: [0.0; 2] };
+    let edge = both!(|k| springs[(FINE_SPRING + k * FINE + INSIDE) / N][INSIDE % N] + by[k]);
+    let ends = returned(edge, &both!(|k| c.limit_inside(k)), None);
     for k in 0..2 {
-        // Of the springs at the edge, which change with the load.
-        let law = (state.v[k][last] - state.fine[k][0][last]) / edge.step[k];
-        let fine = (state.fine[k][edge.part.min(PARTS - 1)][last] + offset[k]) / edge.fine_step[k];
-        stuck.per_load[k] = law + fine;
-        stuck.per_shift[k] = -(law * edge.secant[k] + fine * edge.fine_secant[k]);
+        for j in 0..=c.last.min(N - 1) {
+            fine[k][j] += by[k];
+        }
+        fine[(FINE_SPRING + k * FINE + INSIDE) / N][INSIDE % N] = ends[k];
     }
-    Some(stuck)
+    *springs = fine;
+    Some(edge)
 }
 
-/// Adds the offset to the state.
-#[inline(never)]
-pub(crate) fn settle<const N: usize>(springs: &Springs, state: &mut SpringState<N>, offset: &Both<f64>) {
-    let edge = &state.edge;
-    for k in 0..2 {
-        for i in 0..=edge.last.min(N - 1) {
-            state.v[k][i] += offset[k];
-            state.tractions[k][i] += edge.reach[i] * offset[k] / edge.step[k] / edge.pressure[i];
-        }
-        for r in 0..PARTS {
-            let stop = if r <= edge.part { edge.last + 1 } else { edge.last };
-            for j in springs.under_flat..stop.min(N) {
-                state.fine[k][r][j] += offset[k];
-            }
-        }
-    }
+/// Derivatives of the force of such a step: by the normal component, of which `slopes` are those of the contact, and by both displacements of
+/// the springs.
+pub(crate) fn tangent(
+    t: &Rows,
+    c: &Contact<f64>,
+    slopes: &Pressed<f64>,
+    edge: &Both<f64>,
+    springs: &Values,
+) -> Both<[f64; 4]> {
+    let springs = springs.as_flattened();
+    let at = |place: usize| springs.get(place).copied().unwrap_or(0.0);
+    let derived = c.derived(&t, slopes);
+    let edge = [Dual([[0.0, 1.0, 0.0, edge[0]]]), Dual([[0.0, 0.0, 1.0, edge[1]]])];
+    let ends = returned(edge, &both!(|k| derived.limit_inside(k)), None);
+    both!(|k| {
+        let fine = |f: usize| derived.fine(&t, k, f).0[0][END] * at(FINE_SPRING + k * FINE + f);
+        let [mut slopes] = ends[k].times(derived.fine_inside(k)).0;
+        slopes[END] += derived.stiffness[k].0[0][END] * at(k * N + c.last);
+        slopes[END] += (c.first_edge()..=c.part).map(fine).sum::<f64>();
+        slopes[1 + k] += c.total(k) - c.fine_inside(k);
+        slopes
+    })
 }

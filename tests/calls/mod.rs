@@ -289,7 +289,7 @@ pub static FLAT: Parameters = Parameters {
     material: [STEEL; 2],
     layer: Layer::none(),
     displacement_reference: MSLIP_CENTRE_POINT,
-    springs: 0,
+    reserved: 0,
 };
 
 pub static SPHERE: EllipticParameters = EllipticParameters {
@@ -299,8 +299,6 @@ pub static SPHERE: EllipticParameters = EllipticParameters {
     friction_coefficient: 0.3,
     material: [STEEL; 2],
     layer: Layer::none(),
-    springs: 0,
-    reserved: 0,
 };
 
 pub const RULES: [i32; 2] = [MSLIP_UNIFORM_SAMPLING, MSLIP_EVENT_DRIVEN];

@@ -40,7 +40,6 @@ pub(crate) fn layered(share: f64, ratio: f64) -> std::vec::Vec<Contact> {
         friction_coefficient: 0.4,
         material: [TITANIUM; 2],
         layer: layer(&ellipse(1e-4, 2e-4)),
-        ..EllipticParameters::default()
     };
     std::vec![flat(0.0), flat(50e-6), flat(5e-3), Contact::elliptic(&ellipse).unwrap()]
 }
@@ -193,7 +192,7 @@ fn factors_out_of_range_are_rejected() {
         material: [body; 2],
         displacement_reference: 1,
         layer: Layer::none(),
-        springs: 0,
+        reserved: 0,
     };
     assert_eq!(Contact::rounded_flat(&extreme).map(|_| ()), Err(Error::OutOfRange));
 }

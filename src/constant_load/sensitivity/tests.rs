@@ -21,7 +21,7 @@ fn flat(displacement_reference: i32, stiffening_load: f64) -> impl Fn(Sensitivit
             material: BODIES.map(|body| Material { young_modulus: factor * body.young_modulus, ..body }),
             layer: Layer { tangential_compliance, stiffening_load, reference_load: 80.0, ..Layer::none() },
             displacement_reference,
-            springs: 0,
+            reserved: 0,
         })
         .unwrap()
     }
@@ -39,7 +39,6 @@ fn sphere(stiffening_load: f64) -> impl Fn(Sensitivity) -> Contact {
             friction_coefficient,
             material: [Material { young_modulus, ..parameters(0.0).material[0] }; 2],
             layer: Layer { tangential_compliance, stiffening_load, reference_load: 80.0, ..Layer::none() },
-            ..EllipticParameters::default()
         })
         .unwrap()
     }

@@ -120,7 +120,6 @@ fn element(parameters: &Parameters) -> Element {
         normal_force,
         friction_coefficient,
         material,
-        springs: parameters.springs,
         ..EllipticParameters::default()
     };
     Element::elliptic(&sphere, Directions::Two, NormalInput::Force).expect("an element")
@@ -248,25 +247,23 @@ fn loads_row(factor: f64) -> String {
     format!("| {factor} |") + &cells(errors)
 }
 
-/// Numbers of springs, and the largest load of a path over that of the parameters.
-const SPRINGS: [i32; 3] = [8, 12, 16];
+/// The largest load of a path over that of the parameters.
 const SHARES: [f64; 3] = [1.0, 0.7, 0.3];
 
-/// The worst errors of all paths, for a number of springs.
-fn springs_row(springs: i32) -> String {
-    let mut row = format!("| {springs} |");
-    for share in SHARES {
-        let worst = paths().iter().fold([0.0; 2], |worst: [f64; 2], path| {
+/// The worst errors of all paths.
+fn shares_row() -> String {
+    let worst = |share: f64| {
+        paths().iter().fold([0.0; 2], |worst: [f64; 2], path| {
             let normal_force = path.parameters.normal_force / share;
-            let element = element(&Parameters { springs, normal_force, ..path.parameters });
+            let element = element(&Parameters { normal_force, ..path.parameters });
             let law = drive(&element, path.rows.iter().map(|row| row.displacement));
             let slip_force = path.parameters.friction_coefficient * path.parameters.normal_force;
             let [force, energy] = difference(&law, &path.solved(), slip_force);
             [worst[0].max(force), if energy.abs() > worst[1].abs() { energy } else { worst[1] }]
-        });
-        write!(row, " {}, {} |", percent(worst[0]), signed(worst[1])).expect("a string");
-    }
-    row + "\n"
+        })
+    };
+    let cell = |[force, energy]: [f64; 2]| format!(" {}, {} |", percent(force), signed(energy));
+    format!("|{}\n", SHARES.map(|share| cell(worst(share))).concat())
 }
 
 /// Bounds on the errors of force and energy.
@@ -304,13 +301,12 @@ impl Comparison {
         let steps = head("steps") + &STEPS.map(steps_row).concat();
         let loads = head("load") + &LOADS.map(loads_row).concat();
         let shares = SHARES.map(|share| format!(" {share} |")).concat();
-        let springs = format!("| springs |{shares}\n|---:|{}\n", "---:|".repeat(SHARES.len()))
-            + &SPRINGS.map(springs_row).concat();
+        let shares = format!("|{shares}\n|{}\n", "---:|".repeat(SHARES.len())) + &shares_row();
         [
             ("paths in two directions", paths),
             ("steps in two directions", steps),
             ("loads in two directions", loads),
-            ("springs in two directions", springs),
+            ("shares in two directions", shares),
         ]
     }
 

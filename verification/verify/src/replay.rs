@@ -50,7 +50,7 @@ fn parameters(inputs: &str) -> (Input, &str) {
             material: material(5),
             displacement_reference: values[9] as i32,
             layer: Layer::none(),
-            springs: 0,
+            reserved: 0,
         })
     } else {
         Input::Ellipse(EllipticParameters {

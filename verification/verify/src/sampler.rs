@@ -157,7 +157,7 @@ impl Sampler {
             material,
             displacement_reference: if self.chance(0.3) { RIGID_STRIP } else { CENTRE_POINT },
             layer: Layer::none(),
-            springs: 0,
+            reserved: 0,
         })
     }
 

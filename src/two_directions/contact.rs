@@ -1,0 +1,294 @@
+//! The springs under a present load: the shell at the edge, which ends at the present size, and the springs by the tractions.
+
+use super::scalar::{Dual, Real, both};
+use super::tables::{
+    BIAS, Both, END, FINE, FINE_SECANT, FINE_STIFFNESS, FLEXIBILITY, LEAST_STIFFNESS, LOAD, MAP, MOST_PARTS, Matrix, N,
+    PER_MAP, POINTS, PRESSURE, Row, Rows, SECANT, SHIFT, SIZE, STIFFNESS, Tables, Units, WEIGHT, at_edge,
+    root_difference, starts,
+};
+use crate::element::{Element, Normal};
+use crate::simd::dispatch;
+
+/// Normal state in the units of the springs: N, S of both directions, w²; N and S of a slightly smaller size, inside the edge.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Pressed<A> {
+    pub load: A,
+    pub shift: Both<A>,
+    pub size: A,
+    pub inside: [A; 3],
+}
+
+/// The normal component over that of the size inside the edge: the spring between both has the stiffness of the contact, to this part.
+const INSIDE_EDGE: f64 = 1.0 - 2e-5;
+
+impl Pressed<f64> {
+    pub const NONE: Pressed<f64> = Pressed { load: 0.0, shift: [0.0; 2], size: 0.0, inside: [0.0; 3] };
+
+    /// The state of a contact that is closed, and its derivatives by the normal component.
+    pub fn new(element: &Element, units: &Units, input: f64, normal: &Normal) -> [Pressed<f64>; 2] {
+        let Normal { load, shift, load_slope, shift_slope } = *normal;
+        // Products only: the compiler may divide by what is beside a number in its vector register.
+        let [per_load, per_shift, per_size] = [units.load, units.shift, units.size].map(f64::recip);
+        let w = element.size_under(load);
+        let (size, slope) = (w * per_size, element.shape().size_slope(w) * load_slope * per_size * per_size);
+        let lateral = [element.lateral_shift(load, shift), element.lateral_slope(normal)];
+        let inner = element.normal(INSIDE_EDGE * input);
+        let inside = [
+            [inner.load, inner.shift, element.lateral_shift(inner.load, inner.shift)],
+            [inner.load_slope, inner.shift_slope, element.lateral_slope(&inner)].map(|slope| INSIDE_EDGE * slope),
+        ];
+        let of = |load: f64, [x, y]: [f64; 2], size: f64, [inner_load, inner_x, inner_y]: [f64; 3]| Pressed {
+            load: load * per_load,
+            shift: [x * per_shift, y * per_shift],
+            size,
+            inside: [inner_load * per_load, inner_x * per_shift, inner_y * per_shift],
+        };
+        [
+            of(load, [shift, lateral[0]], size * size, inside[0]),
+            of(load_slope, [shift_slope, lateral[1]], slope, inside[1]),
+        ]
+    }
+
+    /// With derivatives by one parameter.
+    pub fn dual(&self, slopes: &Pressed<f64>, parameter: usize) -> Pressed<Dual<1>> {
+        let of = |value: f64, slope: f64| {
+            let mut dual = Dual::constant(value);
+            dual.0[0][parameter] = slope;
+            dual
+        };
+        Pressed {
+            load: of(self.load, slopes.load),
+            shift: both!(|k| of(self.shift[k], slopes.shift[k])),
+            size: of(self.size, slopes.size),
+            inside: [
+                of(self.inside[0], slopes.inside[0]),
+                of(self.inside[1], slopes.inside[1]),
+                of(self.inside[2], slopes.inside[2]),
+            ],
+        }
+    }
+}
+
+/// What depends on the present load.
+#[derive(Debug, Clone, Copy)]
+#[repr(align(32))]
+pub(crate) struct Contact<A> {
+    /// G of the last shell.
+    pub edge: Both<Row<A>>,
+    /// 1/p_i; 0 outside.
+    pub per_pressure: Row<A>,
+    /// Stiffnesses of the last spring, their reciprocals, and those of the fine springs in its shell.
+    pub stiffness: Both<A>,
+    pub flexibility: Both<A>,
+    pub fine: Both<[A; MOST_PARTS]>,
+    pub now: Pressed<A>,
+    /// The last shell and part, the first part of that shell, and the springs under the flat.
+    pub last: usize,
+    pub part: usize,
+    pub first_part: usize,
+    pub under_flat: usize,
+}
+
+impl Contact<f64> {
+    pub const NONE: Contact<f64> = Contact {
+        edge: [[0.0; N]; 2],
+        per_pressure: [0.0; N],
+        stiffness: [0.0; 2],
+        flexibility: [0.0; 2],
+        fine: [[0.0; MOST_PARTS]; 2],
+        now: Pressed::NONE,
+        last: 0,
+        part: 0,
+        first_part: 0,
+        under_flat: 0,
+    };
+
+    /// The contact under a load, and C⁻¹ as `[spring][point]`.
+    pub fn press(rows: &Rows, now: &Pressed<f64>, under_flat: usize, inverse: &mut Both<Matrix>) -> Contact<f64> {
+        dispatch!(press_kernel(rows, now, under_flat, inverse))
+    }
+
+    /// G of a shell.
+    #[inline(always)]
+    pub fn row<'a>(&'a self, t: &'a Rows, k: usize, j: usize) -> &'a Row<f64> {
+        t.get(MAP + k * N + j).filter(|_| j < self.last).unwrap_or(&self.edge[k])
+    }
+
+    /// The contact with derivatives.
+    pub fn derived(&self, tables: &impl Tables<Dual<1>>, slopes: &Pressed<f64>) -> Contact<Dual<1>> {
+        let now = self.now.dual(slopes, END);
+        Contact::new(tables, &now, [self.last, self.part], self.under_flat)
+    }
+}
+
+/// The derivatives that are multiplied with columns are those by the load at the end and the alignment.
+pub(crate) fn derive(contact: &Contact<f64>, tables: [&Rows; 2], slopes: &Pressed<f64>) -> Contact<Dual<1>> {
+    dispatch!(derive_kernel(contact, tables, slopes))
+}
+
+#[inline(always)]
+fn derive_kernel(contact: &Contact<f64>, tables: [&Rows; 2], slopes: &Pressed<f64>) -> Contact<Dual<1>> {
+    contact.derived(&tables, slopes)
+}
+
+#[inline(always)]
+fn press_kernel(rows: &Rows, now: &Pressed<f64>, under_flat: usize, inverse: &mut Both<Matrix>) -> Contact<f64> {
+    let contact = Contact::new(&rows, now, at_edge(rows, under_flat, now.inside[1]), under_flat);
+    let last = contact.last.min(N - 1);
+    for k in 0..2 {
+        inverse[k] = [[0.0; N]; N];
+        for i in (0..=last).rev() {
+            // v_i = [p_i r_i + Σ_{j>i} (G_i,j-1 - G_ij) v_j]/G_ii: all positive.
+            let mut row = [0.0; N];
+            row[i] = 1.0 / contact.per_pressure[i];
+            let mut before = contact.map(&rows, k, i, i);
+            for j in i + 1..=last {
+                let g = contact.map(&rows, k, j, i);
+                let fall = before - g;
+                for m in 0..N {
+                    row[m] += fall * inverse[k][j][m];
+                }
+                before = g;
+            }
+            let per_map = contact.per_map(&rows, k, i);
+            for m in 0..N {
+                inverse[k][i][m] = row[m] * per_map;
+            }
+        }
+    }
+    contact
+}
+
+impl<A: Real> Contact<A> {
+    #[inline(always)]
+    fn new(t: &impl Tables<A>, now: &Pressed<A>, [last, part]: [usize; 2], under_flat: usize) -> Contact<A> {
+        let (zero, one, last) = (A::constant(0.0), A::constant(1.0), last.min(N - 1));
+        let start = starts(under_flat);
+        let (first_part, first) = (start[last], last <= under_flat);
+        let before = last.max(1) - 1;
+        let mut contact = Contact {
+            edge: [[zero; N]; 2],
+            per_pressure: [zero; N],
+            stiffness: [zero; 2],
+            flexibility: [zero; 2],
+            fine: [[zero; MOST_PARTS]; 2],
+            now: *now,
+            last,
+            part,
+            first_part,
+            under_flat,
+        };
+        let step = both!(|k| now.shift[k] - t.at(SHIFT + k * FINE / N, first_part));
+        let per_step = both!(|k| step[k].inverse());
+        // At its own point the last shell carries all, in any unit.
+        contact.per_pressure[last] = one;
+        contact.edge[0][last] = per_step[0];
+        contact.edge[1][last] = per_step[1];
+        let (weight, lower) = (t.at(WEIGHT, last), t.at(SIZE, last));
+        for i in 0..last {
+            let mut traction = weight * root_difference(now.size, lower, t.at(POINTS, i));
+            for k in 0..2 {
+                let bound = t.at(MAP + k * N + before, i) * step[k];
+                traction = if bound.value() < traction.value() { bound } else { traction };
+            }
+            contact.per_pressure[i] = (t.at(PRESSURE + last, i) + traction).inverse();
+            contact.edge[0][i] = traction * per_step[0];
+            contact.edge[1][i] = traction * per_step[1];
+        }
+        for k in 0..2 {
+            let (load, shift) = (LOAD, SHIFT + k * FINE / N);
+            let own = (now.load - t.at(load, first_part)) * per_step[k];
+            let inner = if last > 0 { t.at(SECANT + k, before) } else { zero };
+            let (rise, least) = (own - inner, own.scale(LEAST_STIFFNESS));
+            contact.stiffness[k] = if rise.value() > least.value() { rise } else { least };
+            contact.flexibility[k] = contact.stiffness[k].inverse();
+            // Fine springs from the last one of the shell before; N of the outermost part is unbiased when the edge passes it.
+            let from = contact.first_edge();
+            let inside = [now.inside[0], now.inside[1 + k]];
+            let per_part = (t.at(shift, part + 1) - t.at(shift, part)).inverse();
+            let passed = (inside[1] - t.at(shift, part)) * per_part;
+            let corner = |f: usize| {
+                let bias = t.at(BIAS, f);
+                [t.at(load, f) - if f < part { bias } else { bias * passed }, t.at(shift, f)]
+            };
+            let mut slope = if from > 0 { t.at(FINE_SECANT + k * FINE / N, from - 1) } else { zero };
+            let mut lower = corner(from);
+            for f in from..=part {
+                let upper = if f < part { corner(f + 1) } else { inside };
+                let secant = (upper[0] - lower[0]) * (upper[1] - lower[1]).inverse();
+                let mut law = zero;
+                if f == first_part {
+                    law = own - if first { zero } else { inner };
+                } else if f == start[before] {
+                    law = t.at(if before > under_flat { STIFFNESS } else { SECANT } + k, before);
+                }
+                contact.fine[k][(f - from).min(MOST_PARTS - 1)] = secant - slope - law;
+                (slope, lower) = (secant, upper);
+            }
+            contact.fine[k][(part + 1 - from).min(MOST_PARTS - 1)] = contact.total(k) - slope;
+        }
+        contact
+    }
+
+    /// G of a shell at a point.
+    #[inline(always)]
+    pub fn map(&self, t: &impl Tables<A>, k: usize, j: usize, i: usize) -> A {
+        if j < self.last { t.at(MAP + k * N + j, i) } else { self.edge[k][i] }
+    }
+
+    #[inline(always)]
+    pub fn stiffness(&self, t: &impl Tables<A>, k: usize, j: usize) -> A {
+        if j < self.last { t.at(STIFFNESS + k, j) } else { self.stiffness[k] }
+    }
+
+    /// 1/w_j.
+    #[inline(always)]
+    pub fn flexibility(&self, t: &impl Tables<A>, k: usize, j: usize) -> A {
+        if j < self.last { t.at(FLEXIBILITY + k, j) } else { self.flexibility[k] }
+    }
+
+    /// 1/G_jj.
+    #[inline(always)]
+    pub fn per_map(&self, t: &impl Tables<A>, k: usize, j: usize) -> A {
+        if j < self.last { t.at(PER_MAP + k, j) } else { self.limit(t, k, self.first_part) }
+    }
+
+    /// Stiffness of a fine spring.
+    #[inline(always)]
+    pub fn fine(&self, t: &impl Tables<A>, k: usize, f: usize) -> A {
+        match f.checked_sub(self.first_edge()).and_then(|r| self.fine[k].get(r)) {
+            Some(edge) => *edge,
+            None => t.at(FINE_STIFFNESS + k * FINE / N, f),
+        }
+    }
+
+    /// The first fine spring whose stiffness depends on the load.
+    #[inline(always)]
+    pub fn first_edge(&self) -> usize {
+        self.first_part.max(1) - 1
+    }
+
+    /// Stiffness of the fine spring at the edge.
+    #[inline(always)]
+    pub fn fine_inside(&self, k: usize) -> A {
+        self.fine[k][(self.part + 1 - self.first_edge().min(self.part)).min(MOST_PARTS - 1)]
+    }
+
+    /// Stiffness of all springs together: the secant at the edge.
+    #[inline(always)]
+    pub fn total(&self, k: usize) -> A {
+        (self.now.load - self.now.inside[0]) * self.limit_inside(k).inverse()
+    }
+
+    /// The limit of the fine spring at the edge.
+    #[inline(always)]
+    pub fn limit_inside(&self, k: usize) -> A {
+        self.now.shift[k] - self.now.inside[1 + k]
+    }
+
+    /// S_b - S of the first size that a fine spring carries.
+    #[inline(always)]
+    pub fn limit(&self, t: &impl Tables<A>, k: usize, f: usize) -> A {
+        self.now.shift[k] - t.at(SHIFT + k * FINE / N, f)
+    }
+}

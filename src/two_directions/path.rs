@@ -1,0 +1,53 @@
+//! The part of a step in contact, in the units of the springs.
+
+use super::contact::Contact;
+use super::tables::{Both, Units};
+use super::trial::Motion;
+use crate::element::Element;
+
+/// A motion over more than this many slip displacements is shortened to it: the force does not depend on the rest, and the energy is
+/// proportional.
+pub(super) const LONGEST: f64 = 1e9;
+
+/// Displacement of the springs and its derivatives, between contacts of which at least one is closed.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Path {
+    pub by: Both<f64>,
+    pub per_distance: f64,
+    /// By the normal component at the start and at the end, in each direction.
+    pub per_input: Both<[f64; 2]>,
+    /// The factor by which the motion was shortened.
+    pub scale: f64,
+}
+
+impl Path {
+    /// From and to displacements and normal components, of contacts that are closed or not.
+    pub fn new(element: &Element, units: &Units, [from, to]: [[f64; 3]; 2], closed: [bool; 2]) -> Path {
+        let (start, end) = (from[2], to[2]);
+        let (part, slopes) = match closed {
+            [true, false] => (element.crossing(start, end.min(0.0)), [0.0; 2]),
+            [false, true] if element.by_approach() => {
+                let (start, per) = (start.min(0.0), 1.0 / (end - start.min(0.0)).max(f64::MIN_POSITIVE));
+                (end * per, [end * per * per, -start * per * per])
+            }
+            _ => (1.0, [0.0; 2]),
+        };
+        let unit = element.friction_coefficient * units.shift;
+        let distance = [to[0] - from[0], to[1] - from[1]].map(|distance| distance / unit);
+        let longest = part * distance[0].abs().max(distance[1].abs());
+        let scale = (longest / LONGEST).max(1.0);
+        let per_scale = 1.0 / scale;
+        Path {
+            by: distance.map(|distance| part * distance * per_scale),
+            per_distance: part / unit * per_scale,
+            per_input: distance.map(|distance| slopes.map(|slope| distance * slope * per_scale)),
+            scale,
+        }
+    }
+
+    /// The motion from a contact to another one.
+    pub fn motion(&self, from: &Contact<f64>, to: &Contact<f64>, constant_load: bool) -> Motion<f64, f64> {
+        let before = if constant_load { to.now.shift } else { from.now.shift };
+        Motion { before, by: self.by, constant_load }
+    }
+}

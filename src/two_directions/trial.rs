@@ -1,0 +1,173 @@
+//! The springs, the trial state of a step, in which all stick, and the limits on the way.
+
+use super::contact::Contact;
+use super::scalar::{Over, Real, both};
+use super::tables::{Both, FINE, MAP, N, Row, Rows, Tables, starts};
+use crate::simd::dispatch;
+
+/// Places of the springs: their displacements, and those of the fine springs, x before y.
+pub(crate) const FINE_SPRING: usize = 2 * N;
+pub(crate) const SPRINGS: usize = FINE_SPRING + 2 * FINE;
+
+/// The springs as values.
+pub(crate) type Values = [Row<f64>; SPRINGS / N];
+
+/// Springs as numbers of a kind.
+pub(crate) trait Springs<X> {
+    /// Whether the springs are kept.
+    const KEPT: bool;
+    fn get(&self, place: usize) -> X;
+    fn put(&mut self, place: usize, x: X);
+}
+
+/// Before a step, without derivatives.
+impl<X: Real> Springs<X> for &Values {
+    const KEPT: bool = false;
+
+    #[inline(always)]
+    fn get(&self, place: usize) -> X {
+        X::constant(self.as_flattened().get(place).copied().unwrap_or(0.0))
+    }
+
+    #[inline(always)]
+    fn put(&mut self, _: usize, _: X) {}
+}
+
+impl Springs<f64> for &mut Values {
+    const KEPT: bool = true;
+
+    #[inline(always)]
+    fn get(&self, place: usize) -> f64 {
+        self.as_flattened().get(place).copied().unwrap_or(0.0)
+    }
+
+    #[inline(always)]
+    fn put(&mut self, place: usize, x: f64) {
+        if let Some(there) = self.as_flattened_mut().get_mut(place) {
+            *there = x;
+        }
+    }
+}
+
+/// A step, straight in S and in the displacement: S at the start, the displacement, and whether the load is that of the start.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Motion<A, X> {
+    pub before: Both<A>,
+    pub by: Both<X>,
+    pub constant_load: bool,
+}
+
+/// Limits and rises below this, in the unit of the springs, are rounding; fourth powers of a motion over it stay finite.
+pub(crate) const LEAST: f64 = 1e-40;
+
+/// The part of the motion that a spring follows: from where the load reaches its size on.
+#[inline(always)]
+pub(crate) fn moved<A: Real, X: Over<A>>(limit: A, rise: A, by: X) -> X {
+    if limit.value() < rise.value() { by.times(limit * rise.at_least(LEAST).inverse()) } else { by }
+}
+
+/// The largest |r|² of a trial state that sticks: a state that has slipped may round.
+pub(crate) const ROUNDING: f64 = 1.0 + 1e-12;
+
+/// The state in which all springs stick. Under a constant load r changes by the motion of the last shell; of springs it would have the
+/// rounding errors of their differences.
+#[repr(align(32))]
+pub(crate) struct Trial {
+    /// v*; r of the springs at the start, and r*.
+    pub v: Both<Row<f64>>,
+    pub start: Both<Row<f64>>,
+    pub r: Both<Row<f64>>,
+    /// Whether |r| exceeds 1 at no point.
+    pub sticks: bool,
+}
+
+/// The trial state of a step of values.
+pub(crate) fn trial(t: &Rows, c: &Contact<f64>, motion: &Motion<f64, f64>, old: &Values) -> Trial {
+    dispatch!(trial_kernel(t, c, motion, old))
+}
+
+#[inline(always)]
+fn trial_kernel(t: &Rows, c: &Contact<f64>, motion: &Motion<f64, f64>, old: &Values) -> Trial {
+    let (last, start_of) = (c.last.min(N - 1), starts(c.under_flat));
+    let (mut all, mut start, mut r) = ([[0.0; N]; 2], [[0.0; N]; 2], [[0.0; N]; 2]);
+    for k in 0..2 {
+        let rise = c.now.shift[k] - motion.before[k];
+        for j in 0..=last {
+            all[k][j] = old[k][j] + moved(c.limit(&t, k, start_of[j]), rise, motion.by[k]);
+        }
+        start[k] = tractions(t, c, k, &old[k], 0);
+        r[k] = if motion.constant_load { start[k] } else { tractions(t, c, k, &all[k], 0) };
+        let moved = if motion.constant_load { motion.by[k] } else { 0.0 };
+        for i in 0..N {
+            r[k][i] += c.edge[k][i] * c.per_pressure[i] * moved;
+        }
+    }
+    let mut largest = 0.0;
+    for i in 0..N {
+        let square = r[0][i] * r[0][i] + r[1][i] * r[1][i];
+        largest = if square > largest { square } else { largest };
+    }
+    Trial { v: all, start, r, sticks: largest <= ROUNDING }
+}
+
+/// r of displacements of the springs up to the last one, of which those before a first one are 0.
+#[inline(always)]
+pub(crate) fn tractions(t: &Rows, c: &Contact<f64>, k: usize, v: &Row<f64>, first: usize) -> Row<f64> {
+    let (mut r, last) = ([0.0; N], c.last.min(N - 1));
+    for j in first.max(1) - 1..last {
+        let (d, row) = (v[j] - v[j + 1], &t[MAP + k * N + j]);
+        for i in 0..N {
+            r[i] += d * row[i];
+        }
+    }
+    for i in 0..N {
+        r[i] = (r[i] + v[last] * c.edge[k][i]) * c.per_pressure[i];
+    }
+    r
+}
+
+/// The limits of the points at the start of a step over those at its end: tractions of gross slip there.
+#[inline(always)]
+pub(crate) fn limits_before<A: Real>(t: &impl Tables<A>, c: &Contact<A>, rise: A) -> Row<A> {
+    let (last, start) = (c.last.min(N - 1), starts(c.under_flat));
+    let (zero, mut limits) = (A::constant(0.0), [A::constant(0.0); N]);
+    if (c.limit(t, 0, start[last]) - rise).value() > 0.0 {
+        // All springs were engaged: the limits of those within differ as they do at the end.
+        for i in 0..=last {
+            limits[i] = A::constant(1.0) - rise * c.edge[0][i] * c.per_pressure[i];
+        }
+        return limits;
+    }
+    let mut above = zero;
+    for j in (0..=last).rev().map(|j| j.min(N - 1)) {
+        let limit = c.limit(t, 0, start[j]) - rise;
+        let limit = if limit.value() > 0.0 { limit } else { zero };
+        for i in 0..=j {
+            limits[i] = limits[i] + (limit - above) * c.map(t, 0, j, i);
+        }
+        above = limit;
+    }
+    for i in 0..=last {
+        limits[i] = limits[i] * c.per_pressure[i];
+    }
+    limits
+}
+
+/// Displacements of the innermost spring over its limit between which a contact that slides forgets: farther, the springs end in gross slip
+/// in one direction.
+const FAR: [f64; 2] = [2.5, 5.0];
+
+/// The part in which a contact that slides far forgets, from its trial state.
+#[inline(always)]
+pub(crate) fn slid<A: Real, X: Over<A>, T: Tables<A>>(t: &T, c: &Contact<A>, v: &Both<Row<X>>) -> X {
+    let [x, y] = both!(|k| v[k][0].times(c.limit(t, k, 0).inverse()));
+    let square = x * x + y * y;
+    if square.value() <= FAR[0] * FAR[0] {
+        return X::constant(0.0);
+    }
+    if square.value() >= FAR[1] * FAR[1] {
+        return X::constant(1.0);
+    }
+    let part = (square.sqrt() - X::constant(FAR[0])).scale(1.0 / (FAR[1] - FAR[0]));
+    part * part * (X::constant(3.0) - part.scale(2.0))
+}

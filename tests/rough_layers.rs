@@ -1,0 +1,190 @@
+//! Two tangential directions with rough layers: gross slip, energy of long steps, stiffness of a stuck contact, continuity of the force.
+
+mod common;
+
+use common::Random;
+use microslip::element::{Directions, Element, NormalInput};
+use microslip::parameters::{CENTRE_POINT, EllipticParameters, Layer, Material, Parameters};
+use microslip::two_directions::{Step, advance, state_init, state_length};
+use std::f64::consts::TAU;
+
+/// A value between two positive ones, uniform in its logarithm.
+fn between(random: &mut Random, low: f64, high: f64) -> f64 {
+    low * (high / low).powf(random.next())
+}
+
+/// A flat of a/b from 0 to 0.999 or an ellipse under 1000 N, and its layer: compliances of 0.01 to 100 times those of the contact, N_c of
+/// 1 N to 1e6 N, one in four without.
+fn element(random: &mut Random) -> Element {
+    let material = [Material { young_modulus: 2e11, poisson_ratio: 0.5 * random.next() }; 2];
+    let (normal_force, friction_coefficient) = (1000.0, 0.5);
+    let build = |flat_half_width: f64, ratio: f64, layer: Layer| {
+        if ratio > 0.0 {
+            let semi_axes = [1e-3, ratio * 1e-3];
+            let [semi_axis_x, semi_axis_y] = semi_axes;
+            let parameters =
+                EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, material, layer };
+            return Element::elliptic(&parameters, Directions::Two, NormalInput::Force).unwrap();
+        }
+        let parameters = Parameters {
+            flat_half_width,
+            edge_radius: 0.05,
+            length: 0.02,
+            normal_force,
+            friction_coefficient,
+            material,
+            layer,
+            displacement_reference: CENTRE_POINT,
+            reserved: 0,
+        };
+        Element::rounded_flat(&parameters, Directions::Two, NormalInput::Force).unwrap()
+    };
+    let cylinder = build(0.0, 0.0, Layer::none()).half_width;
+    let flat = if random.next() < 0.25 { 0.0 } else { cylinder * between(random, 1e-2, 10.0) };
+    let ratio = if random.next() < 0.3 { between(random, 0.2, 5.0) } else { 0.0 };
+    let bare = build(flat, ratio, Layer::none());
+    if random.next() < 0.25 {
+        return bare;
+    }
+    let layer = Layer {
+        normal_compliance: between(random, 0.01, 100.0) / bare.normal_stiffness,
+        tangential_compliance: between(random, 0.01, 100.0) / bare.tangential_stiffness,
+        stiffening_load: 1000.0 * between(random, 1e-3, 1e3),
+        reference_load: 0.0,
+    };
+    build(flat, ratio, layer)
+}
+
+#[derive(Clone)]
+struct Contact<'a> {
+    element: &'a Element,
+    state: Vec<f64>,
+}
+
+impl Contact<'_> {
+    fn new(element: &Element) -> Contact<'_> {
+        let mut state = vec![0.0; state_length()];
+        state_init(&mut state).unwrap();
+        Contact { element, state }
+    }
+
+    fn to(&mut self, displacement: [f64; 3]) -> Step {
+        advance(self.element, &mut self.state, displacement).unwrap()
+    }
+
+    /// Dissipated energy of a path that is straight in the displacement and in S, in a number of steps.
+    fn along(&mut self, from: [f64; 3], to: [f64; 3], steps: usize) -> f64 {
+        let shifts = [from, to].map(|[_, _, load]| self.element.shift_under(load));
+        let at = |step: usize| {
+            let part = step as f64 / steps as f64;
+            let load = self.element.load_under(shifts[0] + part * (shifts[1] - shifts[0]));
+            [from[0] + part * (to[0] - from[0]), from[1] + part * (to[1] - from[1]), load]
+        };
+        let path: Vec<[f64; 3]> = (1..steps).map(at).chain([to]).collect();
+        path.into_iter().map(|place| self.to(place).dissipated).sum()
+    }
+}
+
+/// The larger slip displacement of both directions under a load.
+fn slip_displacement(element: &Element, load: f64) -> f64 {
+    let limit = element.friction_coefficient * load;
+    element.displacement_under(0, limit, load).value.max(element.displacement_under(1, limit, load).value)
+}
+
+fn tangential(step: &Step) -> f64 {
+    step.force[0].hypot(step.force[1])
+}
+
+#[test]
+fn long_slides_carry_the_friction_force_and_dissipate_their_work() {
+    let mut random = Random(11);
+    let (mut force, mut energy) = (0.0f64, 0.0f64);
+    for _ in 0..120 {
+        let element = element(&mut random);
+        let load = 1000.0 * (0.3 + 0.7 * random.next());
+        let (sin, cos) = (TAU * random.next()).sin_cos();
+        // Closing, a tenfold load after a small slide, and a constant load.
+        for start in [0.0, 0.1 * load, load] {
+            // Springs that were displaced the other way still pass 5 slip displacements.
+            let length = between(&mut random, 7.0, 1000.0) * slip_displacement(&element, load);
+            let mut contact = Contact::new(&element);
+            let mut from = [0.0, 0.0, start];
+            if start > 0.0 {
+                contact.to(from);
+                from[1] = 2.0 * random.next() * slip_displacement(&element, start);
+                contact.to(from);
+            }
+            let to = [from[0] + length * cos, from[1] + length * sin, load];
+            let mut fine = contact.clone();
+            let step = contact.to(to);
+            let error = (tangential(&step) / (element.friction_coefficient * load) - 1.0).abs();
+            let of_energy = (step.dissipated / fine.along(from, to, 64) - 1.0).abs();
+            (force, energy) = (force.max(error), energy.max(of_energy));
+            assert!(error < 1e-12 && of_energy < 0.07, "{start} {length:e}: {error:e} {of_energy:e}, {element:?}");
+        }
+    }
+    println!("force {force:.1e}, energy {energy:.1e}");
+}
+
+/// In any direction, under loads down to 1e-2 of that of the tables, after unloading too.
+#[test]
+fn the_stiffness_of_a_stuck_contact_is_that_of_the_curve() {
+    let mut random = Random(12);
+    let mut worst = 0.0f64;
+    for _ in 0..200 {
+        let element = element(&mut random);
+        let load = 1000.0 * between(&mut random, 1e-2, 1.0);
+        let mut contact = Contact::new(&element);
+        contact.to([0.0, 0.0, 1000.0]);
+        contact.to([0.0, 0.0, load]);
+        let (sin, cos) = (TAU * random.next()).sin_cos();
+        let small = 1e-6 * slip_displacement(&element, load);
+        let step = contact.to([small * cos, small * sin, load]);
+        let expected = [cos, sin].map(|part| small * part);
+        let expected = [0, 1].map(|k| expected[k] / element.displacement_under(k, 0.0, load).slope);
+        let error = (step.force[0] - expected[0]).hypot(step.force[1] - expected[1]) / expected[0].hypot(expected[1]);
+        worst = worst.max(error);
+        assert!(error < 2e-4, "{load}: {error:e}, {element:?}");
+    }
+    println!("stiffness {worst:.1e}");
+}
+
+/// Between steps of random histories and neighbours of them, bisection finds no jump of the force.
+#[test]
+fn the_force_does_not_jump() {
+    let mut random = Random(13);
+    for _ in 0..100 {
+        let element = element(&mut random);
+        let unit = slip_displacement(&element, 1000.0);
+        let (mut contact, scale) = (Contact::new(&element), between(&mut random, 0.1, 4.0) * unit);
+        let mut at = [0.0, 0.0, 700.0];
+        for k in 0..150 {
+            at = [at[0] + scale * random.signed(), at[1] + scale * random.signed(), at[2]];
+            if k % 3 == 0 {
+                at[2] = 1000.0 * between(&mut random, 0.02, 1.0);
+            }
+            let (sin, cos) = (TAU * random.next()).sin_cos();
+            let force = |part: f64| {
+                let place = [at[0] + 1e-3 * part * unit * cos, at[1] + 1e-3 * part * unit * sin, at[2]];
+                contact.clone().to(place).force
+            };
+            let apart = |one: [f64; 3], two: [f64; 3]| {
+                (one[0] - two[0]).hypot(one[1] - two[1]) / (element.friction_coefficient * at[2])
+            };
+            let (mut low, mut high) = ((0.0, force(0.0)), (1.0, force(1.0)));
+            if k > 0 && apart(low.1, high.1) > 0.03 * unit / slip_displacement(&element, at[2]) {
+                for _ in 0..60 {
+                    let middle = 0.5 * (low.0 + high.0);
+                    let value = force(middle);
+                    if apart(value, low.1) > apart(value, high.1) {
+                        high = (middle, value);
+                    } else {
+                        low = (middle, value);
+                    }
+                }
+                assert!(apart(low.1, high.1) < 1e-6, "{at:?}: {:e}, {element:?}", apart(low.1, high.1));
+            }
+            contact.to(at);
+        }
+    }
+}
