@@ -3,7 +3,7 @@
 use crate::element::{Directions, Element};
 use crate::error::Error;
 use crate::fourier::HarmonicOutput;
-use crate::fourier::workspace::WorkspaceLayout;
+use crate::fourier::workspace::Layout;
 use crate::tag::Kind;
 
 /// Result of a step, with vectors `[T, N]` or `[Tx, Ty, N]`, and tangents of 2 x 2 or 3 x 3 entries.
@@ -73,9 +73,8 @@ pub(crate) trait ElementLaw: Sized {
     type Vector: Copy;
     /// Derivative of the force by the displacement, column-major.
     type Tangent: Copy;
-    /// Layout of a workspace of the harmonic force, and an opened one.
-    type Layout: WorkspaceLayout;
-    type Workspace<'a>;
+    /// An opened workspace of the harmonic force.
+    type Workspace<'a>: Layout<'a>;
 
     const DIRECTIONS: Directions;
     /// Components of a displacement.
@@ -104,9 +103,6 @@ pub(crate) trait ElementLaw: Sized {
     /// The same whose new state is discarded.
     fn path_in_copy(element: &Element, state: &[f64], path: &[f64], output: PathOutput);
 
-    fn workspace(memory: &mut [f64]) -> Result<Self::Workspace<'_>, Error>;
-    /// Coefficients of one component, 2H + 1.
-    fn coefficients(workspace: &Self::Workspace<'_>) -> usize;
     fn check_motion(workspace: &mut Self::Workspace<'_>, element: &Element, motion: &[f64]) -> Result<(), Error>;
     fn harmonic_force(
         element: &Element,

@@ -38,7 +38,6 @@ pub(crate) struct OneDirection;
 impl ElementLaw for OneDirection {
     type Vector = [f64; 2];
     type Tangent = [f64; 4];
-    type Layout = harmonic_force::Layout;
     type Workspace<'a> = harmonic_force::Workspace<'a>;
 
     const DIRECTIONS: Directions = Directions::One;
@@ -101,14 +100,6 @@ impl ElementLaw for OneDirection {
     fn path_in_copy(element: &Element, state: &[f64], path: &[f64], output: PathOutput) {
         let mut buffer = [0.0; state::COPY_LENGTH];
         Self::path(element, state::copy_of(element, state, &mut buffer), path, output);
-    }
-
-    fn workspace(memory: &mut [f64]) -> Result<Self::Workspace<'_>, Error> {
-        harmonic_force::Workspace::new(memory)
-    }
-
-    fn coefficients(workspace: &Self::Workspace<'_>) -> usize {
-        workspace.coefficients()
     }
 
     fn check_motion(workspace: &mut Self::Workspace<'_>, element: &Element, motion: &[f64]) -> Result<(), Error> {

@@ -42,7 +42,6 @@ pub(crate) struct TwoDirections;
 impl ElementLaw for TwoDirections {
     type Vector = [f64; 3];
     type Tangent = [f64; 9];
-    type Layout = harmonic_force::Layout;
     type Workspace<'a> = harmonic_force::Workspace<'a>;
 
     const DIRECTIONS: Directions = Directions::Two;
@@ -108,14 +107,6 @@ impl ElementLaw for TwoDirections {
         let mut copy = [0.0; state_length()];
         state::copy_used(state, &mut copy);
         Self::path(element, &mut copy, path, output);
-    }
-
-    fn workspace(memory: &mut [f64]) -> Result<Self::Workspace<'_>, Error> {
-        harmonic_force::Workspace::new(memory)
-    }
-
-    fn coefficients(workspace: &Self::Workspace<'_>) -> usize {
-        workspace.coefficients()
     }
 
     fn check_motion(workspace: &mut Self::Workspace<'_>, element: &Element, motion: &[f64]) -> Result<(), Error> {

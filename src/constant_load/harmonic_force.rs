@@ -24,7 +24,7 @@ mod uniform_sampling;
 
 use crate::constant_load::contact::Contact;
 use crate::error::Error;
-use crate::fourier::workspace::{Size, TAGS, WorkspaceLayout};
+use crate::fourier::workspace::{Layout, Size, TAGS};
 use crate::limits::check_coefficients;
 use crate::parameters::PARAMETERS;
 
@@ -44,13 +44,10 @@ impl Rule {
     /// allowed.
     #[must_use]
     pub fn workspace_length(self, harmonics: usize, samples: usize) -> usize {
+        let size = Size::new(harmonics, samples);
         match self {
-            Rule::UniformSampling => {
-                uniform_sampling::Layout::new(Size::new(harmonics, samples)).map_or(0, |layout| layout.length())
-            }
-            Rule::EventDriven => {
-                event_driven::Layout::new(Size::new(harmonics, samples)).map_or(0, |layout| layout.length())
-            }
+            Rule::UniformSampling => uniform_sampling::Workspace::length_or_zero(size),
+            Rule::EventDriven => event_driven::Workspace::length_or_zero(size),
         }
     }
 
@@ -60,14 +57,14 @@ impl Rule {
     /// `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24; `WorkspaceTooShort`.
     pub fn workspace_init(self, harmonics: usize, samples: usize, workspace: &mut [f64]) -> Result<(), Error> {
         match self {
-            Rule::UniformSampling => uniform_sampling::Layout::init(Size::new(harmonics, samples), workspace),
-            Rule::EventDriven => event_driven::Layout::init(Size::new(harmonics, samples), workspace),
+            Rule::UniformSampling => uniform_sampling::Workspace::init(Size::new(harmonics, samples), workspace),
+            Rule::EventDriven => event_driven::Workspace::init(Size::new(harmonics, samples), workspace),
         }
     }
 
     /// The rule of a workspace, from its tag.
     fn of_workspace([tag, ..]: &[f64; TAGS]) -> Rule {
-        if event_driven::Layout::KIND.count(*tag).is_some() { Rule::EventDriven } else { Rule::UniformSampling }
+        if event_driven::Workspace::KIND.count(*tag).is_some() { Rule::EventDriven } else { Rule::UniformSampling }
     }
 }
 
@@ -77,10 +74,8 @@ impl Rule {
 pub(crate) fn workspace_size(header: &[f64; TAGS]) -> Result<(Rule, Size, usize), Error> {
     let rule = Rule::of_workspace(header);
     let (size, length) = match rule {
-        Rule::UniformSampling => {
-            uniform_sampling::Layout::read(header).map(|layout| (layout.size(), layout.length()))?
-        }
-        Rule::EventDriven => event_driven::Layout::read(header).map(|layout| (layout.size(), layout.length()))?,
+        Rule::UniformSampling => uniform_sampling::Workspace::read(header)?,
+        Rule::EventDriven => event_driven::Workspace::read(header)?,
     };
     Ok((rule, size, length))
 }
@@ -102,8 +97,8 @@ impl<'a> Workspace<'a> {
     /// `BadWorkspace` if uninitialised or too short.
     pub fn new(memory: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
         Ok(Workspace(match Rule::of_workspace(memory.first_chunk().ok_or(Error::BadWorkspace)?) {
-            Rule::UniformSampling => ByRule::UniformSampling(uniform_sampling::Workspace::new(memory)?),
-            Rule::EventDriven => ByRule::EventDriven(event_driven::Workspace::new(memory)?),
+            Rule::UniformSampling => ByRule::UniformSampling(uniform_sampling::Workspace::open(memory)?),
+            Rule::EventDriven => ByRule::EventDriven(event_driven::Workspace::open(memory)?),
         }))
     }
 

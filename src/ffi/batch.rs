@@ -502,9 +502,10 @@ pub unsafe extern "C" fn mslip_batch_element_harmonic_force(
     call(|| {
         let items = Items::new(n, n_elements, elements.cast::<Element>(), index, active)?;
         let outputs = [force, jacobian, dissipated, drift];
-        with_law!(pointers::element_workspace_size(workspace)?.0, L => {
+        let (directions, size, _) = pointers::element_workspace_size(workspace)?;
+        with_law!(directions, L => {
             let mut workspace = pointers::element_workspace::<L>(workspace)?;
-            let one = L::COMPONENTS * L::coefficients(&workspace);
+            let one = L::COMPONENTS * size.coefficients();
             let (check, compute) = (L::check_motion, L::harmonic_force);
             harmonic_forces::<L, _>(items, &mut workspace, one, displacement, outputs, check, compute)
         })

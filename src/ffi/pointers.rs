@@ -10,7 +10,7 @@ use crate::constant_load::contact::Contact;
 use crate::constant_load::harmonic_force::{Workspace, workspace_size};
 use crate::constant_load::stiffness_table::{StiffnessTable, TABLE_LENGTH};
 use crate::element::{Directions, Element};
-use crate::fourier::workspace::{Size, TAGS, WorkspaceLayout};
+use crate::fourier::workspace::{Layout, Size, TAGS};
 use crate::law::ElementLaw;
 
 use crate::error::Error;
@@ -235,8 +235,8 @@ pub unsafe fn element_workspace_size(pointer: *const f64) -> Result<(Directions,
     let header = workspace_header(pointer)?;
     let read_as = |directions| {
         with_law!(directions, L => {
-            let layout = <L as ElementLaw>::Layout::read(&header)?;
-            Ok((directions, layout.size(), layout.length()))
+            let (size, length) = <L as ElementLaw>::Workspace::read(&header)?;
+            Ok((directions, size, length))
         })
     };
     read_as(Directions::One).or_else(|_: Error| read_as(Directions::Two))
@@ -249,7 +249,7 @@ pub unsafe fn element_workspace<'a, L: ElementLaw>(pointer: *mut f64) -> Result<
     if directions != L::DIRECTIONS {
         return Err(Error::BadDirections);
     }
-    L::workspace(output(pointer, extent)?.ok_or(Error::BadWorkspace)?)
+    L::Workspace::open(output(pointer, extent)?.ok_or(Error::BadWorkspace)?)
 }
 
 /// Evaluates an expression in which `$law` is the law for a number of directions.

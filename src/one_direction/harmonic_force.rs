@@ -24,7 +24,7 @@ use crate::fourier::folded::{FoldedFourier, continue_half_wave, sample_length};
 use crate::fourier::normalise;
 use crate::fourier::rows::{OuterProducts, Rows, row_blocks};
 use crate::fourier::sampled_jacobian::Assembly;
-use crate::fourier::workspace::{HEADER, Parts, Size, WorkspaceLayout};
+use crate::fourier::workspace::{Layout, Parts, Size};
 use crate::limits::check_coefficients;
 use crate::tag::Kind;
 use forces::Forces;
@@ -35,7 +35,7 @@ use samples::{Part, Samples};
 /// Number of doubles in a workspace for the given number of harmonics and of samples per period; 0 if these are not allowed.
 #[must_use]
 pub fn workspace_length(harmonics: usize, samples: usize) -> usize {
-    Layout::new(Size::new(harmonics, samples)).map_or(0, |layout| layout.length())
+    Workspace::length_or_zero(Size::new(harmonics, samples))
 }
 
 /// Initialises a workspace: tables for the given harmonics and samples, and scratch memory.
@@ -43,33 +43,7 @@ pub fn workspace_length(harmonics: usize, samples: usize) -> usize {
 /// # Errors
 /// `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24; `WorkspaceTooShort`.
 pub fn workspace_init(harmonics: usize, samples: usize, workspace: &mut [f64]) -> Result<(), Error> {
-    Layout::init(Size::new(harmonics, samples), workspace)
-}
-
-/// Size of a workspace.
-pub(crate) struct Layout(Size);
-
-impl WorkspaceLayout for Layout {
-    const KIND: Kind = Kind::ElementSampling;
-
-    fn of(size: Size) -> Layout {
-        Layout(size)
-    }
-
-    fn size(&self) -> Size {
-        self.0
-    }
-
-    fn length(&self) -> usize {
-        HEADER + Parts::count(|parts| Workspace::take(self.0, parts))
-    }
-
-    fn fill_tables(&self, parts: &mut Parts) -> Result<(), Error> {
-        let mut workspace = Workspace::take(self.0, parts)?;
-        workspace.fourier.fill();
-        workspace.sensitivity.rows.fill();
-        Ok(())
-    }
+    Workspace::init(Size::new(harmonics, samples), workspace)
 }
 
 /// An opened workspace.
@@ -90,8 +64,22 @@ impl<'a> Workspace<'a> {
     /// # Errors
     /// `BadWorkspace` if uninitialised or too short.
     pub fn new(memory: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
-        let (layout, mut parts) = Layout::open(memory)?;
-        Workspace::take(layout.0, &mut parts)
+        Workspace::open(memory)
+    }
+
+    /// 2H + 1.
+    #[must_use]
+    pub fn coefficients(&self) -> usize {
+        self.size.coefficients()
+    }
+}
+
+impl<'a> Layout<'a> for Workspace<'a> {
+    const KIND: Kind = Kind::ElementSampling;
+
+    fn fill(&mut self) {
+        self.fourier.fill();
+        self.sensitivity.rows.fill();
     }
 
     #[inline(always)]
@@ -131,12 +119,6 @@ impl<'a> Workspace<'a> {
         let assembly = Assembly::take(parts, harmonics, 1.0 / count as f64)?;
         let sensitivity = Sensitivity { rows, pieces, stored, places, outer, own };
         Ok(Workspace { size, fourier, samples, path, forces, sensitivity, assembly })
-    }
-
-    /// 2H + 1.
-    #[must_use]
-    pub fn coefficients(&self) -> usize {
-        self.size.coefficients()
     }
 }
 
