@@ -107,9 +107,7 @@ impl<L: ElementLaw> StepLaw for L {
 
     #[inline(always)]
     fn check_step(element: &Element, tag: f64, state_length: usize, displacement: &L::Vector) -> Result<(), Error> {
-        let is_short = state_length < L::STATE_LENGTH;
-        let checked = if is_short { Err(Error::StateTooShort) } else { L::check_tag(tag, state_length) };
-        checked.map_err(|error| L::state_error(error, tag))?;
+        L::check_state(tag, state_length)?;
         <L as ElementLaw>::check_step(element, displacement)
     }
 

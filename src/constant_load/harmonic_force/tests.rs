@@ -68,8 +68,8 @@ fn an_invalid_header_or_length_of_a_workspace_is_rejected() {
     }
     // Neither rule accepts a workspace of the other.
     let [mut one, mut two] = RULES.map(|rule| workspace(rule, 3, 16));
-    assert!(matches!(event_driven::Workspace::new(&mut one), Err(Error::BadWorkspace)));
-    assert!(matches!(uniform_sampling::Workspace::new(&mut two), Err(Error::BadWorkspace)));
+    assert!(matches!(event_driven::Workspace::open(&mut one), Err(Error::BadWorkspace)));
+    assert!(matches!(uniform_sampling::Workspace::open(&mut two), Err(Error::BadWorkspace)));
 }
 
 #[test]
