@@ -197,17 +197,6 @@ impl Step {
     }
 }
 
-/// Where the results of each step of a path go; `None` is not computed.
-#[derive(Debug)]
-pub struct PathOutput<'a> {
-    /// Force \[N\] after each step.
-    pub force: Option<&'a mut [f64]>,
-    /// Tangent stiffness \[N/m\].
-    pub stiffness: Option<&'a mut [f64]>,
-    /// Energy \[J\] dissipated by each step.
-    pub dissipated: Option<&'a mut [f64]>,
-}
-
 /// Checks the inputs of a path.
 ///
 /// # Errors
@@ -217,23 +206,19 @@ pub fn check_path(state: &[f64], path: &[f64]) -> Result<(), Error> {
     path.iter().try_for_each(|&displacement| check_displacement(displacement))
 }
 
+/// Force \[N\], tangent stiffness \[N/m\] and dissipated energy \[J\] of each step of a path; `None` is not computed.
+pub type PathOutput<'a> = [Option<&'a mut [f64]>; 3];
+
 /// Advances a state along a path of displacements \[m\], both checked.
 #[inline(never)]
 pub fn path(contact: &Contact, state: &mut [f64], path: &[f64], output: PathOutput) {
-    let PathOutput { mut force, mut stiffness, mut dissipated } = output;
-    let set = |output: &mut Option<&mut [f64]>, i: usize, value: f64| {
-        if let Some(place) = output.as_mut().and_then(|output| output.get_mut(i)) {
-            *place = value;
-        }
-    };
-    for (i, &displacement) in path.iter().enumerate() {
-        if dissipated.is_some() {
-            set(&mut dissipated, i, self::dissipated(contact, state, displacement));
-        }
+    let [mut forces, mut stiffnesses, mut energies] = output.map(|output| output.unwrap_or(&mut []).iter_mut());
+    for &displacement in path {
+        energies.next().into_iter().for_each(|energy| *energy = dissipated(contact, state, displacement));
         let step = step(contact, state, displacement);
         step.write(state);
-        set(&mut force, i, step.force());
-        set(&mut stiffness, i, step.stiffness());
+        forces.next().into_iter().for_each(|force| *force = step.force());
+        stiffnesses.next().into_iter().for_each(|stiffness| *stiffness = step.stiffness());
     }
 }
 
@@ -337,9 +322,8 @@ mod tests {
             for seed in 0..4 {
                 let path: Vec<f64> = pseudo_random(60, seed).map(|x| 1.1 * x * slip).collect();
                 let (mut discarded, mut kept) = (vec![0.0; 60], vec![0.0; 60]);
-                let output = |force| PathOutput { force: Some(force), stiffness: None, dissipated: None };
-                path_in_copy(&contact, &state, &path, output(&mut discarded));
-                super::path(&contact, &mut state, &path, output(&mut kept));
+                path_in_copy(&contact, &state, &path, [Some(&mut discarded[..]), None, None]);
+                super::path(&contact, &mut state, &path, [Some(&mut kept[..]), None, None]);
                 assert_eq!(discarded, kept);
             }
         }

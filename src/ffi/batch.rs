@@ -322,17 +322,15 @@ unsafe fn harmonic_forces<L: StepLaw, W>(
     check: impl Fn(&mut W, &L::Item, &[f64]) -> Result<(), Error>,
     compute: impl Fn(&L::Item, &mut W, &[f64], HarmonicOutput) -> Result<(), Error>,
 ) -> Result<(), Error> {
-    // The arrays of an element with another number of directions are shorter: no reference to them is created.
-    items.check::<L>(|_, _| Ok(()))?;
     let (all, square) = (items.n.checked_mul(one), items.n.checked_mul(one * one));
     let (all, square) = (all.ok_or(Error::BadArraySize)?, square.ok_or(Error::BadArraySize)?);
     let (force, jacobian, displacement) = (output(force, all)?, output(jacobian, square)?, input(displacement, all)?);
     let [dissipated, drift] = self::outputs([dissipated, drift], items.n)?;
     let mut outputs = Outputs { force, jacobian, dissipated, drift };
     let displacement_of = |i: usize| displacement.get(i * one..(i + 1) * one);
-    let active = || items.with(displacement_of);
-    active().try_for_each(|(_, law, displacement)| check(workspace, law, displacement))?;
-    active().try_for_each(|(i, law, displacement)| compute(law, workspace, displacement, outputs.of_item(i, one)))
+    items.check::<L>(|i, law| check(workspace, law, displacement_of(i).unwrap_or(&[])))?;
+    let mut active = items.with(displacement_of);
+    active.try_for_each(|(i, law, displacement)| compute(law, workspace, displacement, outputs.of_item(i, one)))
 }
 
 /// Outputs of a batch of harmonic forces.
@@ -504,6 +502,8 @@ pub unsafe extern "C" fn mslip_batch_element_harmonic_force(
         with_law!(directions, L => {
             let mut workspace = pointers::element_workspace::<L>(workspace)?;
             let one = L::COMPONENTS * size.coefficients();
+            // The arrays of an element with another number of directions are shorter: no reference to them is created.
+            items.check::<L>(|_, _| Ok(()))?;
             let (check, compute) = (L::check_motion, L::harmonic_force);
             harmonic_forces::<L, _>(items, &mut workspace, one, displacement, outputs, check, compute)
         })

@@ -127,7 +127,7 @@ fn gross_slip(element: &Element, path: &Path, direction: Option<f64>, fraction: 
 }
 
 /// The mean of N between two shifts S >= 0.
-#[inline(never)]
+#[inline(always)]
 fn mean_load(element: &Element, [from, to]: [f64; 2]) -> f64 {
     let width = to - from;
     if width == 0.0 {

@@ -324,7 +324,7 @@ impl Workspace<'_> {
                 }
                 fourier.sum(own, assembly.sums);
                 let symmetry = if motion.half_wave { Some(sign) } else { None };
-                assembly.set_products(&sensitivity.outer, index);
+                assembly.set_products(&sensitivity.outer.of(index));
                 assembly.write(symmetry, columns, 2 * coefficients);
             } else {
                 columns.fill(0.0);

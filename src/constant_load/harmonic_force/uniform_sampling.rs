@@ -97,7 +97,7 @@ pub(super) fn harmonic_force(
     if let Some(jacobian) = jacobian {
         terms.gather(path.branches.get(..branches).unwrap_or(&[]), path.stiffness);
         fourier.sum_from(farthest + 1, symmetry(1.0), path.stiffness, assembly.sums);
-        assembly.set_products(&terms.outer, 0);
+        assembly.set_products(&terms.outer.of(0));
         assembly.write(symmetry(1.0), jacobian, size.coefficients());
     }
 }

@@ -2,7 +2,7 @@
 
 use super::contact::check_positions;
 use crate::constant_load::contact::Contact;
-use crate::constant_load::masing::{self, PathOutput};
+use crate::constant_load::masing;
 use crate::constant_load::state;
 use crate::ffi::batch::update_one;
 use crate::ffi::mslip_contact;
@@ -88,10 +88,9 @@ pub unsafe extern "C" fn mslip_masing_path(
 ) -> i32 {
     call(|| {
         let (contact, path) = (pointers::contact(contact)?, input(displacement, n)?);
-        let [force, stiffness, dissipated] = outputs([force, stiffness, dissipated], n)?;
+        let output = outputs([force, stiffness, dissipated], n)?;
         check_alignment(state_new)?;
         let start = state_input(state_length, state_old)?;
-        let output = PathOutput { force, stiffness, dissipated };
         masing::check_path(start, path)?;
         if state_new.is_null() {
             masing::path_in_copy(contact, start, path, output);
