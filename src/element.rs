@@ -368,12 +368,7 @@ impl Element {
 
     /// N, U or S of the smallest size that is distinguished.
     fn smallest(&self, quantity: Quantity) -> f64 {
-        let [load, approach, shift] = self.smallest;
-        match quantity {
-            Quantity::Load => load,
-            Quantity::Approach => approach,
-            Quantity::Shift => shift,
-        }
+        self.smallest[quantity as usize]
     }
 
     /// The normal force at approaches \[m\] that [`Element::check_approach`] accepts; 0 for an approach <= 0, an open contact.

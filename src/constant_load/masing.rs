@@ -102,7 +102,7 @@ impl BranchEvaluator<'_> {
 
 /// A step from a state to a displacement: what it leads to, before anything is written.
 #[derive(Debug, Clone, Copy)]
-pub struct Step {
+pub struct StepRecord {
     /// Number of reversals on the stack after it.
     depth: usize,
     /// Whether the newest of them is the point at which it starts.
@@ -137,7 +137,7 @@ pub(crate) fn continued(contact: &Contact, state: &[f64], displacement: f64) -> 
 /// Finds the step of a contact from a state to a displacement \[m\], both checked.
 #[must_use]
 #[inline(always)]
-pub fn step(contact: &Contact, state: &[f64], displacement: f64) -> Step {
+pub fn step(contact: &Contact, state: &[f64], displacement: f64) -> StepRecord {
     let memory = state::memory(state);
     let Transition { branch, reversed } = memory.locate(contact, displacement, |_| {});
     let Response { force, stiffness } = branch.response(contact, displacement);
@@ -149,7 +149,7 @@ pub fn step(contact: &Contact, state: &[f64], displacement: f64) -> Step {
         [start.force, end.force] = [start.force, force].map(|force| (force + pair.shift).min(limit).max(-limit));
         merge = Some(pair);
     }
-    Step { depth: branch.depth, reversed, merge, initial, start, end, stiffness }
+    StepRecord { depth: branch.depth, reversed, merge, initial, start, end, stiffness }
 }
 
 /// The energy \[J\] that a step dissipates, not negative.
@@ -165,7 +165,7 @@ pub fn dissipated(contact: &Contact, state: &[f64], displacement: f64) -> f64 {
     energy.total()
 }
 
-impl Step {
+impl StepRecord {
     /// Tangential force \[N\] after the step.
     #[must_use]
     #[inline(always)]
@@ -265,7 +265,7 @@ mod tests {
 
     /// Compiled once for all tests: the function itself is inlined into every caller.
     #[inline(never)]
-    fn step(contact: &Contact, state: &[f64], displacement: f64) -> Step {
+    fn step(contact: &Contact, state: &[f64], displacement: f64) -> StepRecord {
         super::step(contact, state, displacement)
     }
 

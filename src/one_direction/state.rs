@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::numerics::fp_class::is_finite;
 use crate::one_direction::Step;
 use crate::one_direction::diagram::Polygon;
-use crate::one_direction::step::{Point, step};
+use crate::one_direction::step::{Header, step};
 use crate::tag::Kind;
 
 const HEADER: usize = 8;
@@ -68,15 +68,15 @@ pub fn force_error(state: &[f64]) -> f64 {
 
 const ERROR: usize = 7;
 
-impl Point {
+impl Header {
     #[inline(always)]
-    fn read(&[_, displacement, input, load, shift, load_slope, shift_slope, error]: &[f64; HEADER]) -> Point {
-        Point { displacement, input, normal: Normal { load, shift, load_slope, shift_slope }, error }
+    fn read(&[_, displacement, input, load, shift, load_slope, shift_slope, error]: &[f64; HEADER]) -> Header {
+        Header { displacement, input, normal: Normal { load, shift, load_slope, shift_slope }, error }
     }
 
     #[inline(always)]
     fn write(&self, used: usize, header: &mut [f64; HEADER]) {
-        let Point { displacement, input, normal: Normal { load, shift, load_slope, shift_slope }, error } = *self;
+        let Header { displacement, input, normal: Normal { load, shift, load_slope, shift_slope }, error } = *self;
         let tag = Kind::ElementState.tag(used);
         *header = [tag, displacement, input, load, shift, load_slope, shift_slope, error];
     }
@@ -91,7 +91,7 @@ pub(crate) struct View<'a> {
 
 pub(crate) fn view(state: &[f64]) -> View<'_> {
     let (header, knots) = parts(state);
-    let Point { displacement, normal, .. } = Point::read(header);
+    let Header { displacement, normal, .. } = Header::read(header);
     View { displacement, load: normal.load, knots }
 }
 
@@ -110,7 +110,7 @@ pub(crate) fn advance_checked(element: &Element, state: &mut [f64], displacement
     let Some((header, knots)) = state.split_first_chunk_mut::<HEADER>() else { return Step::NONE };
     let used = Kind::ElementState.count(header[0]).unwrap_or(0);
     let mut polygon = Polygon::new(element.friction_coefficient, knots, used);
-    let (step, mut to) = step(element, &Point::read(header), &mut polygon, displacement, with_energy);
+    let (step, mut to) = step(element, &Header::read(header), &mut polygon, displacement, with_energy);
     to.error = if polygon.anew { polygon.error } else { to.error + polygon.error };
     to.write(polygon.used, header);
     step
@@ -120,7 +120,7 @@ pub(crate) fn advance_checked(element: &Element, state: &mut [f64], displacement
 #[inline(always)]
 pub(crate) fn trial(element: &Element, state: &[f64], displacement: [f64; 2], with_energy: bool) -> Step {
     let (header, mut knots) = parts(state);
-    step(element, &Point::read(header), &mut knots, displacement, with_energy).0
+    step(element, &Header::read(header), &mut knots, displacement, with_energy).0
 }
 
 /// Copies what is in use of a state whose header was checked to one of the same length.
@@ -153,7 +153,7 @@ pub(crate) fn copy(element: &Element, from: &[f64], to: &mut [f64]) {
 pub fn state_check(state: &[f64]) -> Result<(), Error> {
     check_header(state)?;
     let (header, knots) = parts(state);
-    let Point { displacement, normal, error, .. } = Point::read(header);
+    let Header { displacement, normal, error, .. } = Header::read(header);
     let Normal { load, shift, load_slope, shift_slope } = normal;
     let finite =
         header.iter().all(|value| is_finite(*value)) && knots.as_flattened().iter().all(|value| is_finite(*value));

@@ -86,11 +86,7 @@ impl Layer {
 
     /// The compliance without load that enters U or S; 0 for N.
     fn unloaded(&self, quantity: Quantity) -> f64 {
-        match quantity {
-            Quantity::Load => 0.0,
-            Quantity::Approach => self.normal,
-            Quantity::Shift => self.tangential,
-        }
+        [0.0, self.normal, self.tangential][quantity as usize]
     }
 
     /// `ln(1 + N/N_c) N_c`: U2 and S2 over their compliance without load \[N\].

@@ -3,7 +3,7 @@
 use crate::constant_load::contact::Contact;
 use crate::error::Error;
 use crate::ffi::mslip_contact;
-use crate::ffi::pointers::{self, call, check_alignment, input, item, output, outputs, set, status};
+use crate::ffi::pointers::{self, call, check_alignment, input, item, not_null, output, outputs, set, status};
 use crate::limits::check_displacement;
 use crate::numerics::fp_class::is_finite;
 use crate::parameters::PARAMETERS;
@@ -64,9 +64,7 @@ unsafe fn initialise<P>(
 ) -> i32 {
     call(|| {
         let parameters = item(parameters)?;
-        if contact.is_null() {
-            return Err(Error::NullPointer);
-        }
+        not_null(contact)?;
         check_alignment(contact)?;
         contact.write(construct(parameters)?.into());
         Ok(())
