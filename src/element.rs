@@ -368,7 +368,7 @@ impl Element {
 
     /// N, U or S of the smallest size that is distinguished.
     fn smallest(&self, quantity: Quantity) -> f64 {
-        self.smallest[quantity as usize]
+        self.smallest.get(quantity as usize).copied().unwrap_or(0.0)
     }
 
     /// The normal force at approaches \[m\] that [`Element::check_approach`] accepts; 0 for an approach <= 0, an open contact.
@@ -380,7 +380,6 @@ impl Element {
     }
 
     /// The normal force at an approach \[m\] that [`Element::check_approach`] accepts; 0 for an approach <= 0, an open contact.
-    #[must_use]
     pub fn normal_force_at(&self, approach: f64) -> NormalPoint {
         let [point] = self.normal_forces(&[approach]);
         point
@@ -388,7 +387,6 @@ impl Element {
 
     /// The approach under a normal force \[N\] that [`Element::check_normal_force`] accepts. Its derivative at 0 is infinite for a
     /// cylinder or an ellipse.
-    #[must_use]
     #[inline(always)]
     pub fn approach_under(&self, normal_force: f64) -> NormalPoint {
         let table = (!self.by_approach()).then_some(&self.of_input);
@@ -419,7 +417,6 @@ impl Element {
     /// The displacement \[m\] that carries a tangential force \[N\] at a constant normal force \[N\], from the unloaded contact in x (0) or y
     /// direction (1), and the compliance \[m/N\] there; infinite at mu N if the stick zone shrinks to a point, without friction, and
     /// without a normal force.
-    #[must_use]
     pub fn displacement_under(&self, direction: usize, force: f64, normal_force: f64) -> NormalPoint {
         let (size, mu) = (force.abs(), self.friction_coefficient);
         let limit = mu * normal_force;
@@ -453,7 +450,6 @@ impl Element {
     }
 
     /// Half-width of the contact \[m\] (elliptical: the semi-axis x) under a normal force \[N\]; 0 if that is 0.
-    #[must_use]
     pub fn half_width_under(&self, normal_force: f64) -> f64 {
         let shape = self.shape();
         let load = normal_force.max(SMALLEST_LOAD * self.normal_force);
@@ -461,13 +457,11 @@ impl Element {
     }
 
     /// The tangential shift S \[m\] under a normal force \[N\]; 0 if that is 0.
-    #[must_use]
     pub fn shift_under(&self, load: f64) -> f64 {
         self.outside([Quantity::Shift, Quantity::Load], load).0
     }
 
     /// The normal force \[N\] at a tangential shift \[m\].
-    #[must_use]
     pub fn load_under(&self, shift: f64) -> f64 {
         self.load_at_shift(shift).0
     }
@@ -522,7 +516,6 @@ impl Element {
 
     /// Where a straight path between two inputs, of which one closes the contact, crosses zero load: the fraction of its length. With the
     /// normal force as input the contact opens or closes at the open end.
-    #[must_use]
     pub fn crossing(&self, from: f64, to: f64) -> f64 {
         if self.by_approach() {
             from / (from - to)

@@ -39,7 +39,6 @@ pub struct Layer {
 
 impl Layer {
     /// No layer.
-    #[must_use]
     pub const fn none() -> Layer {
         Layer { normal_compliance: 0.0, tangential_compliance: 0.0, stiffening_load: 0.0, reference_load: 0.0 }
     }

@@ -135,13 +135,11 @@ impl CurvePoint<'_> {
     }
 
     /// Tangential force T \[N\].
-    #[must_use]
     pub fn force(&self) -> f64 {
         self.force_and_stiffness().0
     }
 
     /// Tangential displacement \[m\]; in gross slip that at its onset.
-    #[must_use]
     pub fn displacement(&self) -> f64 {
         self.sign
             * match self.known_by {
@@ -152,20 +150,17 @@ impl CurvePoint<'_> {
     }
 
     /// dT/d(displacement) \[N/m\]; 0 in gross slip.
-    #[must_use]
     pub fn stiffness(&self) -> f64 {
         self.force_and_stiffness().1
     }
 
     /// [`force`](CurvePoint::force) and [`stiffness`](CurvePoint::stiffness).
-    #[must_use]
     pub fn force_and_stiffness(&self) -> (f64, f64) {
         let Response { force, stiffness } = self.response();
         (self.sign * force, stiffness)
     }
 
     /// d(displacement)/dT \[m/N\]; infinite in gross slip, without friction, and at mu N if the stick zone shrinks to a point.
-    #[must_use]
     pub fn compliance(&self) -> f64 {
         let unit = self.contact.stiffness_scale.max(f64::MIN_POSITIVE);
         self.stick_zone().map_or(f64::INFINITY, |zone| self.contact.stick_zones().compliance(&zone) / unit)
@@ -173,7 +168,6 @@ impl CurvePoint<'_> {
 
     /// Half-width c of the stick zone \[m\]. At the onset of gross slip, a force of mu N or a displacement of `slip_displacement`, it
     /// is the half-width a of the flat (0 for a cylinder and an ellipse); beyond that displacement it is 0.
-    #[must_use]
     pub fn stick_half_width(&self) -> f64 {
         self.stick_zone().map_or(0.0, |zone| self.contact.half_width * self.contact.stick_zones().size(&zone))
     }

@@ -12,7 +12,6 @@ impl CurvePoint<'_> {
     }
 
     /// Shear traction \[Pa\] at x \[m\] (Eq. 21).
-    #[must_use]
     pub fn shear(&self, x: f64) -> f64 {
         if self.contact.is_frictionless() {
             return 0.0;
@@ -50,7 +49,6 @@ impl CurvePoint<'_> {
 
 impl Contact {
     /// Normal pressure \[Pa\] at x \[m\] (Eq. 17); 0 outside the contact.
-    #[must_use]
     pub fn pressure(&self, x: f64) -> f64 {
         if self.half_width > 0.0 {
             self.pressure_scale * self.stick_zones().pressure(&self.surface_point(x))

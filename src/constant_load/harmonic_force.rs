@@ -42,7 +42,6 @@ pub enum Rule {
 impl Rule {
     /// Number of doubles in a workspace for the given number of harmonics and of samples, or nodes, per period; 0 if these are not
     /// allowed.
-    #[must_use]
     pub fn workspace_length(self, harmonics: usize, samples: usize) -> usize {
         let size = Size::new(harmonics, samples);
         match self {
@@ -103,7 +102,6 @@ impl<'a> Workspace<'a> {
     }
 
     /// 2H + 1.
-    #[must_use]
     pub fn coefficients(&self) -> usize {
         match &self.0 {
             ByRule::UniformSampling(workspace) => workspace.coefficients(),

@@ -135,7 +135,6 @@ pub(crate) fn continued(contact: &Contact, state: &[f64], displacement: f64) -> 
 }
 
 /// Finds the step of a contact from a state to a displacement \[m\], both checked.
-#[must_use]
 #[inline(always)]
 pub fn step(contact: &Contact, state: &[f64], displacement: f64) -> StepRecord {
     let memory = state::memory(state);
@@ -153,7 +152,6 @@ pub fn step(contact: &Contact, state: &[f64], displacement: f64) -> StepRecord {
 }
 
 /// The energy \[J\] that a step dissipates, not negative.
-#[must_use]
 #[inline(never)]
 pub fn dissipated(contact: &Contact, state: &[f64], displacement: f64) -> f64 {
     let memory = state::memory(state);
@@ -167,14 +165,12 @@ pub fn dissipated(contact: &Contact, state: &[f64], displacement: f64) -> f64 {
 
 impl StepRecord {
     /// Tangential force \[N\] after the step.
-    #[must_use]
     #[inline(always)]
     pub fn force(&self) -> f64 {
         self.end.force
     }
 
     /// dT/d(displacement) \[N/m\] on the branch on which the step ends; 0 in gross slip.
-    #[must_use]
     #[inline(always)]
     pub fn stiffness(&self) -> f64 {
         self.stiffness

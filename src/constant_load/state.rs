@@ -21,7 +21,6 @@ const PER_REVERSAL: usize = 3;
 const MIN_REVERSALS: usize = 2;
 
 /// Number of doubles in a state that holds `reversals` nested reversals exactly; fewer than 2 count as 2.
-#[must_use]
 pub const fn state_length(reversals: usize) -> usize {
     let reversals = if reversals < MIN_REVERSALS { MIN_REVERSALS } else { reversals };
     reversals.saturating_mul(PER_REVERSAL).saturating_add(HEADER)

@@ -33,7 +33,6 @@ use runs::PeriodicPath;
 use samples::{Part, Samples};
 
 /// Number of doubles in a workspace for the given number of harmonics and of samples per period; 0 if these are not allowed.
-#[must_use]
 pub fn workspace_length(harmonics: usize, samples: usize) -> usize {
     Workspace::length_or_zero(Size::new(harmonics, samples))
 }
@@ -68,7 +67,6 @@ impl<'a> Workspace<'a> {
     }
 
     /// 2H + 1.
-    #[must_use]
     pub fn coefficients(&self) -> usize {
         self.size.coefficients()
     }

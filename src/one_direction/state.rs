@@ -19,7 +19,6 @@ const PER_KNOT: usize = 4;
 const MIN_PIECES: usize = 4;
 
 /// Number of doubles in a state that holds `pieces` pieces of the diagram exactly; fewer than 4 count as 4.
-#[must_use]
 pub const fn state_length(pieces: usize) -> usize {
     let pieces = if pieces < MIN_PIECES { MIN_PIECES } else { pieces };
     // One knot more than pieces.
@@ -61,7 +60,6 @@ pub(crate) fn check_tag(tag: f64, state_length: usize) -> Result<(), Error> {
 }
 
 /// A bound on the error of the force \[N\] from merging pieces; 0 while nothing was merged.
-#[must_use]
 pub fn force_error(state: &[f64]) -> f64 {
     state.get(ERROR).copied().unwrap_or(0.0)
 }

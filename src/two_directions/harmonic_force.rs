@@ -29,7 +29,6 @@ use crate::tag::Kind;
 pub use crate::fourier::HarmonicOutput;
 
 /// Number of doubles in a workspace for the given number of harmonics and of samples per period; 0 if these are not allowed.
-#[must_use]
 pub fn workspace_length(harmonics: usize, samples: usize) -> usize {
     Workspace::length_or_zero(Size::new(harmonics, samples))
 }
@@ -115,7 +114,6 @@ impl<'a> Workspace<'a> {
     }
 
     /// 2H + 1.
-    #[must_use]
     pub fn coefficients(&self) -> usize {
         self.size.coefficients()
     }

@@ -40,7 +40,6 @@ const STATE_ROWS: usize = HEADER_ROWS + EDGE_ROWS + INVERSE_ROWS + SPRINGS / N +
 pub(super) const LENGTH: usize = N * STATE_ROWS;
 
 /// Number of doubles in a state.
-#[must_use]
 pub const fn state_length() -> usize {
     LENGTH
 }
