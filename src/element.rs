@@ -129,18 +129,14 @@ impl Normal {
 
 impl Element {
     /// The element of a flat with rounded edges, or of a cylinder.
-    ///
-    /// # Errors
-    /// The error of the first parameter that is not allowed; `BadNormalForce` also for 0; otherwise as for a contact.
+    /// Errors: the error of the first parameter that is not allowed; `BadNormalForce` also for 0; otherwise as for a contact.
     pub fn rounded_flat(parameters: &Parameters, directions: Directions, input: NormalInput) -> Result<Element, Error> {
         let mut element = Element::default();
         element.init_rounded_flat(parameters, directions, input).map(|()| element)
     }
 
     /// The element of an elliptical Hertz contact; a sphere if both semi-axes are equal.
-    ///
-    /// # Errors
-    /// The error of the first parameter that is not allowed; `BadNormalForce` also for 0; otherwise as for a contact.
+    /// Errors: the error of the first parameter that is not allowed; `BadNormalForce` also for 0; otherwise as for a contact.
     pub fn elliptic(
         parameters: &EllipticParameters,
         directions: Directions,
@@ -394,17 +390,14 @@ impl Element {
         NormalPoint { value, slope }
     }
 
-    /// # Errors
-    /// `BadDirections` unless the element has this tangential direction, 0 or 1.
+    /// Errors: `BadDirections` unless the element has this tangential direction, 0 or 1.
     pub fn check_direction(&self, direction: usize) -> Result<(), Error> {
         if direction < self.tangential_directions() as usize { Ok(()) } else { Err(Error::BadDirections) }
     }
 
     /// Checks a static force at a constant normal force.
-    ///
-    /// # Errors
-    /// Those of [`Element::check_normal_force`]; `BadForce` if the force is not finite, `ForceExceedsSlip` if it exceeds mu N by more than
-    /// rounding.
+    /// Errors: those of [`Element::check_normal_force`]; `BadForce` if the force is not finite, `ForceExceedsSlip` if it exceeds mu
+    /// N by more than rounding.
     pub fn check_static(&self, force: f64, normal_force: f64) -> Result<(), Error> {
         self.check_normal_force(normal_force)?;
         if !is_finite(force) {
@@ -485,10 +478,8 @@ impl Element {
     }
 
     /// Checks a normal approach.
-    ///
-    /// # Errors
-    /// `BadDisplacement` unless it is finite and at most 1e150 in magnitude; `LengthTooShort` if the contact would become too wide for
-    /// its length.
+    /// Errors: `BadDisplacement` unless it is finite and at most 1e150 in magnitude; `LengthTooShort` if the contact would become
+    /// too wide for its length.
     #[inline(always)]
     pub fn check_approach(&self, approach: f64) -> Result<(), Error> {
         check_displacement(approach)?;
@@ -496,10 +487,8 @@ impl Element {
     }
 
     /// Checks a normal force.
-    ///
-    /// # Errors
-    /// `BadNormalForce` unless it is finite, not negative, and at most 1e150; `LengthTooShort` if the contact would become too wide for
-    /// its length.
+    /// Errors: `BadNormalForce` unless it is finite, not negative, and at most 1e150; `LengthTooShort` if the contact would become
+    /// too wide for its length.
     #[inline(always)]
     pub fn check_normal_force(&self, normal_force: f64) -> Result<(), Error> {
         if !in_0_to(MAX_DISPLACEMENT, normal_force) {

@@ -102,9 +102,7 @@ impl ElementLaw for OneDirection {
 }
 
 /// A step in place.
-///
-/// # Errors
-/// `StateTooShort`, `BadState`, `BadDisplacement`, `BadNormalForce` or `LengthTooShort`.
+/// Errors: `StateTooShort`, `BadState`, `BadDisplacement`, `BadNormalForce` or `LengthTooShort`.
 pub fn advance(element: &Element, state: &mut [f64], displacement: [f64; 2], with_energy: bool) -> Result<Step, Error> {
     state::check_header(state)?;
     OneDirection::check_step(element, &displacement)?;

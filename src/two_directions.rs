@@ -109,9 +109,7 @@ impl ElementLaw for TwoDirections {
 }
 
 /// A step in place.
-///
-/// # Errors
-/// `StateTooShort`, `BadState`, `BadDisplacement`, `BadNormalForce` or `LengthTooShort`.
+/// Errors: `StateTooShort`, `BadState`, `BadDisplacement`, `BadNormalForce` or `LengthTooShort`.
 pub fn advance(element: &Element, state: &mut [f64], displacement: [f64; 3]) -> Result<Step, Error> {
     state::check_header(state)?;
     TwoDirections::check_step(element, &displacement)?;

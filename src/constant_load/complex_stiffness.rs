@@ -124,9 +124,7 @@ impl Contact {
     }
 
     /// The complex stiffness at a displacement amplitude \[m\]; at 0 it is the initial stiffness.
-    ///
-    /// # Errors
-    /// `BadAmplitude` if the amplitude is not finite, negative, or beyond 1e150.
+    /// Errors: `BadAmplitude` if the amplitude is not finite, negative, or beyond 1e150.
     pub fn complex_stiffness(&self, amplitude: f64) -> Result<ComplexStiffness, Error> {
         check_amplitude(amplitude)?;
         let ((real, d_real), (imaginary, d_imag)) =

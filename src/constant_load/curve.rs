@@ -33,10 +33,8 @@ enum KnownBy {
 
 impl Contact {
     /// The point of the monotonic curve at a tangential force \[N\].
-    ///
-    /// # Errors
-    /// `BadForce` if the force is not finite, `ForceExceedsSlip` if it exceeds mu N (an excess of a few units of rounding is
-    /// treated as mu N).
+    /// Errors: `BadForce` if the force is not finite, `ForceExceedsSlip` if it exceeds mu N (an excess of a few units of rounding
+    /// is treated as mu N).
     pub fn curve_at_force(&self, force: f64) -> Result<CurvePoint<'_>, Error> {
         self.check_force(force)?;
         let known_by = if self.is_frictionless() {
@@ -58,9 +56,7 @@ impl Contact {
     }
 
     /// The point of the monotonic curve at a tangential displacement \[m\]; beyond `slip_displacement` the contact is in gross slip.
-    ///
-    /// # Errors
-    /// `BadDisplacement` if the displacement is not finite, or beyond 1e150.
+    /// Errors: `BadDisplacement` if the displacement is not finite, or beyond 1e150.
     pub fn curve_at_displacement(&self, displacement: f64) -> Result<CurvePoint<'_>, Error> {
         check_displacement(displacement)?;
         let gross_slip = self.is_frictionless() || displacement.abs() > self.slip_displacement;

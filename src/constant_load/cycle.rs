@@ -7,9 +7,7 @@ use crate::shape::stick_zone::{Complement, StickZone};
 
 impl Contact {
     /// Energy \[J\] dissipated per cycle between ± a force amplitude \[N\], at most mu N (Eq. 13-16).
-    ///
-    /// # Errors
-    /// `BadForceAmplitude` if the amplitude is not finite or negative, `ForceExceedsSlip` if it exceeds mu N.
+    /// Errors: `BadForceAmplitude` if the amplitude is not finite or negative, `ForceExceedsSlip` if it exceeds mu N.
     pub fn dissipated_energy(&self, force_amplitude: f64) -> Result<f64, Error> {
         self.check_force_amplitude(force_amplitude)?;
         let point = self.curve_at_force(force_amplitude)?;

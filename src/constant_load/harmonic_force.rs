@@ -51,9 +51,8 @@ impl Rule {
     }
 
     /// Initialises a workspace: tables for the given harmonics and samples, and scratch memory.
-    ///
-    /// # Errors
-    /// `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24; `WorkspaceTooShort`.
+    /// Errors: `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24;
+    /// `WorkspaceTooShort`.
     pub fn workspace_init(self, harmonics: usize, samples: usize, workspace: &mut [f64]) -> Result<(), Error> {
         match self {
             Rule::UniformSampling => uniform_sampling::Workspace::init(Size::new(harmonics, samples), workspace),
@@ -91,9 +90,7 @@ enum ByRule<'a> {
 
 impl<'a> Workspace<'a> {
     /// Opens an initialised workspace.
-    ///
-    /// # Errors
-    /// `BadWorkspace` if uninitialised or too short.
+    /// Errors: `BadWorkspace` if uninitialised or too short.
     pub fn new(memory: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
         Ok(Workspace(match Rule::of_workspace(memory.first_chunk().ok_or(Error::BadWorkspace)?) {
             Rule::UniformSampling => ByRule::UniformSampling(uniform_sampling::Workspace::open(memory)?),
@@ -111,9 +108,8 @@ impl<'a> Workspace<'a> {
 }
 
 /// Harmonic force of a periodic displacement given by its 2H + 1 coefficients \[m\], by the rule of the workspace.
-///
-/// # Errors
-/// `BadDisplacement` if a coefficient is not finite or exceeds 1e150; `BadArraySize` if a length does not agree with the workspace.
+/// Errors: `BadDisplacement` if a coefficient is not finite or exceeds 1e150; `BadArraySize` if a length does not agree with the
+/// workspace.
 pub fn harmonic_force(
     contact: &Contact,
     workspace: &mut Workspace,
@@ -150,9 +146,8 @@ pub fn harmonic_force(
 ///
 /// With uniform sampling they are the exact derivatives of the discrete force; event-driven, the rule applied to the exact derivatives
 /// of the integrals. Without friction or without normal force they are one-sided.
-///
-/// # Errors
-/// `BadDisplacement` if a coefficient is not finite or exceeds 1e150; `BadArraySize` if a length does not agree with the workspace.
+/// Errors: `BadDisplacement` if a coefficient is not finite or exceeds 1e150; `BadArraySize` if a length does not agree with the
+/// workspace.
 pub fn harmonic_sensitivity(
     contact: &Contact,
     workspace: &mut Workspace,

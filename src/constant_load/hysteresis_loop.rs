@@ -16,9 +16,7 @@ pub struct HysteresisLoop<'a> {
 
 impl Contact {
     /// The closed loop between ± a displacement amplitude \[m\].
-    ///
-    /// # Errors
-    /// `BadAmplitude` if the amplitude is not finite, negative, or beyond 1e150.
+    /// Errors: `BadAmplitude` if the amplitude is not finite, negative, or beyond 1e150.
     pub fn hysteresis_loop(&self, amplitude: f64) -> Result<HysteresisLoop<'_>, Error> {
         check_amplitude(amplitude)?;
         let top = if self.is_frictionless() { 0.0 } else { self.response(amplitude).force };

@@ -116,9 +116,7 @@ pub struct StepRecord {
 }
 
 /// Checks the inputs of a step.
-///
-/// # Errors
-/// `BadState`, `StateTooShort`, `BadDisplacement`.
+/// Errors: `BadState`, `StateTooShort`, `BadDisplacement`.
 #[inline(always)]
 pub fn check_step(state: &[f64], displacement: f64) -> Result<(), Error> {
     state::check_header(state)?;
@@ -194,9 +192,7 @@ impl StepRecord {
 }
 
 /// Checks the inputs of a path.
-///
-/// # Errors
-/// `BadState`, `StateTooShort`, `BadDisplacement`.
+/// Errors: `BadState`, `StateTooShort`, `BadDisplacement`.
 pub fn check_path(state: &[f64], path: &[f64]) -> Result<(), Error> {
     state::check_header(state)?;
     path.iter().try_for_each(|&displacement| check_displacement(displacement))
@@ -233,9 +229,7 @@ pub fn path_in_copy(contact: &Contact, state: &[f64], displacement: &[f64], outp
 
 /// Shear traction \[Pa\] at x \[m\] after any history: the traction of the initial loading, and twice that of half of each
 /// reversal's change of force (Eq. 21 with Masing's rule).
-///
-/// # Errors
-/// `BadState`, `StateTooShort`; `ForceExceedsSlip` for a state of another contact. Nothing is written then.
+/// Errors: `BadState`, `StateTooShort`; `ForceExceedsSlip` for a state of another contact. Nothing is written then.
 pub fn shear_tractions(contact: &Contact, state: &[f64], x: &[f64], shear: &mut [f64]) -> Result<(), Error> {
     let memory = state::read(state)?;
     let forces = || memory.reversals.iter().map(|[_, force, _]| *force).chain([memory.now.force]);

@@ -38,9 +38,7 @@ pub fn workspace_length(harmonics: usize, samples: usize) -> usize {
 }
 
 /// Initialises a workspace: tables for the given harmonics and samples, and scratch memory.
-///
-/// # Errors
-/// `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24; `WorkspaceTooShort`.
+/// Errors: `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24; `WorkspaceTooShort`.
 pub fn workspace_init(harmonics: usize, samples: usize, workspace: &mut [f64]) -> Result<(), Error> {
     Workspace::init(Size::new(harmonics, samples), workspace)
 }
@@ -59,9 +57,7 @@ pub struct Workspace<'a> {
 
 impl<'a> Workspace<'a> {
     /// Opens an initialised workspace.
-    ///
-    /// # Errors
-    /// `BadWorkspace` if uninitialised or too short.
+    /// Errors: `BadWorkspace` if uninitialised or too short.
     pub fn new(memory: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
         Workspace::open(memory)
     }
@@ -140,11 +136,9 @@ const NORMAL_FORCE_ROUNDING: f64 = 8.0 * f64::EPSILON;
 ///
 /// The force has 2 (2H + 1) coefficients \[N\], T then N. The Jacobian has (2 (2H + 1))² entries, column by column: their derivatives
 /// with respect to the coefficients of the motion. It is the exact derivative of the discrete force, one-sided at corners.
-///
-/// # Errors
-/// `BadArraySize` if a length does not agree with the workspace; `BadDisplacement` if a coefficient is not finite or exceeds 1e150;
-/// `BadNormalForce` if a sample of the normal force is negative by more than rounding; `LengthTooShort` if the contact would become too
-/// wide for its length.
+/// Errors: `BadArraySize` if a length does not agree with the workspace; `BadDisplacement` if a coefficient is not finite or
+/// exceeds 1e150; `BadNormalForce` if a sample of the normal force is negative by more than rounding; `LengthTooShort` if the
+/// contact would become too wide for its length.
 pub fn harmonic_force(
     element: &Element,
     workspace: &mut Workspace,

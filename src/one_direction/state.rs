@@ -26,9 +26,7 @@ pub const fn state_length(pieces: usize) -> usize {
 }
 
 /// Initialises a state: open, at displacement 0 and normal component 0.
-///
-/// # Errors
-/// `StateTooShort` for fewer than [`state_length`]`(0)` doubles.
+/// Errors: `StateTooShort` for fewer than [`state_length`]`(0)` doubles.
 pub fn state_init(state: &mut [f64]) -> Result<(), Error> {
     if state.len() < state_length(0) {
         return Err(Error::StateTooShort);
@@ -145,9 +143,7 @@ pub(crate) fn copy(element: &Element, from: &[f64], to: &mut [f64]) {
 
 /// Validates a state in full: finite values, a monotone polygon from the centre to the present point. For states from outside the
 /// process.
-///
-/// # Errors
-/// `StateTooShort`; `BadState` for an array that was not initialised, or whose values no history leads to.
+/// Errors: `StateTooShort`; `BadState` for an array that was not initialised, or whose values no history leads to.
 pub fn state_check(state: &[f64]) -> Result<(), Error> {
     check_header(state)?;
     let (header, knots) = parts(state);

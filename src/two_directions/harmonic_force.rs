@@ -35,10 +35,8 @@ pub fn workspace_length(harmonics: usize, samples: usize) -> usize {
 
 /// Initialises a workspace: tables for the given harmonics and samples, the number of periods before the one that counts (0: the
 /// default, 3), and scratch memory.
-///
-/// # Errors
-/// `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24, `BadPeriods` for more than 65536;
-/// `WorkspaceTooShort`.
+/// Errors: `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24, `BadPeriods` for more
+/// than 65536; `WorkspaceTooShort`.
 pub fn workspace_init(harmonics: usize, samples: usize, periods: usize, workspace: &mut [f64]) -> Result<(), Error> {
     Workspace::init(Size::new(harmonics, samples).with_periods(periods), workspace)
 }
@@ -106,9 +104,7 @@ impl<'a> Layout<'a> for Workspace<'a> {
 
 impl<'a> Workspace<'a> {
     /// Opens an initialised workspace.
-    ///
-    /// # Errors
-    /// `BadWorkspace` if uninitialised or too short.
+    /// Errors: `BadWorkspace` if uninitialised or too short.
     pub fn new(memory: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
         Workspace::open(memory)
     }
@@ -119,9 +115,7 @@ impl<'a> Workspace<'a> {
     }
 
     /// Checks a motion: all of a batch are checked before the first output is written.
-    ///
-    /// # Errors
-    /// Those of [`harmonic_force`].
+    /// Errors: those of [`harmonic_force`].
     pub(crate) fn check(&mut self, element: &Element, displacement: &[f64]) -> Result<(), Error> {
         check_coefficients(displacement)?;
         let input = displacement.get(2 * self.coefficients()..).unwrap_or(&[]);
@@ -166,11 +160,9 @@ impl<'a> Workspace<'a> {
 /// The force has 3 (2H + 1) coefficients \[N\], Tx, Ty, N. The Jacobian has (3 (2H + 1))² entries, column by column: their derivatives
 /// with respect to the coefficients of the motion. The drift is the largest difference of the tangential force between the period that
 /// counts and the one before, over μ times the largest normal force; 0 if the contact opens.
-///
-/// # Errors
-/// `BadArraySize` if a length does not agree with the workspace; `BadDisplacement` if a coefficient is not finite or exceeds 1e150;
-/// `BadNormalForce` if a sample of the normal force is negative by more than rounding; `LengthTooShort` if the contact would become
-/// too wide for its length.
+/// Errors: `BadArraySize` if a length does not agree with the workspace; `BadDisplacement` if a coefficient is not finite or
+/// exceeds 1e150; `BadNormalForce` if a sample of the normal force is negative by more than rounding; `LengthTooShort` if the
+/// contact would become too wide for its length.
 pub fn harmonic_force(
     element: &Element,
     workspace: &mut Workspace,
