@@ -257,7 +257,7 @@ impl Contact {
     /// The weights of F in gross slip; 0 without an interpolant, or if Λ is so small that the rule does not converge.
     #[inline(never)]
     pub(crate) fn weights_of_curve(&self) -> Rows<BLOCKS_IN_SLIP> {
-        if self.has_no_interpolant() || self.relative_distance_of_zero_compliance() < 0.375 {
+        if !self.interpolant().is_converged() || self.relative_distance_of_zero_compliance() < 0.375 {
             return Rows::default();
         }
         RULE_IN_SLIP.map(|[rho, x, weights]| {

@@ -191,13 +191,6 @@ impl StepRecord {
     }
 }
 
-/// Checks the inputs of a path.
-/// Errors: `BadState`, `StateTooShort`, `BadDisplacement`.
-pub fn check_path(state: &[f64], path: &[f64]) -> Result<(), Error> {
-    state::check_header(state)?;
-    path.iter().try_for_each(|&displacement| check_displacement(displacement))
-}
-
 /// Force \[N\], tangent stiffness \[N/m\] and dissipated energy \[J\] of each step of a path; `None` is not computed.
 pub type PathOutput<'a> = [Option<&'a mut [f64]>; 3];
 

@@ -409,10 +409,6 @@ impl StickZones for LayeredZones {
         self.contact().size(&self.in_contact(zone))
     }
 
-    fn size_parameter(&self, zone: &StickZone) -> f64 {
-        self.contact().size_parameter(&self.in_contact(zone))
-    }
-
     fn pressure(&self, point: &SurfacePoint) -> f64 {
         self.contact().pressure(point)
     }

@@ -286,8 +286,9 @@ impl<'m, 'c, 's> Period<'m, 'c, 's> {
             }
             let t = if to.displacement == end { to.t } else { self.motion.crossing(at, from, to, end) };
             let event = Instant { t, displacement: end };
-            self.integrate_segment(buffers, at, event, self.law.ends_in_gross_slip());
-            self.law.pass_end();
+            let next = self.law.continuation();
+            self.integrate_segment(buffers, at, event, next.gross_slip);
+            self.law.enter(next);
             at = event;
         }
         self.now = self.law.response(to.displacement);

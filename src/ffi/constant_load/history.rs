@@ -9,6 +9,7 @@ use crate::ffi::mslip_contact;
 use crate::ffi::pointers::{
     self, call, check_alignment, input, memory, new_state, output, outputs, set, state_input, status,
 };
+use crate::limits::check_displacement;
 use libc::size_t;
 
 /// Number of doubles in a state with a capacity of `reversals` nested reversals, at least 2. A state is never full: if the capacity
@@ -91,7 +92,8 @@ pub unsafe extern "C" fn mslip_masing_path(
         let output = outputs([force, stiffness, dissipated], n)?;
         check_alignment(state_new)?;
         let start = state_input(state_length, state_old)?;
-        masing::check_path(start, path)?;
+        state::check_header(start)?;
+        path.iter().try_for_each(|&displacement| check_displacement(displacement))?;
         if state_new.is_null() {
             masing::path_in_copy(contact, start, path, output);
             return Ok(());
