@@ -14,6 +14,7 @@ use crate::constant_load::memory::Point;
 use crate::constant_load::state;
 use crate::element::{Directions, Element};
 use crate::error::Error;
+use crate::fourier::workspace::Layout;
 use crate::law::{ElementLaw, Requested};
 use crate::limits::{check_coefficients, check_displacement};
 use core::{ptr, slice};
@@ -498,9 +499,9 @@ pub unsafe extern "C" fn mslip_batch_element_harmonic_force(
     call(|| {
         let items = Items::new(n, n_elements, elements.cast::<Element>(), index, active)?;
         let outputs = [force, jacobian, dissipated, drift];
-        let (directions, size, _) = pointers::element_workspace_size(workspace)?;
+        let (directions, size, extent) = pointers::element_workspace_size(workspace)?;
         with_law!(directions, L => {
-            let mut workspace = pointers::element_workspace::<L>(workspace)?;
+            let mut workspace = <L as ElementLaw>::Workspace::open(output(workspace, extent)?.ok_or(Error::BadWorkspace)?)?;
             let one = L::COMPONENTS * size.coefficients();
             // The arrays of an element with another number of directions are shorter: no reference to them is created.
             items.check::<L>(|_, _| Ok(()))?;

@@ -252,16 +252,6 @@ pub unsafe fn element_workspace_size(pointer: *const f64) -> Result<(Directions,
     read_as(Directions::One).or_else(|_: Error| read_as(Directions::Two))
 }
 
-/// An initialised workspace of elements with the number of directions of a law.
-#[inline(never)]
-pub unsafe fn element_workspace<'a, L: ElementLaw>(pointer: *mut f64) -> Result<L::Workspace<'a>, Error> {
-    let (directions, _, extent) = element_workspace_size(pointer)?;
-    if directions != L::DIRECTIONS {
-        return Err(Error::BadDirections);
-    }
-    L::Workspace::open(output(pointer, extent)?.ok_or(Error::BadWorkspace)?)
-}
-
 /// Evaluates an expression in which `$law` is the law for a number of directions.
 macro_rules! with_law {
     ($directions:expr, $law:ident => $result:expr) => {
