@@ -101,7 +101,7 @@ fn parts(state: &[f64]) -> (&[f64; HEADER], &[[f64; PER_KNOT]]) {
 }
 
 /// A step in place, with a state and a displacement that were checked.
-#[inline(always)]
+#[inline(never)]
 pub(crate) fn advance_checked(element: &Element, state: &mut [f64], displacement: [f64; 2], with_energy: bool) -> Step {
     let Some((header, knots)) = state.split_first_chunk_mut::<HEADER>() else { return Step::NONE };
     let used = Kind::ElementState.count(header[0]).unwrap_or(0);
