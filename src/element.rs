@@ -4,8 +4,8 @@
 mod table;
 
 use crate::error::Error;
-use crate::limits::{MAX_DISPLACEMENT, check_displacement, in_range};
-use crate::numerics::fp_class::{in_0_to, is_finite, le};
+use crate::limits::{MAX_DISPLACEMENT, check_displacement, check_force, in_range};
+use crate::numerics::fp_class::{in_0_to, le};
 use crate::numerics::quadrature::gauss_nodes;
 use crate::parameters::{Common, EllipticParameters, Parameters};
 use crate::shape::{HertzEllipse, Layer, Layered, Plane, Quantity, RoundedFlat, Shape, TINY};
@@ -374,11 +374,7 @@ impl Element {
     /// N by more than rounding.
     pub fn check_static(&self, force: f64, normal_force: f64) -> Result<(), Error> {
         self.check_normal_force(normal_force)?;
-        if !is_finite(force) {
-            return Err(Error::BadForce);
-        }
-        let limit = self.friction_coefficient * normal_force;
-        if force.abs() > limit * (1.0 + 8.0 * f64::EPSILON) { Err(Error::ForceExceedsSlip) } else { Ok(()) }
+        check_force(force, self.friction_coefficient * normal_force)
     }
 
     /// The displacement \[m\] that carries a tangential force \[N\] at a constant normal force \[N\], from the unloaded contact in x (0) or y

@@ -5,12 +5,9 @@
 use crate::constant_load::contact::Contact;
 use crate::constant_load::evaluator::{Response, sign_of};
 use crate::error::Error;
-use crate::limits::check_displacement;
-use crate::numerics::fp_class::{abs_le, is_finite, le};
+use crate::limits::{check_displacement, check_force};
+use crate::numerics::fp_class::le;
 use crate::shape::stick_zone::{Complement, StickZone};
-
-/// Relative amount by which a force may exceed mu N through rounding.
-const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// A point of the monotonic curve. Quantities are evaluated on demand.
 #[derive(Debug, Clone, Copy)]
@@ -46,13 +43,7 @@ impl Contact {
     }
 
     pub(crate) fn check_force(&self, force: f64) -> Result<(), Error> {
-        if abs_le(force, self.slip_force * (1.0 + ROUNDING)) {
-            Ok(())
-        } else if is_finite(force) {
-            Err(Error::ForceExceedsSlip)
-        } else {
-            Err(Error::BadForce)
-        }
+        check_force(force, self.slip_force)
     }
 
     /// The point of the monotonic curve at a tangential displacement \[m\]; beyond `slip_displacement` the contact is in gross slip.

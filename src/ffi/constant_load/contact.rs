@@ -1,11 +1,9 @@
 //! One contact: initialisation, tractions, slip, monotonic curve.
 
 use crate::constant_load::contact::Contact;
-use crate::error::Error;
 use crate::ffi::mslip_contact;
 use crate::ffi::pointers::{self, call, initialise, input, output, outputs, set, status};
-use crate::limits::check_displacement;
-use crate::numerics::fp_class::is_finite;
+use crate::limits::{check_displacement, check_positions};
 use crate::parameters::PARAMETERS;
 use crate::parameters::{EllipticParameters, Parameters};
 use core::ffi::{CStr, c_char};
@@ -107,10 +105,6 @@ pub unsafe extern "C" fn mslip_tractions(
         }
         Ok(())
     })
-}
-
-pub(in crate::ffi) fn check_positions(x: &[f64]) -> Result<(), Error> {
-    if x.iter().all(|&x| is_finite(x)) { Ok(()) } else { Err(Error::BadPosition) }
 }
 
 /// Relative slip \[m\] (Eq. 15) and frictional damage parameter mu p |s| \[N/m\] (section 3.5) at x\[n\] \[m\], under a

@@ -1,6 +1,5 @@
 //! Load histories: states, and Masing's rule with return-point memory.
 
-use super::contact::check_positions;
 use crate::constant_load::contact::Contact;
 use crate::constant_load::masing;
 use crate::constant_load::state;
@@ -9,7 +8,7 @@ use crate::ffi::mslip_contact;
 use crate::ffi::pointers::{
     self, call, check_alignment, input, memory, new_state, output, outputs, set, state_input, status,
 };
-use crate::limits::check_displacement;
+use crate::limits::{check_displacement, check_positions};
 use libc::size_t;
 
 /// Number of doubles in a state with a capacity of `reversals` nested reversals, at least 2. A state is never full: if the capacity
