@@ -95,7 +95,7 @@ parallel: all
 	@tools/dependencies.sh parallel
 	$(MAKE) -C fortran_examples parallel PREFIX=../dist
 
-## test: the regular tests, in Rust, C, C++ and Fortran: some minutes (as root on Debian, installs missing packages)
+## test: the regular tests, in Rust, C and Fortran: some minutes (as root on Debian, installs missing packages)
 test:
 	tools/test.sh
 

@@ -1,10 +1,9 @@
-/* calls.h: contacts and elements, and a table of every function that takes one of them and has outputs, with a valid call of each. */
+/* calls.h: a table of every function that takes a contact or an element and has outputs, with the memory of a call. */
 #ifndef CALLS_H
 #define CALLS_H
 
 #include "check.h"
 
-#include <float.h>
 #include "outputs.h"
 #include <stddef.h>
 #include <stdint.h>
@@ -12,7 +11,6 @@
 
 #define LENGTH(array) (sizeof(array) / sizeof *(array))
 
-/* Rounded flat: contact 3 of the reference tables. */
 static inline mslip_parameters flat_parameters(void)
 {
     mslip_parameters p;
@@ -28,47 +26,6 @@ static inline mslip_parameters flat_parameters(void)
     return p;
 }
 
-/* Ellipse: case 1 of the table of elliptical contacts. */
-static inline mslip_elliptic_parameters elliptic_parameters(void)
-{
-    mslip_elliptic_parameters p;
-    mslip_elliptic_parameters_default(&p);
-    p.semi_axis_x = 8.469711632573419636885181e-4;
-    p.semi_axis_y = 1.556904140680311380770529e-3;
-    p.normal_force = 46.68443584875135599077112;
-    p.friction_coefficient = 0.8978145269586224053171009;
-    p.material[0].young_modulus = p.material[1].young_modulus = 2.1e11;
-    p.material[0].poisson_ratio = p.material[1].poisson_ratio = 0.45;
-    return p;
-}
-
-/* The last two have no tangential force: no normal force, or no friction. An element is no OPEN one, but a rigid strip. */
-enum { FLAT, CYLINDER, ELLIPSE, OPEN, FRICTIONLESS, KINDS };
-
-static inline mslip_contact init_contact(int kind)
-{
-    mslip_parameters p = flat_parameters();
-    mslip_elliptic_parameters e = elliptic_parameters();
-    mslip_contact contact;
-    p.flat_half_width *= kind != CYLINDER;
-    p.normal_force *= kind != OPEN;
-    p.friction_coefficient *= kind != FRICTIONLESS;
-    CHECK((kind == ELLIPSE ? mslip_contact_init_elliptic(&e, &contact) : mslip_contact_init(&p, &contact)) == MSLIP_OK);
-    return contact;
-}
-
-/* The contact as initialised by the first call. */
-static inline mslip_contact contact_of(int kind)
-{
-    static mslip_contact contacts[KINDS];
-    static int is_initialised[KINDS];
-    if (!is_initialised[kind]) {
-        contacts[kind] = init_contact(kind);
-        is_initialised[kind] = 1;
-    }
-    return contacts[kind];
-}
-
 /* Variants of elements: the normal inputs, with one direction and with two. */
 enum { VARIANTS = 4, TWO_DIRECTIONS = 2 };
 static inline int32_t normal_input_of(int variant)
@@ -81,33 +38,14 @@ static inline int32_t directions_of(int variant)
     return 1 + variant / TWO_DIRECTIONS;
 }
 
-static inline void init_element(int kind, int variant, mslip_element *element)
-{
-    const int32_t directions = directions_of(variant), normal_input = normal_input_of(variant);
-    mslip_parameters p = flat_parameters();
-    mslip_elliptic_parameters e = elliptic_parameters();
-    p.flat_half_width *= kind != CYLINDER;
-    p.friction_coefficient *= kind != FRICTIONLESS;
-    p.displacement_reference = kind == OPEN ? MSLIP_RIGID_STRIP : MSLIP_CENTRE_POINT;
-    CHECK((kind == ELLIPSE ? mslip_element_init_elliptic(&e, directions, normal_input, element)
-                           : mslip_element_init(&p, directions, normal_input, element)) == MSLIP_OK);
-}
-
-/* The element as initialised by the first call. */
+enum { FLAT, CYLINDER };
 static inline const mslip_element *element_of(int kind, int variant)
 {
-    static mslip_element elements[KINDS][VARIANTS];
-    static int is_initialised[KINDS][VARIANTS];
-    if (!is_initialised[kind][variant]) {
-        init_element(kind, variant, &elements[kind][variant]);
-        is_initialised[kind][variant] = 1;
-    }
-    return &elements[kind][variant];
-}
-
-static inline int same_bits(const double *p, const double *q, size_t n)
-{
-    return memcmp(p, q, n * sizeof *p) == 0;
+    static mslip_element element;
+    mslip_parameters p = flat_parameters();
+    p.flat_half_width *= kind != CYLINDER;
+    CHECK(mslip_element_init(&p, directions_of(variant), normal_input_of(variant), &element) == MSLIP_OK);
+    return &element;
 }
 
 enum { ITEMS = 5, HARMONICS = 2, SAMPLES = 16, PERIODS = 2 };
@@ -115,14 +53,14 @@ enum { COEFFICIENTS = 2 * HARMONICS + 1 };
 /* The largest numbers of components of a displacement, and of coefficients. */
 enum { COMPONENTS = 3, ALL_COEFFICIENTS = COMPONENTS * COEFFICIENTS };
 enum { ELEMENT_SQUARE = ALL_COEFFICIENTS * ALL_COEFFICIENTS };
-/* The length of each state, and the reversals or pieces in use. */
-enum { STATE = 1865, USED = 3, USED_PIECES = 5 };
+/* The length of each state. */
+enum { STATE = 1865 };
 
 #include "functions.h"
 
 /* The kinds of a function's arguments, by which the drivers distinguish functions. */
 enum { TAKES_STATE = 1 << ARG_STATE, TAKES_WORKSPACE = 1 << ARG_WORKSPACE,
-       TAKES_TABLE = 1 << ARG_TABLE, IS_BATCH = 1 << ARG_INDEX, IS_ELEMENT = 1 << 30, IS_IWAN = 1 << 29 };
+       TAKES_TABLE = 1 << ARG_TABLE, IS_BATCH = 1 << ARG_INDEX, IS_ELEMENT = 1 << 30 };
 
 static arguments call;
 
@@ -189,7 +127,7 @@ static inline void make_functions(void)
     };
     for (size_t i = 0; i < LENGTH(described); ++i) {
         function f = described[i];
-        f.takes = strstr(f.name, "element") || strstr(f.name, "normal_") ? IS_ELEMENT : strstr(f.name, "iwan") ? IS_IWAN : 0;
+        f.takes = strstr(f.name, "element") || strstr(f.name, "normal_") ? IS_ELEMENT : 0;
         for (const argument *a = f.argument; a->name != NULL; ++a) {
             f.takes |= 1u << a->kind;
         }
@@ -254,15 +192,6 @@ static inline void *law_at(const function *f, size_t i)
     return f->takes & IS_ELEMENT ? (void *)&ELEMENTS[i] : (void *)&CONTACTS[i];
 }
 
-static inline void set_law(const function *f, size_t i, int kind)
-{
-    if (f->takes & IS_ELEMENT) {
-        ELEMENTS[i] = *element_of(kind, f->rule);
-    } else {
-        CONTACTS[i] = contact_of(kind);
-    }
-}
-
 /* The quantity of input i: displacements of an element and their coefficients are normal after one or two tangential ones. */
 static inline int kind_of_input(const function *f, size_t i)
 {
@@ -273,67 +202,7 @@ static inline int kind_of_input(const function *f, size_t i)
     return !is_normal ? f->kind : normal_input_of(f->rule) == MSLIP_INPUT_APPROACH ? normal : normal + 1;
 }
 
-/* A decaying vibration: each displacement adds a reversal. */
-static inline double decaying(int reversals)
-{
-    return (reversals % 2 == 0 ? 1e-8 : -1e-8) * (1.0 - 0.05 * reversals);
-}
-
-/* A state of USED nested reversals; of an element one of USED_PIECES pieces, by a rising load with displacements to and fro, all
-   sticking. */
-static inline void fill_state(const function *f, const void *law, double *state)
-{
-    const mslip_element *element = law;
-    if (!(f->takes & IS_ELEMENT)) {
-        CHECK(mslip_state_init(STATE, state) == MSLIP_OK);
-        for (int k = 0; k <= USED; ++k) {
-            CHECK(mslip_masing_update(law, STATE, state, decaying(k), state, NULL, NULL, NULL) == MSLIP_OK);
-        }
-        return;
-    }
-    CHECK(mslip_element_state_init(element->directions, STATE, state) == MSLIP_OK);
-    for (int k = 0; k < USED_PIECES; ++k) {
-        const double u = 0.01 * element->friction_coefficient * element->approach * (k % 2 == 0 ? 1.0 : -1.0);
-        const double whole = element->normal_input == MSLIP_INPUT_NORMAL_FORCE ? element->normal_force : element->approach;
-        const double w = whole * (0.1 + 0.15 * k);
-        const double step[COMPONENTS] = { u, element->directions == 1 ? w : 0.7 * u, w };
-        CHECK(mslip_element_update(element, STATE, state, step, state, NULL, NULL, NULL) == MSLIP_OK);
-    }
-}
-
-/* Fills the states for the contacts or elements of the call. */
-static inline void fill_states(const function *f)
-{
-    for (size_t i = 0; (f->takes & TAKES_STATE) && i < items_of(f); ++i) {
-        fill_state(f, law_at(f, i), STATES + i * STATE);
-    }
-}
-
-/* Initialises the table of the shape of the contact. */
-static inline void fill_table(const function *f)
-{
-    if (f->takes & TAKES_TABLE) {
-        CHECK(mslip_stiffness_table_init(call.contacts, mslip_stiffness_table_length(), call.table) == MSLIP_OK);
-    }
-}
-
-static inline double valid_value(int kind, size_t i, double slip_force)
-{
-    switch (kind) {
-        case X: return 1e-4 * ((double)i - 2.0);
-        case FORCE: return slip_force * (0.2 * (double)i - 0.35);
-        case FORCE_AMPLITUDE: return 0.2 * slip_force * (double)i;
-        case DISPLACEMENT: return 1e-8 * (1.3 * (double)(i % 4) - 2.0);
-        case AMPLITUDE: return 4e-8 * (double)(i + 1);
-        case APPROACH: return 6e-8 * (2.5 - (double)(i / 2 % 4)); /* the last of four is open */
-        case NORMAL_FORCE: return 40.0 * (3.0 - (double)(i / 2 % 4));
-        case APPROACH_COEFFICIENT: return 1.2e-7 * (i % COEFFICIENTS == 0 ? 1.0 : 0.15 * (double)(i % 2 + 1)); /* not open */
-        case FORCE_COEFFICIENT: return 80.0 * (i % COEFFICIENTS == 0 ? 1.0 : 0.15 * (double)(i % 2 + 1));
-        default: return 0.0;
-    }
-}
-
-/* Valid arguments. Items have contacts or elements of three kinds by turns. */
+/* Memory of all arguments; contacts or elements, states, table and inputs are those of the caller. */
 static inline void set_up(const function *f)
 {
     memset(&call, 0, sizeof call);
@@ -353,20 +222,12 @@ static inline void set_up(const function *f)
     for (int i = 0; i < ITEMS; ++i) {
         index_memory[i] = i;
         active_memory[i] = 1;
-        set_law(f, (size_t)i, i % 3);
     }
     for (int i = 0; i < OUTPUTS; ++i) {
         call.out[i] = out_memory[i];
     }
-    fill_states(f);
-    fill_table(f);
     if (f->takes & TAKES_WORKSPACE) {
         init_workspace(f);
-    }
-    const double slip_force = f->takes & IS_ELEMENT ? 0.0 : CONTACTS->slip_force;
-    call.scalar = valid_value(f->scalar, 3, slip_force);
-    for (size_t i = 0; i < f->inputs; ++i) {
-        INPUT[i] = valid_value(kind_of_input(f, i), i, slip_force);
     }
 }
 

@@ -1,4 +1,4 @@
-//! The drivers in C, C++ and Fortran with floating-point traps, against the library installed at `MICROSLIP_PREFIX`, or else
+//! The drivers in C and Fortran with floating-point traps, against the library installed at `MICROSLIP_PREFIX`, or else
 //! against the archive as cargo builds it. If that is for another processor, `MICROSLIP_TARGET` is its triple, `MICROSLIP_RUNNER`
 //! the command that runs its programs.
 
@@ -41,23 +41,13 @@ fn run(command: &mut Command) -> Result<String, String> {
     if output.status.success() { Ok(text) } else { Err(format!("{command:?}: {}\n{text}{errors}", output.status)) }
 }
 
-fn compiler(cpp: bool) -> Command {
+fn compiler() -> Command {
     static HOST: LazyLock<String> = LazyLock::new(|| run(Command::new("rustc").arg("-vV")).unwrap());
     let host = HOST.lines().find_map(|line| line.strip_prefix("host: ")).expect("the host triple");
     let target = std::env::var("MICROSLIP_TARGET").unwrap_or(host.to_string());
-    let mut compiler = cc::Build::new()
-        .cpp(cpp)
-        .target(&target)
-        .host(host)
-        .opt_level(1)
-        .cargo_metadata(false)
-        .get_compiler()
-        .to_command();
-    compiler.args(["-Wall", "-Wextra", "-Wpedantic", "-Werror", "-pthread"]).arg(if cpp {
-        "-std=c++17"
-    } else {
-        "-std=c99"
-    });
+    let mut compiler =
+        cc::Build::new().target(&target).host(host).opt_level(1).cargo_metadata(false).get_compiler().to_command();
+    compiler.args(["-Wall", "-Wextra", "-Wpedantic", "-Werror", "-pthread", "-std=c99"]);
     compiler
 }
 
@@ -99,18 +89,14 @@ fn run_all(jobs: Vec<impl FnOnce() -> Result<(), String> + Send>) {
 }
 
 #[test]
-fn c_and_cpp() {
+fn c() {
     let entries = std::fs::read_dir(ROOT.join("c_tests")).unwrap().map(|entry| entry.unwrap().path());
-    let sources =
-        entries.filter(|path| path.extension().is_some_and(|extension| extension == "c" || extension == "cpp"));
-    run_all(
-        sources
-            .map(|source| {
-                let program = source.file_name().unwrap().to_string_lossy().replace('.', "_");
-                move || drive(compiler(program.ends_with("cpp")), &[source], &program)
-            })
-            .collect(),
-    );
+    let sources = entries.filter(|path| path.extension().is_some_and(|extension| extension == "c"));
+    let jobs = sources.map(|source| {
+        let program = source.file_stem().unwrap().to_string_lossy().into_owned();
+        move || drive(compiler(), &[source], &program)
+    });
+    run_all(jobs.collect());
 }
 
 /// The module compiles without warnings by both standards, and the tests pass with every default kind and with static variables.

@@ -2,8 +2,8 @@
 //! uninitialised.
 //!
 //! No call raises a floating-point exception that an application may trap, and a rejected one has the same status in four rounding
-//! modes. Under Miri (`tools/miri.sh`) every access outside an array, read of uninitialised memory, misaligned access, use of an
-//! invalidated reference and race between threads is an error.
+//! modes. Under Miri (`tools/miri.sh`) every access outside an array, read of uninitialised memory, misaligned access and use of
+//! an invalidated reference is an error.
 
 #![allow(
     clippy::undocumented_unsafe_blocks,
@@ -19,12 +19,12 @@ mod memory;
 mod values;
 
 use calls::Kind::*;
-use calls::{Arguments, Before, CALLS, Call, FILLED, FLAT, HARMONICS, Kind, Law, Memory, N, SAMPLES, SPHERE, Slot};
+use calls::{Arguments, Before, CALLS, Call, FILLED, FLAT, Kind, Law, Memory, N, SPHERE, Slot};
 use microslip::ffi::*;
 use std::collections::HashSet;
 use std::ffi::CStr;
 use std::ops::Range;
-use std::ptr::{null, null_mut};
+use std::ptr::null_mut;
 
 fn is_available(call: &Call, law: &Law) -> bool {
     !(call.flat && law.is_elliptic || call.one_direction && law.directions == 2)
@@ -380,183 +380,7 @@ fn default_parameters() {
     }
 }
 
+#[cfg(not(miri))]
 fn call(name: &str) -> &'static Call {
     CALLS.iter().find(|call| call.name == name).expect("a function")
-}
-
-/// A path gives the results of its steps: nested reversals or pieces, slip, gross slip, separation, also with less capacity.
-#[test]
-fn paths() {
-    const PATH: [[f64; 2]; 10] = [
-        [0.9, 0.2],
-        [-0.5, 0.4],
-        [0.4, 0.5],
-        [0.1, 0.7],
-        [0.2, 0.8],
-        [-0.6, 0.9],
-        [0.3, 0.6],
-        [2.0, 0.7],
-        [1.0, 0.0],
-        [1.1, 0.5],
-    ];
-    let motion = |law: &Law, of_element: bool, [u, w]: [f64; 2]| match (of_element, law.directions) {
-        (false, _) => vec![u * law.displacement],
-        (true, 1) => vec![u * law.displacement, w * law.normal],
-        (true, _) => vec![u * law.displacement, -0.4 * u * law.displacement, w * law.normal],
-    };
-    for (update, path) in [("mslip_masing_update", "mslip_masing_path"), ("mslip_element_update", "mslip_element_path")]
-    {
-        let (update, path) = (call(update), call(path));
-        let place = |call: &Call, kind| call.place(kind).expect("an argument");
-        for law in Law::all(update) {
-            let of_element = update.is_of_element();
-            let start: Vec<f64> = law.state(update).values().to_vec();
-            let (mut steps, mut state) = (Vec::new(), start.clone());
-            let mut expected = vec![vec![]; places(update, Output).count()];
-            for step in PATH {
-                let step = motion(&law, of_element, step);
-                let mut arguments = Arguments::new(update, &law, Before::Uninitialised);
-                [State, NewState].into_iter().for_each(|kind| arguments.set(place(update, kind), Memory::of(&state)));
-                if of_element {
-                    arguments.set(place(update, Input), Memory::of(&step));
-                } else {
-                    arguments.slots[place(update, Value)] = Slot::Value(step[0]);
-                }
-                assert_eq!(update.make(&arguments.slots), MSLIP_OK);
-                expected.iter_mut().zip(results(update, &arguments)).for_each(|(all, one)| all.extend(one));
-                state = arguments.memory(place(update, NewState)).values().to_vec();
-                steps.extend(step);
-            }
-            let mut arguments = Arguments::new(path, &law, Before::Uninitialised);
-            [State, NewState].into_iter().for_each(|kind| arguments.set(place(path, kind), Memory::of(&start)));
-            arguments.slots[place(path, Count)] = Slot::Size(PATH.len());
-            arguments.set(place(path, Input), Memory::of(&steps));
-            for output in places(path, Output) {
-                let share = law.length(path.arguments[output].extents, of_element) / N;
-                arguments.set(output, Memory::new::<f64>(share * PATH.len()));
-            }
-            assert_eq!(path.make(&arguments.slots), MSLIP_OK);
-            assert_eq!(results(path, &arguments), expected);
-            let new = place(path, NewState);
-            assert_eq!(arguments.memory(new).values::<f64>()[1..3], state[1..3]);
-            arguments.omit(new);
-            assert_eq!(path.make(&arguments.slots), MSLIP_OK);
-        }
-    }
-}
-
-/// Slip with springs, with all outputs.
-#[test]
-fn slip_in_two_directions() {
-    let law = calls::element(true, |element| unsafe {
-        mslip_element_init_elliptic(&raw const SPHERE, 2, MSLIP_INPUT_APPROACH, element)
-    });
-    let path = call("mslip_element_path");
-    let [u, w] = [law.displacement, law.normal];
-    let mut arguments = Arguments::new(path, &law, Before::Uninitialised);
-    arguments.set(4, Memory::of(&[0.0, 0.0, w, 0.3 * u, 0.1 * u, w, 0.6 * u, -0.4 * u, 0.8 * w]));
-    assert_eq!(path.make(&arguments.slots), MSLIP_OK);
-    let energy = results(path, &arguments)[2][2];
-    assert!(f64::from_bits(energy) > 0.0);
-}
-
-/// Constant, in microslip with all and with odd harmonics only, and in gross slip; with normal motions with and without separation;
-/// even and odd numbers of samples.
-#[test]
-fn harmonic_motions() {
-    for call in CALLS.iter().filter(|call| call.has(Workspace) && call.has(Output) && !call.has(Index)) {
-        for law in Law::all(call) {
-            for (motion, samples) in [
-                ([0.0, 0.0, 0.0, 0.5, 0.0], 8),
-                ([0.1, 0.5, 0.2, 0.5, 0.3], SAMPLES),
-                ([0.0, 0.6, 0.3, 0.2, 0.6], 8),
-                ([0.2, 9.0, 1.0, -0.7, 0.6], SAMPLES),
-            ] {
-                let mut arguments = Arguments::new(call, &law, Before::Uninitialised);
-                let (n, workspace) = (2 * HARMONICS + 1, arguments.memory(1));
-                let (length, start) = (workspace.bytes / 8, workspace.start.cast());
-                let status = if call.has(Element) {
-                    unsafe { mslip_element_workspace_init(law.directions, 1, samples, law.rule, 0, length, start) }
-                } else {
-                    unsafe { mslip_harmonic_workspace_init(1, samples, law.rule, length, start) }
-                };
-                assert_eq!(status, MSLIP_OK);
-                let mut values: Vec<f64> = motion[..n].iter().map(|part| part * law.displacement).collect();
-                if call.has(Element) {
-                    values.resize(n * law.directions as usize, 0.1 * law.displacement);
-                    values.extend([motion[3] * law.normal, motion[4] * law.normal, 0.0]);
-                }
-                arguments.set(2, Memory::of(&values));
-                let by_force = call.has(Element) && law.normal_input == MSLIP_INPUT_NORMAL_FORCE;
-                let is_negative = by_force && motion[4] > motion[3];
-                let expected = if is_negative { MSLIP_BAD_NORMAL_FORCE } else { MSLIP_OK };
-                assert_eq!(call.make(&arguments.slots), expected, "{}: {motion:?}", call.name);
-                if !is_negative {
-                    results(call, &arguments);
-                }
-            }
-        }
-    }
-}
-
-/// Any allowed number of periods, with one direction the same bits; the size call returns it.
-#[test]
-fn periods() {
-    let call = call("mslip_element_harmonic_force");
-    for law in Law::all(call) {
-        let mut expected = None;
-        for periods in [0, 1, 3, 1 << 16] {
-            if periods > 3 && law.directions == 2 {
-                continue;
-            }
-            let arguments = Arguments::new(call, &law, Before::Uninitialised);
-            let (workspace, drift) = (arguments.memory(1), arguments.memory(call.arguments.len() - 1));
-            let (length, start) = (workspace.bytes / 8, workspace.start.cast());
-            let (h, s, rule, mut found) = (HARMONICS, SAMPLES, MSLIP_UNIFORM_SAMPLING, 0);
-            unsafe {
-                assert_eq!(mslip_element_workspace_init(law.directions, h, s, rule, periods, length, start), MSLIP_OK);
-                let (none, no_size) = (null_mut(), null_mut());
-                assert_eq!(mslip_element_workspace_size(start, none, no_size, no_size, none, &raw mut found), MSLIP_OK);
-            }
-            let default = if law.directions == 2 { 3 } else { 1 };
-            assert_eq!(found, if periods == 0 { default } else { periods });
-            assert_eq!(call.make(&arguments.slots), MSLIP_OK);
-            let results = results(call, &arguments);
-            if law.directions == 1 {
-                assert_eq!(drift.values::<f64>(), [0.0]);
-                assert_eq!(expected.get_or_insert_with(|| results.clone()), &results);
-            }
-        }
-    }
-}
-
-/// Contacts are only read: threads share one, each with memory of its own.
-#[test]
-fn threads_share_a_contact() {
-    let [contact, ..] = calls::contacts();
-    let contact = Memory::of_law(contact, 1);
-    // SAFETY: the contact lives until the threads are joined.
-    let shared: &'static mslip_contact = unsafe { &*contact.start.cast() };
-    let threads = [0.4, 0.8].map(|part| {
-        std::thread::spawn(move || {
-            let [law, ..] = calls::contacts();
-            let (u, none) = (part * shared.slip_displacement, null_mut());
-            let force = call("mslip_harmonic_force");
-            let arguments = Arguments::new(force, law, Before::Uninitialised);
-            let state = law.state(call("mslip_masing_update"));
-            let s = state.start.cast();
-            unsafe {
-                let (workspace, coefficients) = (arguments.slots[1].get(), [0.0, u, 0.0]);
-                let mut result = [0.0; 3];
-                let (c, f) = (coefficients.as_ptr(), result.as_mut_ptr());
-                assert_eq!(mslip_harmonic_force(shared, workspace, c, f, none, none), MSLIP_OK);
-                assert_eq!(mslip_masing_update(shared, state.bytes / 8, s, u, s, none, none, none), MSLIP_OK);
-                assert_eq!(mslip_contact_check(null()), MSLIP_NULL_POINTER);
-                result[1] > 0.0
-            }
-        })
-    });
-    for thread in threads {
-        assert!(thread.join().unwrap());
-    }
 }

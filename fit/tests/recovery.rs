@@ -5,7 +5,7 @@ use common::*;
 use microslip::element::{Directions, Element, NormalInput};
 use microslip::one_direction::{advance, state_init, state_length};
 use microslip_fit::{
-    Contact, Estimate, Geometry, Measurement, NormalForce, Options, Report, ShapeParameter, Status, fit, fit_json,
+    Contact, Estimate, Geometry, Measurement, NormalForce, Options, Report, ShapeParameter, Status, fit,
 };
 
 /// Loops of two amplitudes, one with and one without gross slip; the series compliance in units of the contact's, and the force of
@@ -289,22 +289,6 @@ fn bad_data_are_reported() {
     assert!(report.warnings.iter().any(|warning| warning.contains("another unit")), "{:?}", report.warnings);
     assert!(report.warnings.iter().any(|warning| warning.contains("one amplitude only")), "{:?}", report.warnings);
     assert!(fit(&flat(), &[], &Options::default()).is_err());
-}
-
-#[test]
-fn json_has_the_names_of_the_parameter_file() {
-    let (contact, mut random) = (flat(), Random::new(1));
-    let loops = [measured(&contact, &Rig { samples: 60, ..RIG }, &mut random)];
-    let options = Options { contact_compliance: Some(1.0), ..Options::default() };
-    let problem = format!(
-        r#"{{"contact": {{"flat_half_width": 1e-4, "edge_radius": 0.05, "length": 0.02, "normal_force": 800,
-        "displacement_reference": "centre_point", "friction_coefficient": 0.5, "material": [{{"young_modulus": 2e11, "poisson_ratio": 0.3}}, {{"young_modulus": 2e11, "poisson_ratio": 0.3}}]}},
-        "loops": {}, "options": {{"contact_compliance": 1.0}}}}"#,
-        serde_json::to_string(&loops).unwrap()
-    );
-    let report: Report = serde_json::from_str(&fit_json(&problem).unwrap()).unwrap();
-    assert!(report == fit(&contact, &loops, &options).unwrap(), "{:?}", report.verdict);
-    assert!(fit_json("{}").unwrap_err().to_string().contains("contact"));
 }
 
 /// Whatever the record, there is a report of finite numbers or a message.

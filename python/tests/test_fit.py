@@ -121,42 +121,14 @@ def test_constants_are_given_by_number_or_word():
     assert microslip.fit([with_surrogate], TRUTH).loops[0].name.startswith("a")
 
 
-def response(law, frequency):
-    """Amplitude [m] of a mass on a spring and the contact, at frequencies over that of the stuck contact, by harmonic balance."""
-    spring = contact.initial_stiffness
-    workspace, order = microslip.Workspace(5, 128), np.array([0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5])
-    coefficients, amplitudes = np.zeros(11), []
-    for part in frequency:
-        omega = np.sqrt(2) * part
-        matrix = np.diag(spring * (1 - (order * omega) ** 2))
-        for i in range(1, 11, 2):
-            matrix[i, i + 1] = 0.01 * spring * order[i] * omega
-            matrix[i + 1, i] = -matrix[i, i + 1]
-        for _ in range(50):
-            found = law.harmonic_force(workspace, coefficients)
-            residual = matrix @ coefficients + found.force
-            residual[1] -= 0.4 * contact.slip_force
-            step = np.linalg.solve(matrix + found.jacobian, residual)
-            coefficients = coefficients - step
-            if abs(step).max() < 1e-12 * abs(coefficients).max():
-                break
-        else:
-            raise AssertionError(f"no convergence at {part}")
-        amplitudes.append(np.hypot(*coefficients[1:3]))
-    return np.array(amplitudes)
-
-
-def test_three_measured_loops_to_a_forced_response(tmp_path):
-    """Measured loops of three loads, fit, parameter file, contact, harmonic balance: without an edit, to the response of the true
-    contact, which has a layer with a stiffness that grows with the load.
-    """
+def test_measured_loops_of_three_loads_to_a_contact(tmp_path):
+    """Measured loops, fit, parameter file, contact: without an edit, to the true contact, whose layer is stiffer under a larger load."""
     random = np.random.default_rng(7)
     layer = {
         "tangential_compliance": 0.3 / contact.initial_stiffness,
         "stiffening_load": 200.0,
         "reference_load": TRUTH["normal_force"],
     }
-    truth = microslip.Contact(**TRUTH | layer)
     t = 2 * np.pi * np.arange(160) / 80
     measured = []
     for amplitude, load in [(0.7, 200.0), (2.0, 400.0), (1.2, 800.0)]:
@@ -167,15 +139,15 @@ def test_three_measured_loops_to_a_forced_response(tmp_path):
     file = tmp_path / "fitted.toml"
     report = microslip.fit(measured, TRUTH | {"friction_coefficient": 0.3, "flat_half_width": 0.05e-3})
     file.write_text(report.contact_toml)
-    fitted = microslip.Contact(**microslip.read_parameters(file))
     assert report.series_stiffening.status == "determined"
-    frequency = np.linspace(0.7, 1.05, 36)
-    expected = response(truth, frequency)
-    # From partial to gross slip. Noise of 5e-4 in some hundred samples, times ten at resonance.
-    assert expected.min() < 0.5 * truth.slip_displacement < 1.2 * truth.slip_displacement < expected.max()
-    np.testing.assert_allclose(response(fitted, frequency), expected, rtol=1e-3)
-    # Without the layer the response is another one: the file carries it.
-    assert abs(response(contact, frequency) / expected - 1).max() > 0.1
+    # The largest difference of the forces from partial to gross slip, under another load too. Noise of 5e-4 in some hundred samples.
+    for load in (300.0, 800.0):
+        truth = microslip.Contact(**TRUTH | layer | {"normal_force": load})
+        fitted = microslip.Contact(**microslip.read_parameters(file) | {"normal_force": load})
+        u = np.linspace(0, 1.5 * truth.slip_displacement, 50)
+        np.testing.assert_allclose(
+            fitted.monotonic_force(u).force, truth.monotonic_force(u).force, rtol=0, atol=1e-3 * truth.slip_force
+        )
 
 
 def test_parameter_files_of_the_command_line(tmp_path):

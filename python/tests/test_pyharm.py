@@ -1,9 +1,8 @@
-"""The element of pyHarm: forced responses, a time integration, a varying normal force, and the conventions of pyHarm."""
+"""The element of pyHarm: forced responses, a varying normal force, and the conventions of pyHarm."""
 
 from __future__ import annotations
 
 import logging
-import re
 
 import microslip
 import numpy as np
@@ -12,7 +11,6 @@ from numpy.testing import assert_allclose
 from pyHarm.Maestro import Maestro
 from pyharm_two_masses import LENGTH, deviation, response, response_at, two_masses
 from tables import REPOSITORY
-from tmdsimpy_microslip import MicroslipForce
 from two_masses import CONTACT, DAMPING, MASS, STIFFNESS
 
 pytestmark = [
@@ -28,47 +26,6 @@ SLIP = contact.slip_displacement
 def test_response_of_two_masses_is_that_of_the_fortran_example():
     # The Fortran example stops at a residual of 1e-12 of the displacement.
     assert deviation(REPOSITORY / "fortran_examples" / "expected" / "two_dof.csv") < 1e-11
-
-
-def first_harmonic(frequency, steps, periods=30):
-    """Complex amplitudes [m] of the masses in the last period from rest, by Newmark's method (constant mean acceleration)."""
-    force = MicroslipForce([[0, 1]], [[0], [1]], contact)
-    h, phase = 1 / (steps * frequency), 2j * np.pi * np.arange(1, steps + 1) / steps
-    load = np.outer(np.exp(phase).real, [15.0, 0.0])
-    dynamic = STIFFNESS + 2 / h * DAMPING + 4 / h**2 * MASS
-    x, v, a, path = np.zeros(2), np.zeros(2), np.linalg.solve(MASS, load[-1]), np.empty((steps, 2))
-    for i in list(range(steps)) * periods:
-        history = load[i] + MASS @ (4 / h**2 * x + 4 / h * v + a) + DAMPING @ (2 / h * x + v)
-        y = x
-        for _ in range(20):
-            f, tangent = force.force(y)
-            step = np.linalg.solve(dynamic + tangent, history - dynamic @ y - f)
-            y = y + step
-            if abs(step).max() < 1e-8 * SLIP:
-                break
-        else:
-            raise RuntimeError("Newton's method does not converge")
-        force.force(y, update_hist=True)
-        x, v, a = y, 2 / h * (y - x) - v, 4 / h**2 * (y - x) - 4 / h * v - a
-        path[i] = x
-    return 2 / steps * np.exp(phase) @ path
-
-
-def test_harmonic_balance_is_the_steady_state_of_a_time_integration():
-    """In gross slip, where a motion from rest is steady after 30 periods. The steps are those of the adapter of tmdsimpy."""
-    idata = two_masses({"type": "microslip", "dirs": [0], "law": contact}, [300.0, 900.0])
-    idata["system"] |= {"nh": 15, "nti": 1024}
-    frequencies = np.array([750.0, 770.0])
-    coefficients = response_at(Maestro(idata), frequencies)
-    expected = coefficients[:, :, 1] + 1j * coefficients[:, :, 2]
-    coarse, fine = (np.array([first_harmonic(f, steps) for f in frequencies]) for steps in (192, 384))
-    # Newmark's method is of second order: 384 steps err by up to 2.7e-4. Extrapolated, what is left is that reversals and the onset
-    # of gross slip are met within a step only, and 1e-4 of harmonics above 15.
-    difference = (abs((4 * fine - coarse) / 3 - expected) / abs(expected)).max()
-    assert difference < 4e-4
-    documented = re.search(r"Newmark's method.* \| (\S+) \|", (REPOSITORY / "docs" / "validation.md").read_text())
-    assert documented
-    assert documented[1] == f"{difference:.0e}".replace("e-0", "e-")
 
 
 def test_continuation_passes_the_resonance():

@@ -2,8 +2,8 @@
 
 use super::scalar::{Dual, Real, both};
 use super::tables::{
-    BIAS, Both, END, FINE, FINE_SECANT, FINE_STIFFNESS, FLEXIBILITY, LEAST_STIFFNESS, LOAD, MAP, MOST_PARTS, Matrix, N,
-    PER_MAP, POINTS, PRESSURE, Row, Rows, SECANT, SHIFT, SIZE, STIFFNESS, Tables, Units, WEIGHT, at_edge,
+    BIAS, Both, DualRows, END, FINE, FINE_SECANT, FINE_STIFFNESS, FLEXIBILITY, LEAST_STIFFNESS, LOAD, MAP, MOST_PARTS,
+    Matrix, N, PER_MAP, POINTS, PRESSURE, Row, Rows, SECANT, SHIFT, SIZE, STIFFNESS, Tables, Units, WEIGHT, at_edge,
     root_difference, starts,
 };
 use crate::element::{Element, Normal};
@@ -75,7 +75,8 @@ impl Pressed<f64> {
 pub(crate) struct Contact<A> {
     /// G of the last shell.
     pub edge: Both<Row<A>>,
-    /// 1/p_i; 0 outside.
+    /// p_i and 1/p_i; 0 outside.
+    pub pressure: Row<A>,
     pub per_pressure: Row<A>,
     /// Stiffnesses of the last spring, their reciprocals, and those of the fine springs in its shell.
     pub stiffness: Both<A>,
@@ -92,6 +93,7 @@ pub(crate) struct Contact<A> {
 impl Contact<f64> {
     pub const NONE: Contact<f64> = Contact {
         edge: [[0.0; N]; 2],
+        pressure: [0.0; N],
         per_pressure: [0.0; N],
         stiffness: [0.0; 2],
         flexibility: [0.0; 2],
@@ -122,12 +124,12 @@ impl Contact<f64> {
 }
 
 /// The derivatives that are multiplied with columns are those by the load at the end and the alignment.
-pub(crate) fn derive(contact: &Contact<f64>, tables: [&Rows; 2], slopes: &Pressed<f64>) -> Contact<Dual<1>> {
+pub(crate) fn derive(contact: &Contact<f64>, tables: &DualRows, slopes: &Pressed<f64>) -> Contact<Dual<1>> {
     dispatch!(derive_kernel(contact, tables, slopes))
 }
 
 #[inline(always)]
-fn derive_kernel(contact: &Contact<f64>, tables: [&Rows; 2], slopes: &Pressed<f64>) -> Contact<Dual<1>> {
+fn derive_kernel(contact: &Contact<f64>, tables: &DualRows, slopes: &Pressed<f64>) -> Contact<Dual<1>> {
     contact.derived(&tables, slopes)
 }
 
@@ -140,7 +142,7 @@ fn press_kernel(rows: &Rows, now: &Pressed<f64>, under_flat: usize, inverse: &mu
         for i in (0..=last).rev() {
             // v_i = [p_i r_i + Σ_{j>i} (G_i,j-1 - G_ij) v_j]/G_ii: all positive.
             let mut row = [0.0; N];
-            row[i] = 1.0 / contact.per_pressure[i];
+            row[i] = contact.pressure[i];
             let mut before = contact.map(&rows, k, i, i);
             for j in i + 1..=last {
                 let g = contact.map(&rows, k, j, i);
@@ -163,11 +165,11 @@ impl<A: Real> Contact<A> {
     #[inline(always)]
     fn new(t: &impl Tables<A>, now: &Pressed<A>, [last, part]: [usize; 2], under_flat: usize) -> Contact<A> {
         let (zero, one, last) = (A::constant(0.0), A::constant(1.0), last.min(N - 1));
-        let start = starts(under_flat);
-        let (first_part, first) = (start[last], last <= under_flat);
+        let first_part = starts(under_flat)[last];
         let before = last.max(1) - 1;
         let mut contact = Contact {
             edge: [[zero; N]; 2],
+            pressure: [zero; N],
             per_pressure: [zero; N],
             stiffness: [zero; 2],
             flexibility: [zero; 2],
@@ -181,7 +183,7 @@ impl<A: Real> Contact<A> {
         let step = both!(|k| now.shift[k] - t.at(SHIFT + k * FINE / N, first_part));
         let per_step = both!(|k| step[k].inverse());
         // At its own point the last shell carries all, in any unit.
-        contact.per_pressure[last] = one;
+        (contact.pressure[last], contact.per_pressure[last]) = (one, one);
         contact.edge[0][last] = per_step[0];
         contact.edge[1][last] = per_step[1];
         let (weight, lower) = (t.at(WEIGHT, last), t.at(SIZE, last));
@@ -191,43 +193,50 @@ impl<A: Real> Contact<A> {
                 let bound = t.at(MAP + k * N + before, i) * step[k];
                 traction = if bound.value() < traction.value() { bound } else { traction };
             }
-            contact.per_pressure[i] = (t.at(PRESSURE + last, i) + traction).inverse();
+            contact.pressure[i] = t.at(PRESSURE + last, i) + traction;
+            contact.per_pressure[i] = contact.pressure[i].inverse();
             contact.edge[0][i] = traction * per_step[0];
             contact.edge[1][i] = traction * per_step[1];
         }
         for k in 0..2 {
-            let (load, shift) = (LOAD, SHIFT + k * FINE / N);
-            let own = (now.load - t.at(load, first_part)) * per_step[k];
+            let own = (now.load - t.at(LOAD, first_part)) * per_step[k];
             let inner = if last > 0 { t.at(SECANT + k, before) } else { zero };
             let (rise, least) = (own - inner, own.scale(LEAST_STIFFNESS));
             contact.stiffness[k] = if rise.value() > least.value() { rise } else { least };
             contact.flexibility[k] = contact.stiffness[k].inverse();
-            // Fine springs from the last one of the shell before; N of the outermost part is unbiased when the edge passes it.
-            let from = contact.first_edge();
-            let inside = [now.inside[0], now.inside[1 + k]];
-            let per_part = (t.at(shift, part + 1) - t.at(shift, part)).inverse();
-            let passed = (inside[1] - t.at(shift, part)) * per_part;
-            let corner = |f: usize| {
-                let bias = t.at(BIAS, f);
-                [t.at(load, f) - if f < part { bias } else { bias * passed }, t.at(shift, f)]
-            };
-            let mut slope = if from > 0 { t.at(FINE_SECANT + k * FINE / N, from - 1) } else { zero };
-            let mut lower = corner(from);
-            for f in from..=part {
-                let upper = if f < part { corner(f + 1) } else { inside };
-                let secant = (upper[0] - lower[0]) * (upper[1] - lower[1]).inverse();
-                let mut law = zero;
-                if f == first_part {
-                    law = own - if first { zero } else { inner };
-                } else if f == start[before] {
-                    law = t.at(if before > under_flat { STIFFNESS } else { SECANT } + k, before);
-                }
-                contact.fine[k][(f - from).min(MOST_PARTS - 1)] = secant - slope - law;
-                (slope, lower) = (secant, upper);
-            }
-            contact.fine[k][(part + 1 - from).min(MOST_PARTS - 1)] = contact.total(k) - slope;
+            contact.press_fine(t, k, [own, inner]);
         }
         contact
+    }
+
+    /// Fine springs from the last one of the shell before, from the secants of the last shell and of those within.
+    #[inline(always)]
+    fn press_fine(&mut self, t: &impl Tables<A>, k: usize, [own, inner]: [A; 2]) {
+        let (zero, start, before) = (A::constant(0.0), starts(self.under_flat), self.last.max(1) - 1);
+        let (load, shift, part, from) = (LOAD, SHIFT + k * FINE / N, self.part, self.first_edge());
+        let inside = [self.now.inside[0], self.now.inside[1 + k]];
+        // N of the outermost part is unbiased when the edge passes it.
+        let per_part = (t.at(shift, part + 1) - t.at(shift, part)).inverse();
+        let passed = (inside[1] - t.at(shift, part)) * per_part;
+        let corner = |f: usize| {
+            let bias = t.at(BIAS, f);
+            [t.at(load, f) - if f < part { bias } else { bias * passed }, t.at(shift, f)]
+        };
+        let mut slope = if from > 0 { t.at(FINE_SECANT + k * FINE / N, from - 1) } else { zero };
+        let mut lower = corner(from);
+        for f in from..=part {
+            let upper = if f < part { corner(f + 1) } else { inside };
+            let secant = (upper[0] - lower[0]) * (upper[1] - lower[1]).inverse();
+            let mut law = zero;
+            if f == self.first_part {
+                law = own - if self.last <= self.under_flat { zero } else { inner };
+            } else if f == start[before.min(N)] {
+                law = t.at(if before > self.under_flat { STIFFNESS } else { SECANT } + k, before);
+            }
+            self.fine[k][(f - from).min(MOST_PARTS - 1)] = secant - slope - law;
+            (slope, lower) = (secant, upper);
+        }
+        self.fine[k][(part + 1 - from).min(MOST_PARTS - 1)] = self.total(k) - slope;
     }
 
     /// G of a shell at a point.
@@ -256,10 +265,8 @@ impl<A: Real> Contact<A> {
     /// Stiffness of a fine spring.
     #[inline(always)]
     pub fn fine(&self, t: &impl Tables<A>, k: usize, f: usize) -> A {
-        match f.checked_sub(self.first_edge()).and_then(|r| self.fine[k].get(r)) {
-            Some(edge) => *edge,
-            None => t.at(FINE_STIFFNESS + k * FINE / N, f),
-        }
+        let edge = self.first_edge();
+        if f < edge { t.at(FINE_STIFFNESS + k * FINE / N, f) } else { self.fine[k][(f - edge).min(MOST_PARTS - 1)] }
     }
 
     /// The first fine spring whose stiffness depends on the load.

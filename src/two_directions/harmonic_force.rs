@@ -16,7 +16,7 @@ use super::path::Path;
 use super::scalar::{Dual, Real};
 use super::slip::Slips;
 use super::step::{advance, separated, step};
-use super::tables::{ALIGNMENT, Both, END, N, PARAMETERS, ROWS, Rows, START, Units, fill, under_flat};
+use super::tables::{ALIGNMENT, Both, DualRows, END, N, PARAMETERS, ROWS, Rows, START, Units, fill, under_flat};
 use super::trial::{Motion, SPRINGS, Springs, Values, trial};
 use crate::element::{Element, Normal};
 use crate::error::Error;
@@ -59,8 +59,9 @@ pub struct Workspace<'a> {
     /// Values of `[1, cos t, sin t, ...]`, sample after sample.
     basis: &'a mut [f64],
     samples: &'a mut [[f64; SAMPLE]],
-    /// Tables of the springs, their derivatives by the logarithm of the reference size, and those of a slightly smaller one.
+    /// Tables of the springs, those of a slightly larger and a smaller reference size, and with the derivatives by its logarithm.
     tables: &'a mut [Rows],
+    dual_tables: &'a mut [DualRows],
     /// Derivatives of the springs, and those of both forces, block after block of columns.
     derivatives: &'a mut [f64],
     forces: &'a mut [f64],
@@ -85,6 +86,7 @@ impl<'a> Layout<'a> for Workspace<'a> {
             basis: parts.take(size.coefficients() * size.samples)?,
             samples: parts.take(SAMPLE * size.samples)?.as_chunks_mut().0,
             tables: parts.take(3 * N * ROWS)?.as_chunks_mut::<N>().0.as_chunks_mut().0,
+            dual_tables: parts.take(4 * N * ROWS)?.as_chunks_mut().0.as_chunks_mut::<N>().0.as_chunks_mut().0,
             derivatives: parts.take(SPRINGS * columns)?,
             forces: parts.take(2 * columns)?,
             sums: parts.take(2 * size.coefficients() * columns)?,
@@ -194,7 +196,8 @@ fn first_of_largest_load(workspace: &Workspace) -> (usize, f64) {
 struct Walk<'a> {
     element: &'a Element,
     units: Units,
-    tables: [&'a Rows; 2],
+    tables: &'a Rows,
+    dual_tables: &'a DualRows,
     at: [f64; 3],
     /// The contact, its derivatives by the normal component, those with respect to parameters, and its normal force.
     contact: Contact<f64>,
@@ -219,7 +222,27 @@ struct Taken {
     closed: [bool; 2],
 }
 
-impl Walk<'_> {
+impl<'a> Walk<'a> {
+    /// Pressed by a normal component.
+    fn new(element: &'a Element, units: Units, tables: (&'a Rows, &'a DualRows), top: f64) -> Walk<'a> {
+        let mut walk = Walk {
+            element,
+            units,
+            tables: tables.0,
+            dual_tables: tables.1,
+            at: [0.0, 0.0, top],
+            contact: Contact::NONE,
+            slopes: Pressed::NONE,
+            derived: None,
+            normal: Normal::OPEN,
+            springs: [[0.0; N]; SPRINGS / N],
+            slip: Slips::NONE,
+            inverse: [[[0.0; N]; N]; 2],
+        };
+        walk.press(top);
+        walk
+    }
+
     /// Advances to a sample.
     fn advance(&mut self, to: [f64; 3], requested: Requested) -> Taken {
         let (was_closed, closes) = (self.contact.now.load > 0.0, self.element.is_closed(to[2]));
@@ -230,7 +253,7 @@ impl Walk<'_> {
         self.at = to;
         if !closes {
             let energy = was_closed && requested.energy;
-            let dissipated = if energy { separated(self.tables[0], &from, &Pressed::NONE, path.by, &old) } else { 0.0 };
+            let dissipated = if energy { separated(self.tables, &from, &Pressed::NONE, path.by, &old) } else { 0.0 };
             self.open();
             let motion = path.motion(&from, &from, true);
             return Taken { force: [0.0; 2], dissipated: dissipated * path.scale, old, motion, path, before, closed };
@@ -239,11 +262,11 @@ impl Walk<'_> {
             self.press(to[2]);
         }
         let motion = path.motion(&from, &self.contact, same);
-        let trial = trial(self.tables[0], &self.contact, &motion, &old);
-        self.slip.find(self.tables[0], &self.contact, &self.inverse, &motion, (&trial, &old), requested.tangent);
+        let trial = trial(self.tables, &self.contact, &motion, &old);
+        self.slip.find(self.tables, &self.contact, &self.inverse, &motion, (&trial, &old), requested.tangent);
         let contacts = [&from, &self.contact];
         let (force, dissipated) =
-            advance(self.tables[0], contacts, &motion, &self.slip, requested.energy, &mut self.springs);
+            advance(self.tables, contacts, &motion, &self.slip, requested.energy, &mut self.springs);
         Taken { force, dissipated: dissipated * path.scale, old, motion, path, before, closed }
     }
 
@@ -253,8 +276,22 @@ impl Walk<'_> {
         let now;
         [now, self.slopes] = Pressed::new(self.element, &self.units, input, &self.normal);
         let under_flat = under_flat(self.element, &self.units);
-        self.contact = Contact::press(self.tables[0], &now, under_flat, &mut self.inverse);
+        self.contact = Contact::press(self.tables, &now, under_flat, &mut self.inverse);
         self.derived = None;
+    }
+
+    /// Derivatives of the springs and the forces after a step between samples.
+    fn differentiate(&mut self, workspace: &mut Workspace, taken: &Taken, samples: [Option<usize>; 3], by_top: f64) {
+        if taken.closed != [true, true] {
+            workspace.derivatives.fill(0.0);
+        }
+        if !taken.closed[1] {
+            workspace.forces.fill(0.0);
+        } else if workspace.forces.len() == 2 * NARROW {
+            differentiate::<{ NARROW / 4 }, { NARROW / 4 + 1 }>(workspace, self, taken, samples, by_top);
+        } else {
+            differentiate::<{ WIDE / 4 }, { WIDE / 4 + 1 }>(workspace, self, taken, samples, by_top);
+        }
     }
 
     fn open(&mut self) {
@@ -325,7 +362,7 @@ fn fade(derivatives: &mut [f64]) {
 
 /// A step in columns: the derivatives of both forces.
 fn columns<const L: usize, const M: usize>(
-    tables: [&Rows; 2],
+    tables: &DualRows,
     contact: &Contact<Dual<1>>,
     motion: &Motion<Dual<1>, Dual<M>>,
     slip: &Slips,
@@ -336,7 +373,7 @@ fn columns<const L: usize, const M: usize>(
 
 #[inline(always)]
 fn columns_kernel<const L: usize, const M: usize>(
-    tables: [&Rows; 2],
+    tables: &DualRows,
     contact: &Contact<Dual<1>>,
     motion: &Motion<Dual<1>, Dual<M>>,
     slip: &Slips,
@@ -344,6 +381,33 @@ fn columns_kernel<const L: usize, const M: usize>(
 ) -> Both<[[f64; 4]; L]> {
     let force = step(&tables, contact, motion, slip, springs);
     [springs.of(&force[0]), springs.of(&force[1])]
+}
+
+/// Tables with their derivatives by the logarithm of the reference size, from those of a slightly larger and a smaller one.
+fn derive_tables(
+    element: &Element,
+    units: &Units,
+    tables: &Rows,
+    [larger, smaller]: [&mut Rows; 2],
+    dual_tables: &mut DualRows,
+) {
+    fill(larger, element, units, 1.0 + NEIGHBOUR);
+    fill(smaller, element, units, 1.0 - NEIGHBOUR);
+    let neighbours = larger.as_flattened().iter().zip(smaller.as_flattened());
+    let places = dual_tables.as_flattened_mut().iter_mut().zip(tables.as_flattened());
+    for ((place, value), (larger, smaller)) in places.zip(neighbours) {
+        let mut dual = Dual::<1>::constant(*value);
+        dual.0[0][ALIGNMENT] = (larger - smaller) * (0.5 / NEIGHBOUR);
+        [*place] = dual.0;
+    }
+}
+
+/// The normal forces of a motion that was synthesised.
+fn without_friction(element: &Element, samples: &mut [[f64; SAMPLE]]) {
+    for sample in samples {
+        let normal = if element.is_closed(sample[2]) { element.normal(sample[2]) } else { Normal::OPEN };
+        [sample[3], sample[4], sample[5], sample[6]] = [normal.load, normal.load_slope, 0.0, 0.0];
+    }
 }
 
 /// The periods of a motion that was synthesised.
@@ -360,32 +424,15 @@ fn walk(element: &Element, workspace: &mut Workspace, output: HarmonicOutput) {
     let opens = workspace.samples.iter().any(|sample| !element.is_closed(sample[2]));
     let periods = if opens { 1 } else { periods };
     let (mut energy, mut largest_change) = (0.0, 0.0f64);
-    let memory = core::mem::take(&mut workspace.tables);
-    if slides && let [tables, slopes, smaller, ..] = memory {
+    let memory = (core::mem::take(&mut workspace.tables), core::mem::take(&mut workspace.dual_tables));
+    if slides && let ([tables, larger, smaller, ..], [dual_tables, ..]) = (&mut *memory.0, &mut *memory.1) {
         fill(tables, element, &units, 1.0);
         if requested.tangent {
-            fill(slopes, element, &units, 1.0 + NEIGHBOUR);
-            fill(smaller, element, &units, 1.0 - NEIGHBOUR);
-            for (slope, smaller) in slopes.as_flattened_mut().iter_mut().zip(smaller.as_flattened()) {
-                *slope = (*slope - *smaller) * (0.5 / NEIGHBOUR);
-            }
+            derive_tables(element, &units, tables, [larger, smaller], dual_tables);
             workspace.derivatives.fill(0.0);
             workspace.sums.fill(0.0);
         }
-        let mut walk = Walk {
-            element,
-            units,
-            tables: [tables, slopes],
-            at: [0.0, 0.0, top],
-            contact: Contact::NONE,
-            slopes: Pressed::NONE,
-            derived: None,
-            normal: Normal::OPEN,
-            springs: [[0.0; N]; SPRINGS / N],
-            slip: Slips::NONE,
-            inverse: [[[0.0; N]; N]; 2],
-        };
-        walk.press(top);
+        let mut walk = Walk::new(element, units, (tables, dual_tables), top);
         // Of the logarithm of the reference size by the normal component.
         let by_top = if top_load >= units.load * 0.99 { 0.5 * walk.slopes.size } else { 0.0 };
         let mut before = None;
@@ -395,23 +442,10 @@ fn walk(element: &Element, workspace: &mut Workspace, output: HarmonicOutput) {
             let asked = Requested { energy: requested.energy && counts, ..requested };
             let taken = walk.advance(workspace.place(index), asked);
             if requested.tangent {
-                if taken.closed != [true, true] {
-                    workspace.derivatives.fill(0.0);
-                } else if step % FADING == 0 {
+                if taken.closed == [true, true] && step % FADING == 0 {
                     fade(workspace.derivatives);
                 }
-                if taken.closed[1] {
-                    let samples = [before, Some(index), Some(largest)];
-                    if workspace.forces.len() == 2 * NARROW {
-                        differentiate::<{ NARROW / 4 }, { NARROW / 4 + 1 }>(
-                            workspace, &mut walk, &taken, samples, by_top,
-                        );
-                    } else {
-                        differentiate::<{ WIDE / 4 }, { WIDE / 4 + 1 }>(workspace, &mut walk, &taken, samples, by_top);
-                    }
-                } else {
-                    workspace.forces.fill(0.0);
-                }
+                walk.differentiate(workspace, &taken, [before, Some(index), Some(largest)], by_top);
                 if counts {
                     let basis = row(workspace.basis, workspace.size.coefficients(), index);
                     accumulate(workspace.sums, basis, workspace.forces);
@@ -429,12 +463,9 @@ fn walk(element: &Element, workspace: &mut Workspace, output: HarmonicOutput) {
             }
         }
     } else {
-        for sample in workspace.samples.iter_mut() {
-            let normal = if element.is_closed(sample[2]) { element.normal(sample[2]) } else { Normal::OPEN };
-            [sample[3], sample[4], sample[5], sample[6]] = [normal.load, normal.load_slope, 0.0, 0.0];
-        }
+        without_friction(element, workspace.samples);
     }
-    workspace.tables = memory;
+    (workspace.tables, workspace.dual_tables) = memory;
     if let Some(dissipated) = dissipated {
         *dissipated = energy * unit * element.friction_coefficient * units.shift;
     }
@@ -528,7 +559,7 @@ fn differentiate<const L: usize, const M: usize>(
     let at = |basis: &[f64], c: usize| basis.get(c).copied().unwrap_or(0.0);
     let Taken { motion, path, before, old, .. } = taken;
     if walk.derived.is_none() {
-        walk.derived = Some(derive(&walk.contact, walk.tables, &walk.slopes));
+        walk.derived = Some(derive(&walk.contact, walk.dual_tables, &walk.slopes));
     }
     let Some(contact) = &walk.derived else { return };
     let mut shift = motion.before.map(Dual::constant);
@@ -555,6 +586,6 @@ fn differentiate<const L: usize, const M: usize>(
         }
         let motion = Motion { before: shift, by, constant_load: motion.constant_load };
         let mut springs = Columns { values: old, springs: memory, parameters: &parameters };
-        [*x, *y] = columns(walk.tables, contact, &motion, &walk.slip, &mut springs);
+        [*x, *y] = columns(walk.dual_tables, contact, &motion, &walk.slip, &mut springs);
     }
 }

@@ -29,9 +29,10 @@ const LARGEST_TURN: f64 = 0.8;
 const STALLED: f64 = 0.5;
 /// Beyond this a guess is lost.
 const LOST: f64 = 1e4;
-/// Sweeps of the points before Newton's method is tried again, at first, and the most: the first ones have always been enough.
+/// Sweeps of the points before Newton's method is tried again, at first, and attempts, of which the first two are without: the first sweeps
+/// have always been enough.
 const SWEEPS: usize = 30;
-const MOST_SWEEPS: usize = 100_000;
+const MOST_ATTEMPTS: usize = 8;
 /// Newton steps after which points that slip backwards stick: the angle of a point that hardly slips is undetermined.
 const REVIEW: usize = 15;
 /// Excess of |r|² from which on a point slips, and slip against the traction, over its scale, from which on it sticks: rounding errors.
@@ -199,12 +200,15 @@ fn find_kernel(
             guesses[0].set |= other.set;
         }
         if guesses[1].set != 0 {
-            let mut converged = false;
-            for guess in &guesses {
-                converged = converged || slip.solve(other, &problem, guess, derivatives);
-            }
-            if !converged {
-                slip.descend(other, &problem, derivatives);
+            let mut sweeps =
+                Sweeps { guess: Guess { e: problem.r, set: 0 }, sigma: [[0.0; N]; 2], r: problem.r, count: SWEEPS };
+            let mut attempt = 0;
+            while attempt < MOST_ATTEMPTS {
+                let guess = if attempt < 2 { guesses[attempt] } else { sweeps.next(&problem, &slip.level) };
+                if slip.solve(other, &problem, &guess, derivatives) {
+                    break;
+                }
+                attempt += 1;
             }
         }
         slips.v = if slip.set == 0 { problem.v } else { slip.springs(&problem) };
@@ -367,9 +371,10 @@ impl Slip {
                     residual[i] = e_x[i] * s_y[i] - e_y[i] * s_x[i];
                     diagonal[i] = e_x[i] * s_x[i] + e_y[i] * s_y[i];
                 }
-                if done || (turn <= 0.1 && !reviewed) {
+                let undetermined = steps % REVIEW == REVIEW - 1;
+                if done || undetermined || (turn <= 0.1 && !reviewed) {
                     reviewed = true;
-                    if self.review(problem, done) {
+                    if self.review(problem, done || undetermined) {
                         continue 'sets;
                     }
                 }
@@ -399,9 +404,6 @@ impl Slip {
                 if steps > STEPS || turn > LOST {
                     return false;
                 }
-                if steps % REVIEW == 0 && self.review(problem, true) {
-                    continue 'sets;
-                }
                 let damping = LARGEST_TURN / if turn > LARGEST_TURN { turn } else { LARGEST_TURN };
                 let (mut x, mut y) = (e_x, e_y);
                 for i in 0..N {
@@ -421,42 +423,6 @@ impl Slip {
             }
         }
         false
-    }
-
-    /// From sweeps of the points.
-    #[cold]
-    #[inline(never)]
-    fn descend(&mut self, other: &Slip, problem: &Problem, derivatives: bool) {
-        let Problem { r, end, .. } = problem;
-        let compliance = both!(|k| compliance(problem, k, 0));
-        let (mut guess, mut sigma, mut sweeps, mut r) = (Guess { e: *r, set: 0 }, [[0.0; N]; 2], SWEEPS, *r);
-        while sweeps < MOST_SWEEPS {
-            for _ in 0..sweeps {
-                for i in (0..(*end).min(N)).rev() {
-                    let (a, limit) = ([compliance[0][i][i], compliance[1][i][i]], self.level[i]);
-                    let g = [r[0][i] + a[0] * sigma[0][i], r[1][i] + a[1] * sigma[1][i]];
-                    guess.set &= !(1 << i);
-                    let mut now = [0.0; 2];
-                    if g[0] * g[0] + g[1] * g[1] > limit * limit {
-                        let (size, e) = own_slip(g.map(|g| g / limit), a.map(|a| a / limit));
-                        now = e.map(|e| size * e);
-                        guess.set |= 1 << i;
-                        (guess.e[0][i], guess.e[1][i]) = (e[0], e[1]);
-                    }
-                    for k in 0..2 {
-                        let change = now[k] - sigma[k][i];
-                        sigma[k][i] = now[k];
-                        for m in 0..N {
-                            r[k][m] -= compliance[k][i][m] * change;
-                        }
-                    }
-                }
-            }
-            if self.solve(other, problem, &guess, derivatives) {
-                return;
-            }
-            sweeps *= 4;
-        }
     }
 
     /// Points beyond the limit slip; at the end of an iteration, those whose slip is against the traction stick. Whether any has changed.
@@ -490,6 +456,48 @@ impl Slip {
             }
         }
         self.set != before
+    }
+}
+
+/// Sweeps of the points: each slips to its own minimum, again and again.
+struct Sweeps {
+    guess: Guess,
+    sigma: Both<Row<f64>>,
+    r: Both<Row<f64>>,
+    /// Of the next attempt.
+    count: usize,
+}
+
+impl Sweeps {
+    /// The guess after four times as many sweeps as before.
+    #[cold]
+    #[inline(never)]
+    fn next(&mut self, problem: &Problem, level: &Row<f64>) -> Guess {
+        let Sweeps { guess, sigma, r, count } = self;
+        let compliance = both!(|k| compliance(problem, k, 0));
+        for _ in 0..*count {
+            for i in (0..problem.end.min(N)).rev() {
+                let (a, limit) = ([compliance[0][i][i], compliance[1][i][i]], level[i]);
+                let g = [r[0][i] + a[0] * sigma[0][i], r[1][i] + a[1] * sigma[1][i]];
+                guess.set &= !(1 << i);
+                let mut now = [0.0; 2];
+                if g[0] * g[0] + g[1] * g[1] > limit * limit {
+                    let (size, e) = own_slip(g.map(|g| g / limit), a.map(|a| a / limit));
+                    now = e.map(|e| size * e);
+                    guess.set |= 1 << i;
+                    (guess.e[0][i], guess.e[1][i]) = (e[0], e[1]);
+                }
+                for k in 0..2 {
+                    let change = now[k] - sigma[k][i];
+                    sigma[k][i] = now[k];
+                    for m in 0..N {
+                        r[k][m] -= compliance[k][i][m] * change;
+                    }
+                }
+            }
+        }
+        *count *= 4;
+        *guess
     }
 }
 

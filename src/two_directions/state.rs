@@ -90,8 +90,7 @@ pub fn state_check(state: &[f64]) -> Result<(), Error> {
     let edge = contact.edge.as_flattened().iter().chain(&contact.per_pressure).all(|value| *value >= 0.0);
     let start = starts(contact.under_flat);
     let within = (0..2).all(|k| {
-        // Of extreme parameters rounding leaves springs beyond their limits.
-        let rounding = 1e-2 * contact.now.shift[k];
+        let rounding = 1e-9 * contact.now.shift[k];
         let limit = |j: usize| contact.limit(&&*memory.tables, k, start[j]) + rounding;
         (0..=contact.last.min(N - 1)).all(|j| memory.springs[k][j].abs() <= limit(j))
     });
@@ -152,6 +151,7 @@ impl Memory<'_> {
         let fine = |row: &Row<f64>| row.first_chunk::<MOST_PARTS>().copied().unwrap_or([0.0; MOST_PARTS]);
         let contact = Contact {
             edge: [*edge_x, *edge_y],
+            pressure: [0.0; N],
             per_pressure: *per_pressure,
             stiffness: [w_x, w_y],
             flexibility: [1.0 / w_x.max(TINY), 1.0 / w_y.max(TINY)],
@@ -342,12 +342,7 @@ pub(super) fn advance_state(element: &Element, state: &mut [f64], to: [f64; 3], 
         result.force = [force_unit * header.force[0], force_unit * header.force[1], normal.load];
         if requested.tangent {
             let slopes = stick::tangent(memory.tables, &contact, &slopes, &edge, memory.springs);
-            for k in 0..2 {
-                let [w, x, y, _] = slopes[k].map(|slope| force_unit * slope);
-                let [u, v] = [x, y].map(|slope| path.per_distance * slope);
-                (result.tangent[k], result.tangent[3 + k], result.tangent[6 + k]) = (u, v, w);
-            }
-            result.tangent[8] = normal.load_slope;
+            result.tangent = tangent_of(slopes, [force_unit * path.per_distance, force_unit], normal.load_slope);
         }
         memory.move_to(to, &header.force);
         return result;
@@ -364,11 +359,7 @@ pub(super) fn advance_state(element: &Element, state: &mut [f64], to: [f64; 3], 
         });
         let motion = Motion { before: motion.before.map(Dual::constant), by, constant_load: same };
         let force = tangent(memory.tables, &contact, &slopes, &motion, &slip, memory.springs);
-        for k in 0..2 {
-            let [w, u, v, _] = force[k].0[0].map(|slope| force_unit * slope);
-            (result.tangent[k], result.tangent[3 + k], result.tangent[6 + k]) = (u, v, w);
-        }
-        result.tangent[8] = normal.load_slope;
+        result.tangent = tangent_of(force.map(|force| force.0[0]), [force_unit; 2], normal.load_slope);
     }
     let contacts = [&from, &contact];
     let (force, energy) = advance(memory.tables, contacts, &motion, &slip, requested.energy, memory.springs);
@@ -377,6 +368,13 @@ pub(super) fn advance_state(element: &Element, state: &mut [f64], to: [f64; 3], 
     let header = Header { displacement: to, normal_force: normal.load, force, ..header };
     memory.write(&header, &contact);
     result
+}
+
+/// The tangent from the derivatives of both forces by the normal component, u and v, in the units of the springs.
+fn tangent_of(slopes: Both<[f64; 4]>, [per_distance, per_input]: [f64; 2], load_slope: f64) -> [f64; 9] {
+    let [[w_x, x_x, x_y, _], [w_y, y_x, y_y, _]] = slopes;
+    let [xx, yx, xy, yy] = [x_x, y_x, x_y, y_y].map(|slope| per_distance * slope);
+    [xx, yx, 0.0, xy, yy, 0.0, per_input * w_x, per_input * w_y, load_slope]
 }
 
 /// The force of a step with its derivatives: by the normal component, u and v.

@@ -31,44 +31,47 @@ pub(crate) fn step<A: Over<A>, X: Over<A>, T: Tables<A>, S: Springs<X>>(
         }
     }
     let slides = if slip.slides > 0.0 { slid(t, c, &v) } else { zero };
-    let one = [A::constant(1.0); N];
-    let relation = Relation::new(t, c, slip);
-    if slip.middle.set != 0 {
-        let (before, first) = (limits_before(t, c, rise[0]), slip.middle.set.trailing_zeros() as usize);
-        let theta = (slides + X::constant(1.0)).scale(0.5);
-        let (mut at, mut limits) = (v, Limits { start: before, rise: before, part: None });
-        for i in first..end {
-            limits.rise[i] = one[i] - before[i];
-            limits.start[i] = if slip.slides > 0.0 { before[i] } else { (before[i] + one[i]).scale(0.5) };
-        }
-        limits.part = if slip.slides > 0.0 { Some(theta) } else { None };
-        for k in 0..2 {
-            for j in first..end {
-                let old = s.get(k * N + j);
-                at[k][j] = old + part_of(v[k][j] - old, limits.part, 0.5);
+    let (far, one) = (slip.slides > 0.0, A::constant(1.0));
+    let theta = (slides + X::constant(1.0)).scale(0.5);
+    for stage in 0..2 {
+        let (middle, now) = if stage == 0 { (true, &slip.middle) } else { (false, &slip.end) };
+        let first = (now.set.trailing_zeros() as usize).min(end);
+        let mut limits = Limits { start: [one; N], rise: [one; N], part: None };
+        if middle {
+            let before = limits_before(t, c, rise[0]);
+            limits.part = if far { Some(theta) } else { None };
+            for i in first..end {
+                limits.rise[i] = one - before[i];
+                limits.start[i] = if far { before[i] } else { (before[i] + one).scale(0.5) };
             }
+            in_part(&mut v, s, limits.part, 0.5, [first, end]);
         }
-        slide(t, c, &relation, &limits, &mut at, &slip.middle);
-        let per = if slip.slides > 0.0 { Some(theta.inverse()) } else { None };
-        for k in 0..2 {
-            for j in first..end {
-                let old = s.get(k * N + j);
-                v[k][j] = old + part_of(at[k][j] - old, per, 2.0);
-            }
+        if now.set != 0 {
+            slide(t, c, &limits, &mut v, now);
         }
-    }
-    if slip.end.set != 0 {
-        slide(t, c, &relation, &Limits { start: one, rise: one, part: None }, &mut v, &slip.end);
+        if middle {
+            let per = if far { Some(theta.inverse()) } else { None };
+            in_part(&mut v, s, per, 2.0, [first, end]);
+        }
     }
     finish(t, c, motion, slip, slides, v, s)
 }
 
-/// A number times a part, which is a constant if none is given.
+/// Springs after a part of their motion, which is a constant if none is given.
 #[inline(always)]
-fn part_of<X: Real>(x: X, part: Option<X>, constant: f64) -> X {
-    match part {
-        Some(part) => x * part,
-        None => x.scale(constant),
+fn in_part<X: Real, S: Springs<X>>(
+    v: &mut Both<Row<X>>,
+    s: &S,
+    part: Option<X>,
+    constant: f64,
+    [first, end]: [usize; 2],
+) {
+    for k in 0..2 {
+        for j in first..end.min(N) {
+            let old = s.get(k * N + j);
+            let by = v[k][j] - old;
+            v[k][j] = old + if let Some(part) = part { by * part } else { by.scale(constant) };
+        }
     }
 }
 
@@ -200,66 +203,34 @@ struct Limits<A, X> {
     part: Option<X>,
 }
 
-/// The relation of springs and tractions r, as numbers: `G_i,j-1 - G_ij` as `[i][j]`, `1/G_ii` and p_i.
-struct Relation<A> {
-    falls: Both<[Row<A>; N]>,
-    per_map: Both<Row<A>>,
-    pressure: Row<A>,
-    stiffness: Both<Row<A>>,
-    end: usize,
+/// Springs from the tractions at the points from one on, in place: `v_i = [p_i r_i + Σ_{j>i} (G_i,j-1 - G_ij) v_j]/G_ii`.
+#[inline(always)]
+fn springs_of<A: Real, X: Over<A>, T: Tables<A>>(t: &T, c: &Contact<A>, k: usize, first: usize, r: &mut Row<X>) {
+    let end = (c.last + 1).min(N);
+    for i in (first..end).rev() {
+        let (mut sum, mut before) = (r[i].times(c.pressure[i]), c.map(t, k, i, i));
+        for j in i + 1..end {
+            let map = c.map(t, k, j, i);
+            sum.add_product(&r[j], before - map);
+            before = map;
+        }
+        r[i] = sum.times(c.per_map(t, k, i));
+    }
 }
 
-impl<A: Over<A>> Relation<A> {
-    /// From the first point that slips on.
-    #[inline(always)]
-    fn new<T: Tables<A>>(t: &T, c: &Contact<A>, slip: &Slips) -> Relation<A> {
-        let (zero, end) = (A::constant(0.0), (c.last + 1).min(N));
-        let first = ((slip.middle.set | slip.end.set).trailing_zeros() as usize).min(end);
-        let row = [zero; N];
-        let mut relation =
-            Relation { falls: [[row; N]; 2], per_map: [row; 2], pressure: row, stiffness: [row; 2], end };
-        for i in first..end {
-            relation.pressure[i] = c.per_pressure[i].inverse();
-            for k in 0..2 {
-                (relation.per_map[k][i], relation.stiffness[k][i]) = (c.per_map(t, k, i), c.stiffness(t, k, i));
-                let mut before = c.map(t, k, i, i);
-                for j in i + 1..end {
-                    let map = c.map(t, k, j, i);
-                    relation.falls[k][i][j] = before - map;
-                    before = map;
-                }
-            }
+/// The slip at the points from one on that moves springs by v, in place: `C'σ = w v`.
+#[inline(always)]
+fn slip_of<A: Real, X: Over<A>, T: Tables<A>>(t: &T, c: &Contact<A>, k: usize, first: usize, v: &mut Row<X>) {
+    let end = (c.last + 1).min(N);
+    for i in first..end {
+        let mut sum = v[i].times(c.stiffness(t, k, i));
+        for j in first..i {
+            sum.add_product(&v[j], c.map(t, k, i - 1, j) - c.map(t, k, i, j));
         }
-        relation
+        v[i] = sum.times(c.per_map(t, k, i));
     }
-
-    /// Springs from the tractions at the points from one on, in place: `v_i = [p_i r_i + Σ_{j>i} (G_i,j-1 - G_ij) v_j]/G_ii`.
-    #[inline(always)]
-    fn springs<X: Over<A>>(&self, k: usize, first: usize, r: &mut Row<X>) {
-        let end = self.end.min(N);
-        for i in (first..end).rev() {
-            let mut sum = r[i].times(self.pressure[i]);
-            for j in i + 1..end {
-                sum.add_product(&r[j], self.falls[k][i][j]);
-            }
-            r[i] = sum.times(self.per_map[k][i]);
-        }
-    }
-
-    /// The slip at the points from one on that moves springs by v, in place: `C'σ = w v`.
-    #[inline(always)]
-    fn slip<X: Over<A>>(&self, k: usize, first: usize, v: &mut Row<X>) {
-        let end = self.end.min(N);
-        for i in first..end {
-            let mut sum = v[i].times(self.stiffness[k][i]);
-            for j in first..i {
-                sum.add_product(&v[j], self.falls[k][j][i]);
-            }
-            v[i] = sum.times(self.per_map[k][i]);
-        }
-        for i in first..end {
-            v[i] = v[i].times(self.pressure[i]);
-        }
+    for i in first..end {
+        v[i] = v[i].times(c.pressure[i]);
     }
 }
 
@@ -268,7 +239,6 @@ impl<A: Over<A>> Relation<A> {
 fn slide<A: Over<A>, X: Over<A>, T: Tables<A>>(
     t: &T,
     c: &Contact<A>,
-    relation: &Relation<A>,
     limits: &Limits<A, X>,
     v: &mut Both<Row<X>>,
     slip: &Slip,
@@ -292,7 +262,7 @@ fn slide<A: Over<A>, X: Over<A>, T: Tables<A>>(
         for i in first..end {
             own[i] = limits.start[i].scale(slip.e[k][i]);
         }
-        relation.springs(k, first, &mut own);
+        springs_of(t, c, k, first, &mut own);
         for i in first..end {
             v[k][i] = v[k][i].minus(own[i]);
         }
@@ -300,12 +270,12 @@ fn slide<A: Over<A>, X: Over<A>, T: Tables<A>>(
             for i in first..end {
                 own[i] = limits.rise[i].scale(slip.e[k][i]);
             }
-            relation.springs(k, first, &mut own);
+            springs_of(t, c, k, first, &mut own);
             for i in first..end {
                 v[k][i] = v[k][i] - part.times(own[i]);
             }
         }
-        relation.slip(k, first, &mut v[k]);
+        slip_of(t, c, k, first, &mut v[k]);
         let (across, sign) = if k == 0 { (&slip.e[1], -1.0) } else { (&slip.e[0], 1.0) };
         for i in first..end {
             residual[i].add_scaled(&v[k][i], sign * across[i]);
@@ -321,7 +291,7 @@ fn slide<A: Over<A>, X: Over<A>, T: Tables<A>>(
                 v[k][i] = v[k][i] + part.times(limits.rise[i].scale(e));
             }
         }
-        relation.springs(k, first, &mut v[k]);
+        springs_of(t, c, k, first, &mut v[k]);
     }
 }
 
@@ -336,69 +306,64 @@ fn slide_with_gaps<A: Real, X: Over<A>, T: Tables<A>>(
     [first, end]: [usize; 2],
 ) {
     let (zero, end) = (X::constant(0.0), end.min(N));
-    let first = first.min(end);
-    let mut excess = [[zero; N]; 2];
+    let (first, mut slips, mut residual) = (first.min(end), [[zero; N]; 2], [zero; N]);
     for k in 0..2 {
-        // Springs by which σ relaxes the contact, and the excess of r* - A σ over l e.
-        let mut relaxed = [A::constant(0.0); N];
-        let (mut before, mut per_slip) = (A::constant(0.0), [A::constant(0.0); N]);
+        let (mut sigma, mut excess) = ([zero; N], [zero; N]);
         for i in first..end {
-            per_slip[i] = c.per_pressure[i].scale(if slip.contains(i) { slip.sigma[k][i] } else { 0.0 });
+            sigma[i] = X::constant(if slip.contains(i) { slip.sigma[k][i] } else { 0.0 });
         }
-        for j in first..end {
-            let (mut sum, next) = (A::constant(0.0), (j + 1).min(N));
-            for i in first..next {
-                sum = sum + c.map(t, k, j, i) * per_slip[i];
-            }
-            relaxed[j] = (sum - before) * c.flexibility(t, k, j);
-            before = sum;
-        }
-        let mut d = [zero; N];
-        for j in first..end {
-            d[j] = v[k][j].minus(relaxed[j]);
-        }
-        for j in first + 1..end {
-            d[j - 1] = d[j - 1] - d[j];
-        }
+        relax(t, c, k, &sigma, &mut v[k], [first, end]);
         for i in first..end {
             if slip.contains(i) {
                 let mut sum = zero;
                 for j in i..end {
-                    sum.add_product(&d[j], c.map(t, k, j, i));
+                    let above = if j + 1 < end { v[k][j + 1] } else { zero };
+                    sum.add_product(&(v[k][j] - above), c.map(t, k, j, i));
                 }
-                excess[k][i] = sum.times(c.per_pressure[i]);
-                excess[k][i].add_scaled(&level[i], -slip.e[k][i]);
+                excess[i] = sum.times(c.per_pressure[i]);
+                excess[i].add_scaled(&level[i], -slip.e[k][i]);
             }
         }
+        slips[k] = product(&slip.k[k], [first, end], &excess);
     }
-    let slips = both!(|k| product(&slip.k[k], [first, end], &excess[k]));
-    let mut residual = [zero; N];
     for i in first..end {
         residual[i] = slips[1][i].scale(slip.e[0][i]) - slips[0][i].scale(slip.e[1][i]);
     }
     let turn = product(&slip.inverse, [first, end], &residual);
     for k in 0..2 {
-        let (across, sign) = if k == 0 { (&slip.e[1], -1.0) } else { (&slip.e[0], 1.0) };
+        let (across, sign) = if k == 0 { (&slip.e[1], 1.0) } else { (&slip.e[0], -1.0) };
         let mut change = [zero; N];
         for i in first..end {
             if slip.contains(i) {
-                change[i] = turn[i].scale(-sign * across[i] * slip.level[i]);
+                change[i] = turn[i].scale(sign * across[i] * slip.level[i]);
             }
         }
         let mut sigma = product(&slip.k[k], [first, end], &change);
         for i in first..end {
-            let own = if slip.contains(i) { slip.sigma[k][i] } else { 0.0 };
-            sigma[i] = (sigma[i] + slips[k][i] + X::constant(own)).times(c.per_pressure[i]);
+            sigma[i] = sigma[i] + slips[k][i];
         }
-        let mut before = zero;
-        for j in first..end {
-            let (mut sum, next) = (zero, (j + 1).min(N));
-            for i in first..next {
-                sum.add_product(&sigma[i], c.map(t, k, j, i));
-            }
-            v[k][j] = v[k][j] - (sum - before).times(c.flexibility(t, k, j));
-            before = sum;
+        relax(t, c, k, &sigma, &mut v[k], [first, end]);
+    }
+}
+
+/// Takes what slip relaxes from the springs: `w⁻¹ C'σ`.
+#[inline(always)]
+fn relax<A: Real, X: Over<A>, T: Tables<A>>(
+    t: &T,
+    c: &Contact<A>,
+    k: usize,
+    sigma: &Row<X>,
+    v: &mut Row<X>,
+    [first, end]: [usize; 2],
+) {
+    let mut before = X::constant(0.0);
+    for j in first..end.min(N) {
+        let mut sum = X::constant(0.0);
+        for i in first..(j + 1).min(N) {
+            sum.add_product(&sigma[i].times(c.per_pressure[i]), c.map(t, k, j, i));
         }
+        v[j] = v[j] - (sum - before).times(c.flexibility(t, k, j));
+        before = sum;
     }
 }
 

@@ -81,8 +81,9 @@ pub(crate) const PRESSURE: usize = PER_MAP + 2;
 pub(crate) const MAP: usize = PRESSURE + N;
 pub(crate) const ROWS: usize = MAP + 2 * N;
 
-/// The tables.
+/// The tables, and the tables as dual numbers.
 pub(crate) type Rows = [Row<f64>; ROWS];
+pub(crate) type DualRows = [Row<[f64; 4]>; ROWS];
 
 /// The first part of each shell and the number of all, for the given number of springs under the flat.
 pub(crate) fn starts(under_flat: usize) -> &'static [usize; N + 1] {
@@ -121,12 +122,10 @@ impl Tables<Dual<1>> for &Rows {
 }
 
 /// Tables and their derivatives by the alignment.
-impl Tables<Dual<1>> for [&Rows; 2] {
+impl Tables<Dual<1>> for &DualRows {
     #[inline(always)]
     fn at(&self, row: usize, i: usize) -> Dual<1> {
-        let mut dual = Dual::constant(self[0].at(row, i));
-        dual.0[0][ALIGNMENT] = self[1].at(row, i);
-        dual
+        self.as_flattened().get(row * N + i).map_or(Dual::constant(0.0), |dual| Dual([*dual]))
     }
 }
 

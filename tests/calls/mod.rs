@@ -305,6 +305,7 @@ pub const RULES: [i32; 2] = [MSLIP_UNIFORM_SAMPLING, MSLIP_EVENT_DRIVEN];
 /// Items, steps and points.
 pub const N: usize = 3;
 pub const HARMONICS: usize = 1;
+/// Of ellipses one less.
 pub const SAMPLES: usize = 9;
 pub const PERIODS: usize = 2;
 
@@ -361,7 +362,7 @@ fn law_of_contact(is_elliptic: bool, init: impl Fn(*mut mslip_contact) -> i32) -
         normal_input: MSLIP_INPUT_APPROACH,
         rule: MSLIP_UNIFORM_SAMPLING,
         harmonics: HARMONICS,
-        samples: SAMPLES,
+        samples: SAMPLES - usize::from(is_elliptic),
         half_width: c.half_width,
         force: c.slip_force,
         displacement: c.slip_displacement,
@@ -404,7 +405,7 @@ pub fn element(is_elliptic: bool, init: impl Fn(*mut mslip_element) -> i32) -> L
         normal_input: e.normal_input,
         rule: MSLIP_UNIFORM_SAMPLING,
         harmonics: HARMONICS,
-        samples: SAMPLES,
+        samples: SAMPLES - usize::from(is_elliptic),
         half_width: e.half_width,
         force: e.friction_coefficient * e.normal_force,
         displacement: e.friction_coefficient * e.approach,

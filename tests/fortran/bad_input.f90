@@ -341,10 +341,9 @@ contains
   end subroutine test_batch
 
   subroutine test_two_directions()
-    ! Elements, states and workspaces of one direction among those of two, the tractions of two directions, and skipped items.
+    ! Elements, states and workspaces of one direction among those of two, and the tractions of two directions.
     type(mslip_element) :: other
     real(wp), allocatable :: state_of_one(:), workspace_of_one(:)
-    real(wp) :: error
     integer :: i
 
     call mslip_element_init(flat_parameters(1), one, MSLIP_INPUT_APPROACH, other, status)
@@ -363,17 +362,6 @@ contains
       end if
       elements(merge(2, 1, procedures(p)%batch)) = other  ! That of the first item.
       call rejected('one direction', merge(MSLIP_BAD_DIRECTIONS, MSLIP_BAD_ARRAY_SIZE, procedures(p)%memory == 'w'))
-      if (procedures(p)%batch) then
-        active(1) = 0
-        call perform()
-        call check_status(trim(procedures(p)%name)//': the only element of one direction is skipped', status, MSLIP_OK)
-        call set_up()
-        elements(n) = other
-        call rejected('the last element has one direction', MSLIP_BAD_DIRECTIONS)
-        active = 0
-        call perform()
-        call check_status(trim(procedures(p)%name)//': all items are skipped', status, MSLIP_OK)
-      end if
       call set_up()
       workspace = workspace_of_one
       if (procedures(p)%memory == 'w') call rejected('the workspace of one direction', MSLIP_BAD_COEFFICIENTS)
@@ -382,17 +370,6 @@ contains
       if (procedures(p)%outputs(5:5) == 'N') out(5)%v = spread(untouched, 1, size(state))
       if (procedures(p)%memory == 's') call rejected('the state of one direction', MSLIP_BAD_DIRECTIONS)
     end do
-    error = untouched
-    state_of_one = spread(0.0_wp, 1, int(mslip_element_state_length(2_mslip_int, 0_mslip_size)))
-    call mslip_element_state_init(2_mslip_int, state_of_one, status)
-    call check_status('state of two directions', status, MSLIP_OK)
-    call mslip_element_state_check(one, state_of_one, status)
-    call check_status('check of a state of two directions as one of one', status, MSLIP_BAD_DIRECTIONS)
-    call mslip_element_state_error(one, state_of_one, error, status)
-    call check_status('error of a state of two directions as one of one', status, MSLIP_BAD_DIRECTIONS)
-    call check('no error of the other direction', is_untouched([error]))
-    call mslip_element_state_error(2_mslip_int, state_of_one, error, status)
-    call check('no error of an open contact', status == MSLIP_OK .and. error >= 0)
   end subroutine test_two_directions
 
   subroutine test_short_memory()

@@ -1,7 +1,6 @@
 % Checks of microslip.mex and microslip_residual; the last line is "N passed, N failed".
 function run
     addpath(fileparts(fileparts(mfilename('fullpath'))));
-    forces();
     response();
     gradients();
     elements_of_nlvib();
@@ -36,26 +35,6 @@ end
 function p = parameters()
     p = struct('flat_half_width', 0.2e-3, 'edge_radius', 5e-3, 'length', 10e-3, 'normal_force', 150, ...
                'friction_coefficient', 0.4, 'young_modulus', 114e9, 'poisson_ratio', 0.32, 'displacement_reference', 1);
-end
-
-% The harmonic forces of tests/golden, computed in multi-precision; the tolerance is that of the interface for C.
-function forces()
-    folder = fullfile(root(), 'tests', 'golden');
-    [names, contacts] = table(fullfile(folder, 'contacts.csv'));
-    [~, cases] = table(fullfile(folder, 'harmonic_force.csv'));
-    column = @(name) find(strcmp(names, name));
-    worst = 0;
-    for row = cases.'
-        values = contacts(contacts(:,1) == row(2), :);
-        p = struct('flat_half_width', values(column('a')), 'edge_radius', values(column('R')), 'length', values(column('L')), ...
-                   'normal_force', values(column('N')), 'friction_coefficient', values(column('mu')), ...
-                   'young_modulus', values([column('E1'), column('E2')]), 'poisson_ratio', values([column('nu1'), column('nu2')]), ...
-                   'displacement_reference', 0);
-        contact = microslip('contact', p);
-        force = microslip('harmonic_force', contact, row(3), row(4:10));
-        worst = max(worst, max(abs(force - row(11:17)))/microslip('fields', contact).slip_force);
-    end
-    check('harmonic forces against multi-precision', worst, 2e-13);
 end
 
 function [names, values] = table(path)

@@ -53,25 +53,6 @@ fn logarithms_join_their_series() {
     joins(&|extent| layer.load_of_extent(extent) / extent);
 }
 
-#[test]
-fn quantities_are_integrals_of_the_compliances() {
-    for shape in shapes() {
-        for load in [1e-3, 0.1, 1.0, 150.0, 400.0] {
-            let (w, h) = (shape.at_load(load), 1e-4);
-            // Central differences in ln w, relative error h².
-            let (low, high) = (w * (1.0 - h), w * (1.0 + h));
-            let difference = |f: &dyn Fn(f64) -> f64| (f(high) - f(low)) / (shape.load(high) - shape.load(low));
-            for quantity in Quantity::ALL {
-                let ratio = difference(&|w| shape.value(quantity, w)) / shape.compliance(quantity, w);
-                assert!((ratio - 1.0).abs() < 1e-7, "{load} {quantity:?}: {ratio}");
-            }
-            let exact = shape.compliance(Quantity::Shift, w) * shape.load(w);
-            let ratio = difference(&|w| shape.potential(w)) / exact;
-            assert!((ratio - 1.0).abs() < 1e-7, "{load}: {ratio}");
-        }
-    }
-}
-
 /// A ninth of the argument beside the middle, as in the tables.
 #[test]
 fn series_are_the_functions() {

@@ -1,7 +1,7 @@
 //! The data of each figure.
 
 use crate::cases::Case;
-use crate::equations::{Tractions, printed_load, printed_pressure, printed_relieved_traction};
+use crate::equations::Tractions;
 use crate::swing;
 use crate::table::Table;
 use std::f64::consts::PI;
@@ -61,8 +61,7 @@ pub fn all() -> Vec<Table> {
     tables.extend(loops_of_amplitudes());
     tables.extend([loops_of_shapes(), loops_of_lengths(), stiffness_under_load(), first_loading()]);
     tables.extend(complex_stiffness());
-    tables.extend([energy(), energy_logarithmic(), oscillating_tractions(), load_as_printed()]);
-    tables.extend([tractions_as_printed(), slip_as_printed()]);
+    tables.extend([energy(), energy_logarithmic(), oscillating_tractions()]);
     tables.extend(swing::tables());
     tables
 }
@@ -189,37 +188,4 @@ fn oscillating_tractions() -> Table {
         let tractions = Tractions::after_reversal(&case, REVERSAL, force);
         table.column(format!("{force} after the reversal"), map(&x, |x| tractions.at(x)))
     })
-}
-
-fn load_as_printed() -> Table {
-    let flats = even(0.02, 0.98, 120);
-    let load = |factor: f64| map(&flats, |flat| factor * flat * flat * printed_load(flat));
-    Table::new("printed_load")
-        .column("a/b", flats.clone())
-        .column("as printed", load(1.0))
-        .column("corrected", load(2.0))
-}
-
-/// The relieved traction of a stick zone is the pressure of a contact of its size.
-fn tractions_as_printed() -> Table {
-    let x = across(&[SHAPE]);
-    let case = Case::flat(SHAPE, LENGTH);
-    let corrected = map(&x, |x| case.pressure(x));
-    Table::new("printed_tractions")
-        .column("x/b", x.clone())
-        .column("Eq. 17 as printed", map(&x, |x| printed_pressure(SHAPE, x)))
-        .column("Eq. 22 as printed", map(&x, |x| printed_relieved_traction(SHAPE, x)))
-        .column("Eq. 17 corrected", corrected.clone())
-        .column("Eq. 22 corrected", corrected)
-}
-
-/// Slip under a force, by Eq. 15 with both upper limits.
-fn slip_as_printed() -> Table {
-    let x = even(0.005, 0.995, 99);
-    let case = Case::flat(SHAPE, LENGTH);
-    let tractions = Tractions::first(&case, REVERSAL);
-    Table::new("printed_slip")
-        .column("x/b", x.clone())
-        .column("upper limit a", map(&x, |x| tractions.slip(x, SHAPE)))
-        .column("upper limit b", map(&x, |x| case.slip(x, REVERSAL)))
 }

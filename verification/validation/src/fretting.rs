@@ -8,7 +8,6 @@
 //! (`tests/golden/vanpeteghem2011_energy.csv`).
 
 use crate::drive::displacement_at;
-use crate::table::Table;
 use microslip::element::{Directions, Element, NormalInput};
 use microslip::one_direction as state;
 use microslip::parameters::RIGID_STRIP;
@@ -238,9 +237,7 @@ impl Comparison {
             with_rig: [0, 1].map(|i: usize| held(&elements[i], ratio, rigs[i], 0.0)),
             alone: [0, 1].map(|i: usize| held(&elements[i], ratio, 0.0, 0.0)),
         };
-        // 0.1, 0.15, ... 1, which contain those of the measurements.
-        let rows = (2..=20).map(|i| row(f64::from(i) / 20.0)).collect();
-        Comparison { elements, rigs, rows }
+        Comparison { elements, rigs, rows: MEASURED.map(|(ratio, _)| row(ratio)).into() }
     }
 
     fn at(&self, ratio: f64) -> &Row {
@@ -305,25 +302,5 @@ impl Comparison {
             writeln!(table, "| {ratio} | {cells} | {share:.2} |").expect("a string");
         }
         table
-    }
-
-    /// The data of the figure: bands of the energies, and the measurements.
-    pub fn drawings(&self) -> [Table; 2] {
-        let column = |value: &dyn Fn(&Row) -> f64| self.rows.iter().map(value).collect();
-        let bands = Table::new("fretting")
-            .column("ratio", column(&|row| row.ratio))
-            .column("contact and rig: mu = 0.60", column(&|row| row.with_rig[0].dissipated))
-            .column("contact and rig: mu = 0.65", column(&|row| row.with_rig[1].dissipated))
-            .column("contact: mu = 0.60", column(&|row| row.alone[0].dissipated))
-            .column("contact: mu = 0.65", column(&|row| row.alone[1].dissipated))
-            .column("rigid: mu = 0.60", column(&|row| rigid(row.ratio)[0]))
-            .column("rigid: mu = 0.65", column(&|row| rigid(row.ratio)[1]));
-        let frequency = |i: usize| MEASURED.iter().map(|(_, energies)| energies[i]).collect();
-        let points = Table::new("fretting_measured")
-            .column("ratio", MEASURED.iter().map(|(ratio, _)| *ratio).collect())
-            .column("3 Hz", frequency(0))
-            .column("1 Hz", frequency(1))
-            .column("0.11 Hz", frequency(2));
-        [bands, points]
     }
 }

@@ -21,13 +21,10 @@ use drive::{Point, SUBSTEPS};
 use histories::{History, Row, Shape};
 use std::fmt::Write;
 use std::process::ExitCode;
-use table::Table;
 
-/// A history with the law along it.
+/// A history compared with the law along it.
 struct Comparison {
     history: History,
-    /// At each substep; the first one belongs to the first row.
-    law: Vec<Point>,
     /// Largest difference of displacements, over the largest displacement.
     difference: f64,
     /// The same for the law of a constant normal force, unless it slips grossly where the contact does not.
@@ -131,7 +128,6 @@ fn compare(history: History) -> Comparison {
         dissipated: history.rows[history.rows.len() - 1].dissipated / last,
         cycle: slips.then(|| Cycle::new(&history.rows[half..], &law[half * SUBSTEPS as usize..])),
         approach: history.rows.iter().map(approach).fold(0.0, f64::max),
-        law,
         history,
     }
 }
@@ -184,38 +180,6 @@ impl Comparison {
     }
 }
 
-/// The data of the figure: the cylinder, forces over mu N, and displacements less those of the stuck contact over that of gross slip, all at
-/// the mean load.
-fn drawings(comparisons: &[Comparison]) -> Vec<Table> {
-    let find = |name: &str| {
-        comparisons.iter().find(|comparison| comparison.history.name == format!("cylinder_{name}")).expect("a history")
-    };
-    let contact = Shape::Cylinder.contact(Shape::Cylinder.normal_force()).expect("a contact");
-    let curve = |table: Table, name: &str, points: Vec<[f64; 2]>| {
-        let force = points.iter().map(|[force, _]| force / contact.slip_force).collect();
-        let beyond = points.iter().map(|[force, displacement]| displacement - force / contact.initial_stiffness);
-        table.curve(name, force, beyond.map(|beyond| beyond / contact.slip_displacement).collect())
-    };
-    let law = |table: Table, name: &str, path: &str| {
-        let points = find(path).law.iter().map(|point| [point.tangential_force, point.displacement]);
-        curve(table, name, points.collect())
-    };
-    let elements = |table: Table, name: &str, path: &str| {
-        let points = find(path).history.rows.iter().map(|row| [row.tangential_force, row.displacement]);
-        curve(table, name, points.collect())
-    };
-    let phases = [("constant load", "constN"), ("in phase", "phase0"), ("90°", "phase90"), ("180°", "phase180")];
-    let all = |name: &'static str, curve: &dyn Fn(Table, &str, &str) -> Table| {
-        phases.iter().fold(Table::new(name), |table, (name, path)| curve(table, name, path))
-    };
-    vec![
-        law(Table::new("contact_code_steps_law"), "law", "steps"),
-        elements(Table::new("contact_code_steps"), "boundary elements", "steps"),
-        all("contact_code_phases_law", &law),
-        all("contact_code_phases", &elements),
-    ]
-}
-
 /// A table of Markdown as CSV.
 fn csv(table: &str) -> String {
     let rows = table.lines().filter(|line| !line.starts_with("|---"));
@@ -251,12 +215,7 @@ fn main() -> ExitCode {
     documents.results.extend(opening_results);
     let rebound = rebound::Comparison::new();
     documents.results.extend(rebound.results());
-    let drawings = drawings(&comparisons)
-        .into_iter()
-        .chain([directions.drawings()])
-        .chain(fretting.drawings())
-        .chain(rebound.drawings());
-    drawings.for_each(|table| documents.data(&table));
+    [directions.drawings()].iter().chain(&rebound.drawings()).for_each(|table| documents.data(table));
     let mut tables = Vec::from(directions.tables());
     let [measured, computed] = rebound.tables();
     tables.extend([("rebound", measured), ("rebound by finite elements", computed)]);

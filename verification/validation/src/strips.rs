@@ -100,6 +100,23 @@ fn errors() -> Vec<Errors> {
     [2.5, 5.0, 10.0, 20.0].into_iter().map(of_length).collect()
 }
 
+/// Errors of the law in per cent against CONTACT itself: of short strips, and of slender ones.
+fn errors_by_contact() -> [Range; 2] {
+    let lines = include_str!("../../../tests/golden/strip_3d_contact.csv").lines().skip(1);
+    // AR, a, n, variant, nu, tau, delta_CONTACT.
+    let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
+    [true, false].map(|is_short| {
+        Range::of(rows.iter().filter(|row| row[3] == "ii").filter_map(|row| {
+            let [aspect_ratio, a, nu, tau, elements] =
+                [0, 1, 4, 5, 6].map(|i| row[i].parse::<f64>().expect("a number"));
+            let contact = contact(aspect_ratio, a, RIGID_STRIP);
+            let point = contact.curve_at_force(tau * contact.slip_force).expect("a point");
+            let is_of_range = nu == POISSON_RATIO && (aspect_ratio < 5.0) == is_short;
+            is_of_range.then(|| 100.0 * (point.displacement() / elements - 1.0))
+        }))
+    })
+}
+
 /// The table, and the checks of what the documents state.
 pub fn compare() -> (String, Vec<Result<(), String>>) {
     let mut table = String::from(
@@ -117,6 +134,10 @@ pub fn compare() -> (String, Vec<Result<(), String>>) {
             && rigid_strip.within(if slender { -0.5 } else { -1.8 }, 0.5)
             && (!slender || energy.within(-7.0, 7.0) && onset.within(-6.0, -3.5));
         results.push(if holds { Ok(()) } else { Err(format!("strips of L/2b = {aspect_ratio}: {cells:?}")) });
+    }
+    for (range, bound) in errors_by_contact().into_iter().zip([1.54, 0.44]) {
+        let holds = range.within(-bound, bound) && range.0 <= range.1;
+        results.push(if holds { Ok(()) } else { Err(format!("strips by CONTACT: {} to {} %", range.0, range.1)) });
     }
     (table, results)
 }

@@ -6,10 +6,8 @@ use microslip::element::{Directions, Element, NormalInput};
 use microslip::two_directions::{self, Step};
 use reference::Input;
 
-/// Error of the force of a step that is repeated, over mu N of the parameters: where the slip converges, a rounding error. The second one is
-/// that of flats of which all but the last part is no edge: their springs differ by rounding errors.
-const REPEATED: [f64; 2] = [1e-9, 1e-3];
-const NO_EDGE: f64 = 1e-5;
+/// Error of the force of a step that is repeated, over mu N of the parameters: where the slip converges, a rounding error.
+const REPEATED: f64 = 1e-9;
 
 /// A displacement after another one; `scale` is the length of most steps.
 fn next(element: &Element, [u, v, w]: [f64; 3], scale: f64, sampler: &mut Sampler) -> [f64; 3] {
@@ -51,8 +49,6 @@ pub fn histories(case: &ElementCase, sampler: &mut Sampler, _: &mut crate::Tally
     });
     let Ok(element) = element else { return };
     let mu = element.friction_coefficient;
-    let flat = if let Input::Flat(parameters) = &case.input { parameters.flat_half_width } else { 0.0 };
-    let repeated = REPEATED[usize::from(element.half_width - flat < NO_EDGE * flat)];
     let mut state = vec![f64::NAN; two_directions::state_length()];
     two_directions::state_init(&mut state).expect("a state");
     let scale = sampler.power(-3.0, 1.0) * mu * element.shift_under(element.normal_force);
@@ -83,7 +79,7 @@ pub fn histories(case: &ElementCase, sampler: &mut Sampler, _: &mut crate::Tally
         let again = advance(&mut state.clone());
         let moved = (again.force[0] - x).hypot(again.force[1] - y) / (mu * element.normal_force);
         assert!(
-            moved <= repeated,
+            moved <= REPEATED,
             "repeated, the force moves by {moved:e} of mu N: {again:?}, not {step:?}; {}",
             context()
         );
