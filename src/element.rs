@@ -131,14 +131,8 @@ impl Element {
     /// The element of a flat with rounded edges, or of a cylinder.
     /// Errors: the error of the first parameter that is not allowed; `BadNormalForce` also for 0; otherwise as for a contact.
     pub fn rounded_flat(parameters: &Parameters, directions: Directions, input: NormalInput) -> Result<Element, Error> {
-        parameters.check()?;
-        let (common, length) = (parameters.common(), parameters.length);
-        let composite_modulus = closed_modulus(&common)?;
-        let flat = Layered::new(RoundedFlat::new(parameters)?, &common)?;
-        // The load at b = 2L.
-        in_range(&[length, length, length, composite_modulus], &[parameters.edge_radius])?;
-        let mut element = Element { composite_modulus, flat, ..Element::default() };
-        element.init(&flat, &common, directions, input).map(|()| element)
+        let mut element = Element::default();
+        element.init_rounded_flat(parameters, directions, input).map(|()| element)
     }
 
     /// The element of an elliptical Hertz contact; a sphere if both semi-axes are equal.
@@ -148,6 +142,35 @@ impl Element {
         directions: Directions,
         input: NormalInput,
     ) -> Result<Element, Error> {
+        let mut element = Element::default();
+        element.init_elliptic(parameters, directions, input).map(|()| element)
+    }
+
+    /// Initialises an element in place; unchanged on an error.
+    pub(crate) fn init_rounded_flat(
+        &mut self,
+        parameters: &Parameters,
+        directions: Directions,
+        input: NormalInput,
+    ) -> Result<(), Error> {
+        parameters.check()?;
+        let (common, length) = (parameters.common(), parameters.length);
+        let composite_modulus = closed_modulus(&common)?;
+        let flat = Layered::new(RoundedFlat::new(parameters)?, &common)?;
+        // The load at b = 2L.
+        in_range(&[length, length, length, composite_modulus], &[parameters.edge_radius])?;
+        self.init(&flat, &common, directions, input)?;
+        (self.composite_modulus, self.flat, self.ellipse) = (composite_modulus, flat, Layered::default());
+        Ok(())
+    }
+
+    /// Initialises an element in place; unchanged on an error.
+    pub(crate) fn init_elliptic(
+        &mut self,
+        parameters: &EllipticParameters,
+        directions: Directions,
+        input: NormalInput,
+    ) -> Result<(), Error> {
         parameters.check()?;
         let common = parameters.common();
         let composite_modulus = closed_modulus(&common)?;
@@ -156,11 +179,13 @@ impl Element {
         for axis in [parameters.semi_axis_x, parameters.semi_axis_y] {
             in_range(&[common.normal_force], &[axis, composite_modulus])?;
         }
-        let mut element = Element { composite_modulus, ellipse, tag: ELLIPTIC, ..Element::default() };
-        element.init(&ellipse, &common, directions, input).map(|()| element)
+        self.init(&ellipse, &common, directions, input)?;
+        self.tag |= ELLIPTIC;
+        (self.composite_modulus, self.flat, self.ellipse) = (composite_modulus, Layered::default(), ellipse);
+        Ok(())
     }
 
-    /// Sets what depends on the shape only through its trait.
+    /// Checks all ranges, then writes what depends on the shape only through its trait.
     fn init(
         &mut self,
         shape: &dyn Shape,
@@ -202,7 +227,8 @@ impl Element {
         self.approach = approach;
         [self.normal_stiffness, self.tangential_stiffness] = compliances.map(f64::recip);
         (self.directions, self.normal_input) = (directions as i32, input as i32);
-        self.tag |= TAG | tag_of(directions) | if input == NormalInput::Force { FORCE_INPUT } else { 0 };
+        self.tag = TAG | tag_of(directions) | if input == NormalInput::Force { FORCE_INPUT } else { 0 };
+        self.checksum = 0;
         let ratio = plane.per_approach[1] / plane.per_approach[0];
         let own = [plane.per_load[1] - ratio * plane.per_load[0], (1.0 - ratio) * layer.compliance(0.0)];
         self.lateral = [ratio, if layer.is_linear() { own[0] + own[1] } else { own[0] }];

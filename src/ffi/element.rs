@@ -2,8 +2,7 @@
 
 use super::batch::update_one;
 use super::pointers::{
-    self, call, check_alignment, initialise, input, memory, new_state, output, outputs, set, state_input, status,
-    with_law,
+    self, call, check_alignment, input, item, memory, new_state, output, outputs, set, state_input, status, with_law,
 };
 use super::{MSLIP_INPUT_APPROACH, MSLIP_INPUT_NORMAL_FORCE, mslip_element};
 use crate::element::{Directions, Element, NormalInput, NormalPoint};
@@ -24,13 +23,29 @@ pub(super) fn directions_of(constant: i32) -> Result<Directions, Error> {
     }
 }
 
-/// The normal input of a constant of the C interface.
-fn normal_input_of(constant: i32) -> Result<NormalInput, Error> {
-    match constant {
-        MSLIP_INPUT_APPROACH => Ok(NormalInput::Approach),
-        MSLIP_INPUT_NORMAL_FORCE => Ok(NormalInput::Force),
-        _ => Err(Error::BadNormalInput),
-    }
+/// Initialises an element in place.
+unsafe fn initialise<P>(
+    parameters: *const P,
+    directions: i32,
+    normal_input: i32,
+    element: *mut mslip_element,
+    init: fn(&mut Element, &P, Directions, NormalInput) -> Result<(), Error>,
+) -> i32 {
+    call(|| {
+        let parameters = item(parameters)?;
+        check_alignment(element)?;
+        // It may be uninitialised, and is written before it is read.
+        let element = element.cast::<Element>().as_mut().ok_or(Error::NullPointer)?;
+        let directions = directions_of(directions)?;
+        let normal_input = match normal_input {
+            MSLIP_INPUT_APPROACH => NormalInput::Approach,
+            MSLIP_INPUT_NORMAL_FORCE => NormalInput::Force,
+            _ => return Err(Error::BadNormalInput),
+        };
+        init(element, parameters, directions, normal_input)?;
+        pointers::set_checksum(element);
+        Ok(())
+    })
 }
 
 /// Initialises the element of a flat with rounded edges, or of a cylinder. normal_force of the parameters, > 0, is the largest
@@ -51,9 +66,7 @@ pub unsafe extern "C" fn mslip_element_init(
     normal_input: i32,
     element: *mut mslip_element,
 ) -> i32 {
-    initialise(p, element.cast::<Element>(), |p| {
-        Element::rounded_flat(p, directions_of(directions)?, normal_input_of(normal_input)?)
-    })
+    initialise(p, directions, normal_input, element, Element::init_rounded_flat)
 }
 
 /// Initialises the element of an elliptical Hertz contact; a sphere if both semi-axes are equal. normal_force of the parameters, >
@@ -69,9 +82,7 @@ pub unsafe extern "C" fn mslip_element_init_elliptic(
     normal_input: i32,
     element: *mut mslip_element,
 ) -> i32 {
-    initialise(p, element.cast::<Element>(), |p| {
-        Element::elliptic(p, directions_of(directions)?, normal_input_of(normal_input)?)
-    })
+    initialise(p, directions, normal_input, element, Element::init_elliptic)
 }
 
 /// Validates an element that was read from a file or a message: its checksum must be that written at initialisation. Other
@@ -80,7 +91,7 @@ pub unsafe extern "C" fn mslip_element_init_elliptic(
 /// Returns MSLIP_NULL_POINTER or MSLIP_BAD_ELEMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_check(element: *const mslip_element) -> i32 {
-    status(pointers::element(element).and_then(pointers::check_seal))
+    status(pointers::element(element).and_then(pointers::check_element))
 }
 
 /// The normal law: normal force \[N\], normal stiffness \[N/m\] and half-width of the contact \[m\] at approach\[n\] \[m\]. An

@@ -14,7 +14,7 @@ use crate::fourier::workspace::{Layout, Size, TAGS};
 use crate::law::ElementLaw;
 
 use crate::error::Error;
-use core::mem::MaybeUninit;
+use core::mem::{self, MaybeUninit};
 use core::{ptr, slice};
 
 pub fn status(result: Result<(), Error>) -> i32 {
@@ -129,48 +129,34 @@ pub unsafe fn contact<'a>(pointer: *const mslip_contact) -> Result<&'a Contact, 
     if contact.is_initialised() { Ok(contact) } else { Err(Error::BadContact) }
 }
 
-/// A contact or an element: doubles, 64-bit words and pairs of 32-bit words, without padding, whose sum as 64-bit words is 0 unless it
-/// was modified after its initialisation.
-pub trait Sealed {
-    const ERROR: Error;
-    fn checksum(&mut self) -> &mut u64;
+/// Rejects a contact that was modified after its initialisation.
+pub fn check_contact(contact: &Contact) -> Result<(), Error> {
+    // SAFETY: a contact consists of doubles and 64-bit words, without padding.
+    if unsafe { sum(contact) } == 0 { Ok(()) } else { Err(Error::BadContact) }
 }
 
-impl Sealed for Contact {
-    const ERROR: Error = Error::BadContact;
-    fn checksum(&mut self) -> &mut u64 {
-        &mut self.checksum
+/// Rejects an element that was modified after its initialisation.
+pub fn check_element(element: &Element) -> Result<(), Error> {
+    // SAFETY: an element consists of doubles, 64-bit words and two 32-bit words, without padding.
+    if unsafe { sum(element) } == 0 { Ok(()) } else { Err(Error::BadElement) }
+}
+
+/// Sets the checksum of an element: the sum of all words is 0.
+pub fn set_checksum(element: &mut Element) {
+    element.checksum = 0;
+    // SAFETY: as in `check_element`.
+    element.checksum = unsafe { sum(element) }.wrapping_neg();
+}
+
+/// The C type of a contact, with its checksum: the sum of all words is 0.
+impl From<Contact> for mslip_contact {
+    fn from(mut contact: Contact) -> mslip_contact {
+        contact.checksum = 0;
+        // SAFETY: as in `check_contact`.
+        contact.checksum = unsafe { sum(&contact) }.wrapping_neg();
+        // SAFETY: both types consist of the same doubles and 64-bit words.
+        unsafe { mem::transmute(contact) }
     }
-}
-
-impl Sealed for Element {
-    const ERROR: Error = Error::BadElement;
-    fn checksum(&mut self) -> &mut u64 {
-        &mut self.checksum
-    }
-}
-
-/// Rejects a modified contact or element.
-pub fn check_seal<T: Sealed>(value: &T) -> Result<(), Error> {
-    // SAFETY: there is no padding.
-    if unsafe { sum(value) } == 0 { Ok(()) } else { Err(T::ERROR) }
-}
-
-/// Initialises a contact or an element with a constructor, whose checksum is 0.
-pub unsafe fn initialise<P, T: Sealed>(
-    parameters: *const P,
-    output: *mut T,
-    construct: impl FnOnce(&P) -> Result<T, Error>,
-) -> i32 {
-    call(|| {
-        let parameters = item(parameters)?;
-        not_null(output)?;
-        check_alignment(output)?;
-        let mut value = construct(parameters)?;
-        *value.checksum() = sum(&value).wrapping_neg();
-        output.write(value);
-        Ok(())
-    })
 }
 
 /// Sum of all 64-bit words.

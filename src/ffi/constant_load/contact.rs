@@ -1,8 +1,9 @@
 //! One contact: initialisation, tractions, slip, monotonic curve.
 
 use crate::constant_load::contact::Contact;
+use crate::error::Error;
 use crate::ffi::mslip_contact;
-use crate::ffi::pointers::{self, call, initialise, input, output, outputs, set, status};
+use crate::ffi::pointers::{self, call, check_alignment, input, item, not_null, output, outputs, set, status};
 use crate::limits::{check_displacement, check_positions};
 use crate::parameters::PARAMETERS;
 use crate::parameters::{EllipticParameters, Parameters};
@@ -54,13 +55,28 @@ pub unsafe extern "C" fn mslip_elliptic_parameters_warning(p: *const EllipticPar
     text_of(p, i, EllipticParameters::warnings)
 }
 
+/// Initialises a contact with a constructor.
+unsafe fn initialise<P>(
+    parameters: *const P,
+    contact: *mut mslip_contact,
+    construct: impl FnOnce(&P) -> Result<Contact, Error>,
+) -> i32 {
+    call(|| {
+        let parameters = item(parameters)?;
+        not_null(contact)?;
+        check_alignment(contact)?;
+        contact.write(construct(parameters)?.into());
+        Ok(())
+    })
+}
+
 /// Initialises the contact of a flat with rounded edges, or of a cylinder (Eq. 1, 2, 10).
 ///
 /// Returns MSLIP_NULL_POINTER, the code of the first invalid parameter, MSLIP_LENGTH_TOO_SHORT or
 /// MSLIP_OUT_OF_RANGE; the contact is unchanged then.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_contact_init(p: *const Parameters, contact: *mut mslip_contact) -> i32 {
-    initialise(p, contact.cast::<Contact>(), Contact::rounded_flat)
+    initialise(p, contact, Contact::rounded_flat)
 }
 
 /// Initialises an elliptical Hertz contact (section 3.3); a sphere if both semi-axes are equal.
@@ -69,7 +85,7 @@ pub unsafe extern "C" fn mslip_contact_init(p: *const Parameters, contact: *mut 
 /// unchanged then.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_contact_init_elliptic(p: *const EllipticParameters, contact: *mut mslip_contact) -> i32 {
-    initialise(p, contact.cast::<Contact>(), Contact::elliptic)
+    initialise(p, contact, Contact::elliptic)
 }
 
 /// Validates a contact that was read from a file or a message: its checksum must be that written at initialisation. Other functions
@@ -78,7 +94,7 @@ pub unsafe extern "C" fn mslip_contact_init_elliptic(p: *const EllipticParameter
 /// Returns MSLIP_NULL_POINTER or MSLIP_BAD_CONTACT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_contact_check(contact: *const mslip_contact) -> i32 {
-    status(pointers::contact(contact).and_then(pointers::check_seal))
+    status(pointers::contact(contact).and_then(pointers::check_contact))
 }
 
 /// Tractions \[Pa\] at x\[n\] \[m\] along the width, under a monotonically increasing force \[N\] (Eq. 17, 21-24); 0 outside the
