@@ -4,8 +4,8 @@
 mod table;
 
 use crate::error::Error;
-use crate::limits::{MAX_DISPLACEMENT, check_displacement, in_range};
-use crate::numerics::fp_class::{in_0_to, is_finite, le};
+use crate::limits::{MAX_DISPLACEMENT, check_displacement, check_force, in_range};
+use crate::numerics::fp_class::{in_0_to, le};
 use crate::numerics::quadrature::gauss_nodes;
 use crate::parameters::{Common, EllipticParameters, Parameters};
 use crate::shape::{HertzEllipse, Layer, Layered, Plane, Quantity, RoundedFlat, Shape, TINY};
@@ -129,18 +129,14 @@ impl Normal {
 
 impl Element {
     /// The element of a flat with rounded edges, or of a cylinder.
-    ///
-    /// # Errors
-    /// The error of the first parameter that is not allowed; `BadNormalForce` also for 0; otherwise as for a contact.
+    /// Errors: the error of the first parameter that is not allowed; `BadNormalForce` also for 0; otherwise as for a contact.
     pub fn rounded_flat(parameters: &Parameters, directions: Directions, input: NormalInput) -> Result<Element, Error> {
         let mut element = Element::default();
         element.init_rounded_flat(parameters, directions, input).map(|()| element)
     }
 
     /// The element of an elliptical Hertz contact; a sphere if both semi-axes are equal.
-    ///
-    /// # Errors
-    /// The error of the first parameter that is not allowed; `BadNormalForce` also for 0; otherwise as for a contact.
+    /// Errors: the error of the first parameter that is not allowed; `BadNormalForce` also for 0; otherwise as for a contact.
     pub fn elliptic(
         parameters: &EllipticParameters,
         directions: Directions,
@@ -368,12 +364,7 @@ impl Element {
 
     /// N, U or S of the smallest size that is distinguished.
     fn smallest(&self, quantity: Quantity) -> f64 {
-        let [load, approach, shift] = self.smallest;
-        match quantity {
-            Quantity::Load => load,
-            Quantity::Approach => approach,
-            Quantity::Shift => shift,
-        }
+        self.smallest.get(quantity as usize).copied().unwrap_or(0.0)
     }
 
     /// The normal force at approaches \[m\] that [`Element::check_approach`] accepts; 0 for an approach <= 0, an open contact.
@@ -385,7 +376,6 @@ impl Element {
     }
 
     /// The normal force at an approach \[m\] that [`Element::check_approach`] accepts; 0 for an approach <= 0, an open contact.
-    #[must_use]
     pub fn normal_force_at(&self, approach: f64) -> NormalPoint {
         let [point] = self.normal_forces(&[approach]);
         point
@@ -393,7 +383,6 @@ impl Element {
 
     /// The approach under a normal force \[N\] that [`Element::check_normal_force`] accepts. Its derivative at 0 is infinite for a
     /// cylinder or an ellipse.
-    #[must_use]
     #[inline(always)]
     pub fn approach_under(&self, normal_force: f64) -> NormalPoint {
         let table = (!self.by_approach()).then_some(&self.of_input);
@@ -401,30 +390,22 @@ impl Element {
         NormalPoint { value, slope }
     }
 
-    /// # Errors
-    /// `BadDirections` unless the element has this tangential direction, 0 or 1.
+    /// Errors: `BadDirections` unless the element has this tangential direction, 0 or 1.
     pub fn check_direction(&self, direction: usize) -> Result<(), Error> {
         if direction < self.tangential_directions() as usize { Ok(()) } else { Err(Error::BadDirections) }
     }
 
     /// Checks a static force at a constant normal force.
-    ///
-    /// # Errors
-    /// Those of [`Element::check_normal_force`]; `BadForce` if the force is not finite, `ForceExceedsSlip` if it exceeds mu N by more than
-    /// rounding.
+    /// Errors: those of [`Element::check_normal_force`]; `BadForce` if the force is not finite, `ForceExceedsSlip` if it exceeds mu
+    /// N by more than rounding.
     pub fn check_static(&self, force: f64, normal_force: f64) -> Result<(), Error> {
         self.check_normal_force(normal_force)?;
-        if !is_finite(force) {
-            return Err(Error::BadForce);
-        }
-        let limit = self.friction_coefficient * normal_force;
-        if force.abs() > limit * (1.0 + 8.0 * f64::EPSILON) { Err(Error::ForceExceedsSlip) } else { Ok(()) }
+        check_force(force, self.friction_coefficient * normal_force)
     }
 
     /// The displacement \[m\] that carries a tangential force \[N\] at a constant normal force \[N\], from the unloaded contact in x (0) or y
     /// direction (1), and the compliance \[m/N\] there; infinite at mu N if the stick zone shrinks to a point, without friction, and
     /// without a normal force.
-    #[must_use]
     pub fn displacement_under(&self, direction: usize, force: f64, normal_force: f64) -> NormalPoint {
         let (size, mu) = (force.abs(), self.friction_coefficient);
         let limit = mu * normal_force;
@@ -458,7 +439,6 @@ impl Element {
     }
 
     /// Half-width of the contact \[m\] (elliptical: the semi-axis x) under a normal force \[N\]; 0 if that is 0.
-    #[must_use]
     pub fn half_width_under(&self, normal_force: f64) -> f64 {
         let shape = self.shape();
         let load = normal_force.max(SMALLEST_LOAD * self.normal_force);
@@ -466,13 +446,11 @@ impl Element {
     }
 
     /// The tangential shift S \[m\] under a normal force \[N\]; 0 if that is 0.
-    #[must_use]
     pub fn shift_under(&self, load: f64) -> f64 {
         self.outside([Quantity::Shift, Quantity::Load], load).0
     }
 
     /// The normal force \[N\] at a tangential shift \[m\].
-    #[must_use]
     pub fn load_under(&self, shift: f64) -> f64 {
         self.load_at_shift(shift).0
     }
@@ -496,10 +474,8 @@ impl Element {
     }
 
     /// Checks a normal approach.
-    ///
-    /// # Errors
-    /// `BadDisplacement` unless it is finite and at most 1e150 in magnitude; `LengthTooShort` if the contact would become too wide for
-    /// its length.
+    /// Errors: `BadDisplacement` unless it is finite and at most 1e150 in magnitude; `LengthTooShort` if the contact would become
+    /// too wide for its length.
     #[inline(always)]
     pub fn check_approach(&self, approach: f64) -> Result<(), Error> {
         check_displacement(approach)?;
@@ -507,10 +483,8 @@ impl Element {
     }
 
     /// Checks a normal force.
-    ///
-    /// # Errors
-    /// `BadNormalForce` unless it is finite, not negative, and at most 1e150; `LengthTooShort` if the contact would become too wide for
-    /// its length.
+    /// Errors: `BadNormalForce` unless it is finite, not negative, and at most 1e150; `LengthTooShort` if the contact would become
+    /// too wide for its length.
     #[inline(always)]
     pub fn check_normal_force(&self, normal_force: f64) -> Result<(), Error> {
         if !in_0_to(MAX_DISPLACEMENT, normal_force) {
@@ -527,7 +501,6 @@ impl Element {
 
     /// Where a straight path between two inputs, of which one closes the contact, crosses zero load: the fraction of its length. With the
     /// normal force as input the contact opens or closes at the open end.
-    #[must_use]
     pub fn crossing(&self, from: f64, to: f64) -> f64 {
         if self.by_approach() {
             from / (from - to)

@@ -24,7 +24,6 @@ macro_rules! status_codes {
             pub const ALL: &[Error] = &[$(Error::$name),*];
 
             /// Name of the constant of the C interface.
-            #[must_use]
             pub const fn constant(self) -> &'static str {
                 match self {
                     $(Error::$name => stringify!($constant),)*
@@ -32,7 +31,6 @@ macro_rules! status_codes {
             }
 
             /// Message: the error and the allowed range.
-            #[must_use]
             pub const fn message(self) -> &'static CStr {
                 match self {
                     $(Error::$name => match CStr::from_bytes_with_nul(concat!($message, "\0").as_bytes()) {
@@ -111,7 +109,6 @@ status_codes! {
 
 impl Error {
     /// Status code of the C interface.
-    #[must_use]
     pub const fn code(self) -> i32 {
         self as i32
     }

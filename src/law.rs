@@ -3,7 +3,7 @@
 use crate::element::{Directions, Element};
 use crate::error::Error;
 use crate::fourier::HarmonicOutput;
-use crate::fourier::workspace::WorkspaceLayout;
+use crate::fourier::workspace::Layout;
 use crate::tag::Kind;
 
 /// Result of a step, with vectors `[T, N]` or `[Tx, Ty, N]`, and tangents of 2 x 2 or 3 x 3 entries.
@@ -30,38 +30,13 @@ pub(crate) struct Requested {
 
 /// Outputs of a path, step after step; `None` is not computed.
 #[derive(Debug)]
-pub struct PathOutput<'a> {
+pub(crate) struct PathOutput<'a, V, T> {
     /// `[T, N]` or `[Tx, Ty, N]` per step \[N\].
-    pub force: Option<&'a mut [f64]>,
+    pub force: Option<&'a mut [V]>,
     /// A tangent per step, 2 x 2 or 3 x 3, column-major.
-    pub tangent: Option<&'a mut [f64]>,
+    pub tangent: Option<&'a mut [T]>,
     /// One double per step \[J\].
     pub dissipated: Option<&'a mut [f64]>,
-}
-
-impl PathOutput<'_> {
-    pub(crate) fn requested(&self) -> Requested {
-        Requested { tangent: self.tangent.is_some(), energy: self.dissipated.is_some() }
-    }
-}
-
-/// Applies `step` to the displacements of a path one after the other, and writes the force, the tangent and the energy of each.
-#[inline(always)]
-pub(crate) fn advance_along<const M: usize, const MM: usize>(
-    path: &[f64],
-    output: PathOutput,
-    mut step: impl FnMut([f64; M]) -> StepResult<[f64; M], [f64; MM]>,
-) {
-    let PathOutput { force, tangent, dissipated } = output;
-    let mut forces = force.unwrap_or(&mut []).as_chunks_mut().0.iter_mut();
-    let mut tangents = tangent.unwrap_or(&mut []).as_chunks_mut().0.iter_mut();
-    let mut energies = dissipated.unwrap_or(&mut []).iter_mut();
-    for displacement in path.as_chunks().0 {
-        let step = step(*displacement);
-        forces.next().into_iter().for_each(|force| *force = step.force);
-        tangents.next().into_iter().for_each(|tangent| *tangent = step.tangent);
-        energies.next().into_iter().for_each(|energy| *energy = step.dissipated);
-    }
 }
 
 /// Result of a step of a law.
@@ -73,9 +48,8 @@ pub(crate) trait ElementLaw: Sized {
     type Vector: Copy;
     /// Derivative of the force by the displacement, column-major.
     type Tangent: Copy;
-    /// Layout of a workspace of the harmonic force, and an opened one.
-    type Layout: WorkspaceLayout;
-    type Workspace<'a>;
+    /// An opened workspace of the harmonic force.
+    type Workspace<'a>: Layout<'a>;
 
     const DIRECTIONS: Directions;
     /// Components of a displacement.
@@ -87,7 +61,6 @@ pub(crate) trait ElementLaw: Sized {
 
     fn state_init(state: &mut [f64]) -> Result<(), Error>;
     fn state_check(state: &[f64]) -> Result<(), Error>;
-    fn check_header(state: &[f64]) -> Result<(), Error>;
     fn check_tag(tag: f64, state_length: usize) -> Result<(), Error>;
     fn force_error(state: &[f64]) -> f64;
     /// Copies what is in use of a state whose header was checked to one of the same length.
@@ -98,15 +71,33 @@ pub(crate) trait ElementLaw: Sized {
     fn trial(element: &Element, old: &[f64], displacement: Self::Vector, requested: Requested) -> StepOf<Self>;
     /// The same in place.
     fn advance(element: &Element, state: &mut [f64], displacement: Self::Vector, requested: Requested) -> StepOf<Self>;
-    fn check_path(element: &Element, path: &[f64]) -> Result<(), Error>;
     /// Steps in place along a path, with a state and displacements that were checked.
-    fn path(element: &Element, state: &mut [f64], path: &[f64], output: PathOutput);
-    /// The same whose new state is discarded.
-    fn path_in_copy(element: &Element, state: &[f64], path: &[f64], output: PathOutput);
+    fn path(
+        element: &Element,
+        state: &mut [f64],
+        path: &[Self::Vector],
+        output: PathOutput<Self::Vector, Self::Tangent>,
+    ) {
+        let PathOutput { force, tangent, dissipated } = output;
+        let requested = Requested { tangent: tangent.is_some(), energy: dissipated.is_some() };
+        let mut forces = force.unwrap_or(&mut []).iter_mut();
+        let mut tangents = tangent.unwrap_or(&mut []).iter_mut();
+        let mut energies = dissipated.unwrap_or(&mut []).iter_mut();
+        for displacement in path {
+            let step = Self::advance(element, state, *displacement, requested);
+            forces.next().into_iter().for_each(|force| *force = step.force);
+            tangents.next().into_iter().for_each(|tangent| *tangent = step.tangent);
+            energies.next().into_iter().for_each(|energy| *energy = step.dissipated);
+        }
+    }
+    /// Steps along a path, both checked, in a copy of the state.
+    fn path_in_copy(
+        element: &Element,
+        state: &[f64],
+        path: &[Self::Vector],
+        output: PathOutput<Self::Vector, Self::Tangent>,
+    );
 
-    fn workspace(memory: &mut [f64]) -> Result<Self::Workspace<'_>, Error>;
-    /// Coefficients of one component, 2H + 1.
-    fn coefficients(workspace: &Self::Workspace<'_>) -> usize;
     fn check_motion(workspace: &mut Self::Workspace<'_>, element: &Element, motion: &[f64]) -> Result<(), Error>;
     fn harmonic_force(
         element: &Element,
@@ -115,12 +106,19 @@ pub(crate) trait ElementLaw: Sized {
         output: HarmonicOutput,
     ) -> Result<(), Error>;
 
-    /// The error of a state that was rejected: the state of the other number of directions is distinguished.
-    #[cold]
-    fn state_error(error: Error, tag: f64) -> Error {
-        match error {
-            Error::BadState | Error::StateTooShort if Self::OTHER_STATE.count(tag).is_some() => Error::BadDirections,
-            _ => error,
-        }
+    /// Checks length and tag of a state; that of the other number of directions is distinguished.
+    #[inline(always)]
+    fn check_state(tag: f64, state_length: usize) -> Result<(), Error> {
+        let is_short = state_length < Self::STATE_LENGTH;
+        let checked = if is_short { Err(Error::StateTooShort) } else { Self::check_tag(tag, state_length) };
+        checked.map_err(
+            #[cold]
+            |error| if Self::OTHER_STATE.count(tag).is_some() { Error::BadDirections } else { error },
+        )
+    }
+
+    #[inline(always)]
+    fn check_header(state: &[f64]) -> Result<(), Error> {
+        Self::check_state(state.first().copied().unwrap_or(0.0), state.len())
     }
 }

@@ -1,7 +1,7 @@
 //! Limits of inputs: displacements, and products and quotients of parameters whose intermediate results could overflow or underflow.
 
 use crate::error::Error;
-use crate::numerics::fp_class::abs_le;
+use crate::numerics::fp_class::{abs_le, is_finite};
 
 /// The bound keeps products with forces and energies representable.
 pub(crate) const MAX_DISPLACEMENT: f64 = 1e150;
@@ -16,6 +16,23 @@ pub(crate) fn check_displacement(displacement: f64) -> Result<(), Error> {
 /// Errors: `BadDisplacement`.
 pub(crate) fn check_coefficients(displacement: &[f64]) -> Result<(), Error> {
     displacement.iter().try_for_each(|&coefficient| check_displacement(coefficient))
+}
+
+/// Checks a tangential force of at most a limit, but for rounding.
+/// Errors: `BadForce` if it is not finite, `ForceExceedsSlip`.
+pub(crate) fn check_force(force: f64, limit: f64) -> Result<(), Error> {
+    if abs_le(force, limit * (1.0 + 8.0 * f64::EPSILON)) {
+        Ok(())
+    } else if is_finite(force) {
+        Err(Error::ForceExceedsSlip)
+    } else {
+        Err(Error::BadForce)
+    }
+}
+
+/// `BadPosition` unless all positions are finite.
+pub(crate) fn check_positions(x: &[f64]) -> Result<(), Error> {
+    if x.iter().all(|&x| is_finite(x)) { Ok(()) } else { Err(Error::BadPosition) }
 }
 
 /// Largest exponent of 2 of an intermediate product: squares remain representable.

@@ -22,11 +22,10 @@ mod step;
 
 use crate::element::{Directions, Element};
 use crate::error::Error;
-use crate::law::{self, ElementLaw, Requested, advance_along};
+use crate::law::{self, ElementLaw, PathOutput, Requested};
 use crate::limits::check_displacement;
 use crate::tag::Kind;
 
-pub use crate::law::PathOutput;
 pub use state::{force_error, state_check, state_init, state_length};
 
 /// Result of a step: forces `[T, N]`, tangent `[∂T/∂u, ∂N/∂u, ∂T/∂w, ∂N/∂w]` (column-major) and dissipated energy.
@@ -38,7 +37,6 @@ pub(crate) struct OneDirection;
 impl ElementLaw for OneDirection {
     type Vector = [f64; 2];
     type Tangent = [f64; 4];
-    type Layout = harmonic_force::Layout;
     type Workspace<'a> = harmonic_force::Workspace<'a>;
 
     const DIRECTIONS: Directions = Directions::One;
@@ -52,11 +50,6 @@ impl ElementLaw for OneDirection {
 
     fn state_check(state: &[f64]) -> Result<(), Error> {
         state::state_check(state)
-    }
-
-    #[inline(always)]
-    fn check_header(state: &[f64]) -> Result<(), Error> {
-        state::check_header(state)
     }
 
     #[inline(always)]
@@ -89,26 +82,9 @@ impl ElementLaw for OneDirection {
         state::advance_checked(element, state, displacement, requested.energy)
     }
 
-    fn check_path(element: &Element, path: &[f64]) -> Result<(), Error> {
-        path.as_chunks().0.iter().try_for_each(|displacement| Self::check_step(element, displacement))
-    }
-
-    fn path(element: &Element, state: &mut [f64], path: &[f64], output: PathOutput) {
-        let requested = output.requested();
-        advance_along(path, output, |displacement| Self::advance(element, state, displacement, requested));
-    }
-
-    fn path_in_copy(element: &Element, state: &[f64], path: &[f64], output: PathOutput) {
+    fn path_in_copy(element: &Element, state: &[f64], path: &[[f64; 2]], output: PathOutput<[f64; 2], [f64; 4]>) {
         let mut buffer = [0.0; state::COPY_LENGTH];
         Self::path(element, state::copy_of(element, state, &mut buffer), path, output);
-    }
-
-    fn workspace(memory: &mut [f64]) -> Result<Self::Workspace<'_>, Error> {
-        harmonic_force::Workspace::new(memory)
-    }
-
-    fn coefficients(workspace: &Self::Workspace<'_>) -> usize {
-        workspace.coefficients()
     }
 
     fn check_motion(workspace: &mut Self::Workspace<'_>, element: &Element, motion: &[f64]) -> Result<(), Error> {
@@ -126,9 +102,7 @@ impl ElementLaw for OneDirection {
 }
 
 /// A step in place.
-///
-/// # Errors
-/// `StateTooShort`, `BadState`, `BadDisplacement`, `BadNormalForce` or `LengthTooShort`.
+/// Errors: `StateTooShort`, `BadState`, `BadDisplacement`, `BadNormalForce` or `LengthTooShort`.
 pub fn advance(element: &Element, state: &mut [f64], displacement: [f64; 2], with_energy: bool) -> Result<Step, Error> {
     state::check_header(state)?;
     OneDirection::check_step(element, &displacement)?;

@@ -39,7 +39,6 @@ pub struct Layer {
 
 impl Layer {
     /// No layer.
-    #[must_use]
     pub const fn none() -> Layer {
         Layer { normal_compliance: 0.0, tangential_compliance: 0.0, stiffening_load: 0.0, reference_load: 0.0 }
     }
@@ -188,9 +187,7 @@ impl Common {
     }
 
     /// E* of parameters that were checked.
-    ///
-    /// # Errors
-    /// `OutOfRange` for a modulus of an unusable magnitude.
+    /// Errors: `OutOfRange` for a modulus of an unusable magnitude.
     pub fn composite_modulus(&self) -> Result<f64, Error> {
         self.material.iter().try_for_each(|body| in_range(&[body.young_modulus], &[]))?;
         Ok(Pair::new(&self.material).composite_modulus)
@@ -199,9 +196,7 @@ impl Common {
 
 impl Parameters {
     /// Checks the ranges of all parameters.
-    ///
-    /// # Errors
-    /// The error of the first parameter, in the order of the fields, that is NaN, infinite or out of range.
+    /// Errors: the error of the first parameter, in the order of the fields, that is NaN, infinite or out of range.
     pub fn check(&self) -> Result<(), Error> {
         not_negative(self.flat_half_width, Error::BadFlatHalfWidth)?;
         positive(self.edge_radius, Error::BadEdgeRadius)?;
@@ -221,9 +216,7 @@ impl Parameters {
 
 impl EllipticParameters {
     /// Checks the ranges of all parameters.
-    ///
-    /// # Errors
-    /// The error of the first parameter, in the order of the fields, that is NaN, infinite or out of range.
+    /// Errors: the error of the first parameter, in the order of the fields, that is NaN, infinite or out of range.
     pub fn check(&self) -> Result<(), Error> {
         positive(self.semi_axis_x, Error::BadSemiAxisX)?;
         positive(self.semi_axis_y, Error::BadSemiAxisY)?;

@@ -26,11 +26,10 @@ mod trial;
 
 use crate::element::{Directions, Element};
 use crate::error::Error;
-use crate::law::{self, ElementLaw, Requested, advance_along};
+use crate::law::{self, ElementLaw, PathOutput, Requested};
 use crate::limits::check_displacement;
 use crate::tag::Kind;
 
-pub use crate::law::PathOutput;
 pub use state::{state_check, state_init, state_length};
 
 /// Result of a step: forces `[Tx, Ty, N]`, tangent 3 x 3 (column-major), 0 unless requested, and dissipated energy.
@@ -42,7 +41,6 @@ pub(crate) struct TwoDirections;
 impl ElementLaw for TwoDirections {
     type Vector = [f64; 3];
     type Tangent = [f64; 9];
-    type Layout = harmonic_force::Layout;
     type Workspace<'a> = harmonic_force::Workspace<'a>;
 
     const DIRECTIONS: Directions = Directions::Two;
@@ -56,11 +54,6 @@ impl ElementLaw for TwoDirections {
 
     fn state_check(state: &[f64]) -> Result<(), Error> {
         state_check(state)
-    }
-
-    #[inline(always)]
-    fn check_header(state: &[f64]) -> Result<(), Error> {
-        state::check_header(state)
     }
 
     #[inline(always)]
@@ -94,28 +87,11 @@ impl ElementLaw for TwoDirections {
         state::advance_state(element, state, displacement, requested)
     }
 
-    fn check_path(element: &Element, path: &[f64]) -> Result<(), Error> {
-        path.as_chunks().0.iter().try_for_each(|displacement| Self::check_step(element, displacement))
-    }
-
-    fn path(element: &Element, state: &mut [f64], path: &[f64], output: PathOutput) {
-        let requested = output.requested();
-        advance_along(path, output, |displacement| Self::advance(element, state, displacement, requested));
-    }
-
     #[inline(never)]
-    fn path_in_copy(element: &Element, state: &[f64], path: &[f64], output: PathOutput) {
+    fn path_in_copy(element: &Element, state: &[f64], path: &[[f64; 3]], output: PathOutput<[f64; 3], [f64; 9]>) {
         let mut copy = [0.0; state_length()];
         state::copy_used(state, &mut copy);
         Self::path(element, &mut copy, path, output);
-    }
-
-    fn workspace(memory: &mut [f64]) -> Result<Self::Workspace<'_>, Error> {
-        harmonic_force::Workspace::new(memory)
-    }
-
-    fn coefficients(workspace: &Self::Workspace<'_>) -> usize {
-        workspace.coefficients()
     }
 
     fn check_motion(workspace: &mut Self::Workspace<'_>, element: &Element, motion: &[f64]) -> Result<(), Error> {
@@ -133,9 +109,7 @@ impl ElementLaw for TwoDirections {
 }
 
 /// A step in place.
-///
-/// # Errors
-/// `StateTooShort`, `BadState`, `BadDisplacement`, `BadNormalForce` or `LengthTooShort`.
+/// Errors: `StateTooShort`, `BadState`, `BadDisplacement`, `BadNormalForce` or `LengthTooShort`.
 pub fn advance(element: &Element, state: &mut [f64], displacement: [f64; 3]) -> Result<Step, Error> {
     state::check_header(state)?;
     TwoDirections::check_step(element, &displacement)?;

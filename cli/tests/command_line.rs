@@ -1,7 +1,7 @@
 //! The program as its users call it, from a shell: results equal to those of the library, messages, pictures and files.
 
 use microslip::constant_load::equivalents::{iwan, jenkins};
-use microslip::constant_load::masing::{self, PathOutput};
+use microslip::constant_load::masing;
 use microslip::constant_load::state::{state_init, state_length};
 use microslip::element::{Directions, Element, NormalInput};
 use microslip::{Contact, EllipticParameters, Error, Material, Parameters};
@@ -282,7 +282,7 @@ fn histories_equal_those_of_the_library() {
         state_init(&mut state).unwrap();
         let [force_out, stiffness_out, dissipated_out] =
             [&mut force, &mut stiffness, &mut dissipated].map(|x| Some(&mut x[..]));
-        let output = PathOutput { force: force_out, stiffness: stiffness_out, dissipated: dissipated_out };
+        let output = [force_out, stiffness_out, dissipated_out];
         masing::path(&contact, &mut state, &path, output);
         let expected = with_totals((0..n).map(|i| vec![path[i], force[i], stiffness[i], dissipated[i]]).collect());
         shell.write("path.csv", path.iter().map(|displacement| format!("{displacement:e}\n")).collect::<String>());

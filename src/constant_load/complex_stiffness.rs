@@ -124,9 +124,7 @@ impl Contact {
     }
 
     /// The complex stiffness at a displacement amplitude \[m\]; at 0 it is the initial stiffness.
-    ///
-    /// # Errors
-    /// `BadAmplitude` if the amplitude is not finite, negative, or beyond 1e150.
+    /// Errors: `BadAmplitude` if the amplitude is not finite, negative, or beyond 1e150.
     pub fn complex_stiffness(&self, amplitude: f64) -> Result<ComplexStiffness, Error> {
         check_amplitude(amplitude)?;
         let ((real, d_real), (imaginary, d_imag)) =
@@ -259,7 +257,7 @@ impl Contact {
     /// The weights of F in gross slip; 0 without an interpolant, or if Λ is so small that the rule does not converge.
     #[inline(never)]
     pub(crate) fn weights_of_curve(&self) -> Rows<BLOCKS_IN_SLIP> {
-        if self.has_no_interpolant() || self.relative_distance_of_zero_compliance() < 0.375 {
+        if !self.interpolant().is_converged() || self.relative_distance_of_zero_compliance() < 0.375 {
             return Rows::default();
         }
         RULE_IN_SLIP.map(|[rho, x, weights]| {

@@ -73,10 +73,8 @@ const _: () = assert!(size_of::<Contact>() == 3032);
 
 impl Contact {
     /// Initialises a flat with rounded edges, or a cylinder.
-    ///
-    /// # Errors
-    /// The error of the first parameter that is not allowed; `LengthTooShort` if 2L <= b or the initial stiffness would not be
-    /// positive; `OutOfRange` if results are not representable.
+    /// Errors: the error of the first parameter that is not allowed; `LengthTooShort` if 2L <= b or the initial stiffness would not
+    /// be positive; `OutOfRange` if results are not representable.
     pub fn rounded_flat(parameters: &Parameters) -> Result<Contact, Error> {
         parameters.check()?;
         let Parameters { flat_half_width, edge_radius, length, normal_force, .. } = *parameters;
@@ -97,9 +95,7 @@ impl Contact {
     }
 
     /// Initialises an elliptical Hertz contact; a sphere if both semi-axes are equal.
-    ///
-    /// # Errors
-    /// The error of the first parameter that is not allowed; `OutOfRange` if results are not representable.
+    /// Errors: the error of the first parameter that is not allowed; `OutOfRange` if results are not representable.
     pub fn elliptic(parameters: &EllipticParameters) -> Result<Contact, Error> {
         parameters.check()?;
         let EllipticParameters { semi_axis_x, semi_axis_y, normal_force, .. } = *parameters;

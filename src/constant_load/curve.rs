@@ -5,12 +5,9 @@
 use crate::constant_load::contact::Contact;
 use crate::constant_load::evaluator::{Response, sign_of};
 use crate::error::Error;
-use crate::limits::check_displacement;
-use crate::numerics::fp_class::{abs_le, is_finite, le};
+use crate::limits::{check_displacement, check_force};
+use crate::numerics::fp_class::le;
 use crate::shape::stick_zone::{Complement, StickZone};
-
-/// Relative amount by which a force may exceed mu N through rounding.
-const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// A point of the monotonic curve. Quantities are evaluated on demand.
 #[derive(Debug, Clone, Copy)]
@@ -33,10 +30,8 @@ enum KnownBy {
 
 impl Contact {
     /// The point of the monotonic curve at a tangential force \[N\].
-    ///
-    /// # Errors
-    /// `BadForce` if the force is not finite, `ForceExceedsSlip` if it exceeds mu N (an excess of a few units of rounding is
-    /// treated as mu N).
+    /// Errors: `BadForce` if the force is not finite, `ForceExceedsSlip` if it exceeds mu N (an excess of a few units of rounding
+    /// is treated as mu N).
     pub fn curve_at_force(&self, force: f64) -> Result<CurvePoint<'_>, Error> {
         self.check_force(force)?;
         let known_by = if self.is_frictionless() {
@@ -48,19 +43,11 @@ impl Contact {
     }
 
     pub(crate) fn check_force(&self, force: f64) -> Result<(), Error> {
-        if abs_le(force, self.slip_force * (1.0 + ROUNDING)) {
-            Ok(())
-        } else if is_finite(force) {
-            Err(Error::ForceExceedsSlip)
-        } else {
-            Err(Error::BadForce)
-        }
+        check_force(force, self.slip_force)
     }
 
     /// The point of the monotonic curve at a tangential displacement \[m\]; beyond `slip_displacement` the contact is in gross slip.
-    ///
-    /// # Errors
-    /// `BadDisplacement` if the displacement is not finite, or beyond 1e150.
+    /// Errors: `BadDisplacement` if the displacement is not finite, or beyond 1e150.
     pub fn curve_at_displacement(&self, displacement: f64) -> Result<CurvePoint<'_>, Error> {
         check_displacement(displacement)?;
         let gross_slip = self.is_frictionless() || displacement.abs() > self.slip_displacement;
@@ -135,13 +122,11 @@ impl CurvePoint<'_> {
     }
 
     /// Tangential force T \[N\].
-    #[must_use]
     pub fn force(&self) -> f64 {
         self.force_and_stiffness().0
     }
 
     /// Tangential displacement \[m\]; in gross slip that at its onset.
-    #[must_use]
     pub fn displacement(&self) -> f64 {
         self.sign
             * match self.known_by {
@@ -152,20 +137,17 @@ impl CurvePoint<'_> {
     }
 
     /// dT/d(displacement) \[N/m\]; 0 in gross slip.
-    #[must_use]
     pub fn stiffness(&self) -> f64 {
         self.force_and_stiffness().1
     }
 
     /// [`force`](CurvePoint::force) and [`stiffness`](CurvePoint::stiffness).
-    #[must_use]
     pub fn force_and_stiffness(&self) -> (f64, f64) {
         let Response { force, stiffness } = self.response();
         (self.sign * force, stiffness)
     }
 
     /// d(displacement)/dT \[m/N\]; infinite in gross slip, without friction, and at mu N if the stick zone shrinks to a point.
-    #[must_use]
     pub fn compliance(&self) -> f64 {
         let unit = self.contact.stiffness_scale.max(f64::MIN_POSITIVE);
         self.stick_zone().map_or(f64::INFINITY, |zone| self.contact.stick_zones().compliance(&zone) / unit)
@@ -173,7 +155,6 @@ impl CurvePoint<'_> {
 
     /// Half-width c of the stick zone \[m\]. At the onset of gross slip, a force of mu N or a displacement of `slip_displacement`, it
     /// is the half-width a of the flat (0 for a cylinder and an ellipse); beyond that displacement it is 0.
-    #[must_use]
     pub fn stick_half_width(&self) -> f64 {
         self.stick_zone().map_or(0.0, |zone| self.contact.half_width * self.contact.stick_zones().size(&zone))
     }

@@ -3,17 +3,15 @@
 use crate::constant_load::contact::Contact;
 use crate::error::Error;
 use crate::numerics::fp_class::in_0_to;
-use crate::shape::stick_zone::{Complement, StickZone};
+use crate::shape::stick_zone::Complement;
 
 impl Contact {
     /// Energy \[J\] dissipated per cycle between ± a force amplitude \[N\], at most mu N (Eq. 13-16).
-    ///
-    /// # Errors
-    /// `BadForceAmplitude` if the amplitude is not finite or negative, `ForceExceedsSlip` if it exceeds mu N.
+    /// Errors: `BadForceAmplitude` if the amplitude is not finite or negative, `ForceExceedsSlip` if it exceeds mu N.
     pub fn dissipated_energy(&self, force_amplitude: f64) -> Result<f64, Error> {
         self.check_force_amplitude(force_amplitude)?;
         let point = self.curve_at_force(force_amplitude)?;
-        Ok(point.stick_zone().map_or(0.0, |zone| self.energy_of(&zone)))
+        Ok(point.stick_zone().map_or(0.0, |zone| self.energy_scale() * self.stick_zones().dissipation(&zone)))
     }
 
     pub(crate) fn check_force_amplitude(&self, force_amplitude: f64) -> Result<(), Error> {
@@ -59,10 +57,5 @@ impl Contact {
             None if self.is_layered() => self.load_with_knee(displacement.remaining),
             load => load,
         }
-    }
-
-    /// Energy \[J\] dissipated per cycle with this stick zone at its reversals.
-    pub(crate) fn energy_of(&self, zone: &StickZone) -> f64 {
-        self.energy_scale() * self.stick_zones().dissipation(zone)
     }
 }

@@ -23,9 +23,7 @@ pub struct SpringSlider {
 /// A loop of amplitude A with slider force F and stiffness k has, with `cos Θ = 1 - 2 F/(kA)`,
 /// `K' = (k/π) (Θ - sin Θ cos Θ)` and `K'' = (k/π) sin² Θ`: their quotient gives Θ. At amplitude 0 the slip force
 /// is arbitrary, and the result is the initial stiffness with mu N; for a contact without friction both are 0.
-///
-/// # Errors
-/// `BadAmplitude`.
+/// Errors: `BadAmplitude`.
 pub fn jenkins(contact: &Contact, amplitude: f64) -> Result<SpringSlider, Error> {
     check_amplitude(amplitude)?;
     if contact.is_frictionless() {
@@ -91,9 +89,7 @@ fn minus_sine(s: f64) -> f64 {
 pub const MAX_SLIDERS: usize = 1 << 16;
 
 /// Checks a number of sliders.
-///
-/// # Errors
-/// `BadCount` for 0 sliders, or more than [`MAX_SLIDERS`].
+/// Errors: `BadCount` for 0 sliders, or more than [`MAX_SLIDERS`].
 pub fn check_count(sliders: usize) -> Result<(), Error> {
     if (1..=MAX_SLIDERS).contains(&sliders) { Ok(()) } else { Err(Error::BadCount) }
 }
@@ -105,9 +101,7 @@ pub fn check_count(sliders: usize) -> Result<(), Error> {
 /// contact by as much as every corner is above it (equioscillation). For a given error the sides are constructed one after the
 /// other: a tangent to the curve lowered by the error, up to the curve raised by it. The error for which n sides just reach mu N is
 /// found by bisection.
-///
-/// # Errors
-/// That of [`check_count`].
+/// Errors: that of [`check_count`].
 pub fn iwan(contact: &Contact, sliders: usize, mut emit: impl FnMut(SpringSlider)) -> Result<f64, Error> {
     check_count(sliders)?;
     if contact.is_frictionless() {

@@ -88,15 +88,11 @@ impl Contact {
 }
 
 impl Contact {
-    pub(crate) fn has_no_interpolant(&self) -> bool {
-        !self.interpolant().is_converged()
-    }
-
     /// The tangent stiffness at x and the remaining ρ = 1 - x over the displacement of gross slip. Beyond the polynomials of the force it
     /// follows from the last ones; without an interpolant the stick zone is found.
     #[inline(never)]
     pub(crate) fn stiffness_in_integral(&self, x: f64, rho: f64) -> f64 {
-        if !self.has_no_interpolant() {
+        if self.interpolant().is_converged() {
             let rho = rho * self.slip_displacement * self.outer_scale;
             return if rho < END_OF_PIECES {
                 let [slope] = self.interpolant().last_slopes(&[rho]);

@@ -12,7 +12,6 @@ impl CurvePoint<'_> {
     }
 
     /// Shear traction \[Pa\] at x \[m\] (Eq. 21).
-    #[must_use]
     pub fn shear(&self, x: f64) -> f64 {
         if self.contact.is_frictionless() {
             return 0.0;
@@ -23,9 +22,7 @@ impl CurvePoint<'_> {
     }
 
     /// Relative slip \[m\] at x \[m\] (Eq. 15), in gross slip that at its onset: 0 in the stick zone and outside the contact.
-    ///
-    /// # Errors
-    /// `NotAvailable` for an elliptical contact.
+    /// Errors: `NotAvailable` for an elliptical contact.
     pub fn slip(&self, x: f64) -> Result<f64, Error> {
         let point = self.contact.surface_point(x);
         let zone = self.stick_zone_or_smallest();
@@ -35,9 +32,7 @@ impl CurvePoint<'_> {
     }
 
     /// Frictional damage parameter `mu p |s|` \[N/m\] at x \[m\] (section 3.5).
-    ///
-    /// # Errors
-    /// `NotAvailable` for an elliptical contact.
+    /// Errors: `NotAvailable` for an elliptical contact.
     pub fn damage(&self, x: f64) -> Result<f64, Error> {
         Ok(self.damage_of(x, self.slip(x)?))
     }
@@ -50,7 +45,6 @@ impl CurvePoint<'_> {
 
 impl Contact {
     /// Normal pressure \[Pa\] at x \[m\] (Eq. 17); 0 outside the contact.
-    #[must_use]
     pub fn pressure(&self, x: f64) -> f64 {
         if self.half_width > 0.0 {
             self.pressure_scale * self.stick_zones().pressure(&self.surface_point(x))

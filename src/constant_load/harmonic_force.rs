@@ -24,7 +24,7 @@ mod uniform_sampling;
 
 use crate::constant_load::contact::Contact;
 use crate::error::Error;
-use crate::fourier::workspace::{Size, TAGS, WorkspaceLayout};
+use crate::fourier::workspace::{Layout, Size, TAGS};
 use crate::limits::check_coefficients;
 use crate::parameters::PARAMETERS;
 
@@ -42,32 +42,27 @@ pub enum Rule {
 impl Rule {
     /// Number of doubles in a workspace for the given number of harmonics and of samples, or nodes, per period; 0 if these are not
     /// allowed.
-    #[must_use]
     pub fn workspace_length(self, harmonics: usize, samples: usize) -> usize {
+        let size = Size::new(harmonics, samples);
         match self {
-            Rule::UniformSampling => {
-                uniform_sampling::Layout::new(Size::new(harmonics, samples)).map_or(0, |layout| layout.length())
-            }
-            Rule::EventDriven => {
-                event_driven::Layout::new(Size::new(harmonics, samples)).map_or(0, |layout| layout.length())
-            }
+            Rule::UniformSampling => uniform_sampling::Workspace::length_or_zero(size),
+            Rule::EventDriven => event_driven::Workspace::length_or_zero(size),
         }
     }
 
     /// Initialises a workspace: tables for the given harmonics and samples, and scratch memory.
-    ///
-    /// # Errors
-    /// `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24; `WorkspaceTooShort`.
+    /// Errors: `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24;
+    /// `WorkspaceTooShort`.
     pub fn workspace_init(self, harmonics: usize, samples: usize, workspace: &mut [f64]) -> Result<(), Error> {
         match self {
-            Rule::UniformSampling => uniform_sampling::Layout::init(Size::new(harmonics, samples), workspace),
-            Rule::EventDriven => event_driven::Layout::init(Size::new(harmonics, samples), workspace),
+            Rule::UniformSampling => uniform_sampling::Workspace::init(Size::new(harmonics, samples), workspace),
+            Rule::EventDriven => event_driven::Workspace::init(Size::new(harmonics, samples), workspace),
         }
     }
 
     /// The rule of a workspace, from its tag.
     fn of_workspace([tag, ..]: &[f64; TAGS]) -> Rule {
-        if event_driven::Layout::KIND.count(*tag).is_some() { Rule::EventDriven } else { Rule::UniformSampling }
+        if event_driven::Workspace::KIND.count(*tag).is_some() { Rule::EventDriven } else { Rule::UniformSampling }
     }
 }
 
@@ -77,10 +72,8 @@ impl Rule {
 pub(crate) fn workspace_size(header: &[f64; TAGS]) -> Result<(Rule, Size, usize), Error> {
     let rule = Rule::of_workspace(header);
     let (size, length) = match rule {
-        Rule::UniformSampling => {
-            uniform_sampling::Layout::read(header).map(|layout| (layout.size(), layout.length()))?
-        }
-        Rule::EventDriven => event_driven::Layout::read(header).map(|layout| (layout.size(), layout.length()))?,
+        Rule::UniformSampling => uniform_sampling::Workspace::read(header)?,
+        Rule::EventDriven => event_driven::Workspace::read(header)?,
     };
     Ok((rule, size, length))
 }
@@ -97,18 +90,15 @@ enum ByRule<'a> {
 
 impl<'a> Workspace<'a> {
     /// Opens an initialised workspace.
-    ///
-    /// # Errors
-    /// `BadWorkspace` if uninitialised or too short.
+    /// Errors: `BadWorkspace` if uninitialised or too short.
     pub fn new(memory: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
         Ok(Workspace(match Rule::of_workspace(memory.first_chunk().ok_or(Error::BadWorkspace)?) {
-            Rule::UniformSampling => ByRule::UniformSampling(uniform_sampling::Workspace::new(memory)?),
-            Rule::EventDriven => ByRule::EventDriven(event_driven::Workspace::new(memory)?),
+            Rule::UniformSampling => ByRule::UniformSampling(uniform_sampling::Workspace::open(memory)?),
+            Rule::EventDriven => ByRule::EventDriven(event_driven::Workspace::open(memory)?),
         }))
     }
 
     /// 2H + 1.
-    #[must_use]
     pub fn coefficients(&self) -> usize {
         match &self.0 {
             ByRule::UniformSampling(workspace) => workspace.coefficients(),
@@ -118,9 +108,8 @@ impl<'a> Workspace<'a> {
 }
 
 /// Harmonic force of a periodic displacement given by its 2H + 1 coefficients \[m\], by the rule of the workspace.
-///
-/// # Errors
-/// `BadDisplacement` if a coefficient is not finite or exceeds 1e150; `BadArraySize` if a length does not agree with the workspace.
+/// Errors: `BadDisplacement` if a coefficient is not finite or exceeds 1e150; `BadArraySize` if a length does not agree with the
+/// workspace.
 pub fn harmonic_force(
     contact: &Contact,
     workspace: &mut Workspace,
@@ -157,9 +146,8 @@ pub fn harmonic_force(
 ///
 /// With uniform sampling they are the exact derivatives of the discrete force; event-driven, the rule applied to the exact derivatives
 /// of the integrals. Without friction or without normal force they are one-sided.
-///
-/// # Errors
-/// `BadDisplacement` if a coefficient is not finite or exceeds 1e150; `BadArraySize` if a length does not agree with the workspace.
+/// Errors: `BadDisplacement` if a coefficient is not finite or exceeds 1e150; `BadArraySize` if a length does not agree with the
+/// workspace.
 pub fn harmonic_sensitivity(
     contact: &Contact,
     workspace: &mut Workspace,

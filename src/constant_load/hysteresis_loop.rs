@@ -16,9 +16,7 @@ pub struct HysteresisLoop<'a> {
 
 impl Contact {
     /// The closed loop between ± a displacement amplitude \[m\].
-    ///
-    /// # Errors
-    /// `BadAmplitude` if the amplitude is not finite, negative, or beyond 1e150.
+    /// Errors: `BadAmplitude` if the amplitude is not finite, negative, or beyond 1e150.
     pub fn hysteresis_loop(&self, amplitude: f64) -> Result<HysteresisLoop<'_>, Error> {
         check_amplitude(amplitude)?;
         let top = if self.is_frictionless() { 0.0 } else { self.response(amplitude).force };
@@ -28,21 +26,14 @@ impl Contact {
 
 impl HysteresisLoop<'_> {
     /// Displacement \[m\] `amplitude cos t` at instant `i` of `n` uniformly spaced ones in a period, from t = 0.
-    #[must_use]
     pub fn displacement(&self, i: usize, n: usize) -> f64 {
         let (sign, phase) = half_cycle(i, n);
         sign * self.amplitude * (2.0 * PI * phase).cos()
     }
 
     /// Force \[N\] at that instant.
-    #[must_use]
     pub fn force(&self, i: usize, n: usize) -> f64 {
-        self.force_at(half_cycle(i, n))
-    }
-
-    /// Force on the half-cycle of that sign, at the fraction of a period since its reversal.
-    pub(super) fn force_at(&self, (sign, phase): (f64, f64)) -> f64 {
-        let contact = self.contact;
+        let (contact, (sign, phase)) = (self.contact, half_cycle(i, n));
         if contact.is_frictionless() {
             return 0.0;
         }

@@ -102,7 +102,7 @@ impl BranchEvaluator<'_> {
 
 /// A step from a state to a displacement: what it leads to, before anything is written.
 #[derive(Debug, Clone, Copy)]
-pub struct Step {
+pub struct StepRecord {
     /// Number of reversals on the stack after it.
     depth: usize,
     /// Whether the newest of them is the point at which it starts.
@@ -116,9 +116,7 @@ pub struct Step {
 }
 
 /// Checks the inputs of a step.
-///
-/// # Errors
-/// `BadState`, `StateTooShort`, `BadDisplacement`.
+/// Errors: `BadState`, `StateTooShort`, `BadDisplacement`.
 #[inline(always)]
 pub fn check_step(state: &[f64], displacement: f64) -> Result<(), Error> {
     state::check_header(state)?;
@@ -135,9 +133,8 @@ pub(crate) fn continued(contact: &Contact, state: &[f64], displacement: f64) -> 
 }
 
 /// Finds the step of a contact from a state to a displacement \[m\], both checked.
-#[must_use]
 #[inline(always)]
-pub fn step(contact: &Contact, state: &[f64], displacement: f64) -> Step {
+pub fn step(contact: &Contact, state: &[f64], displacement: f64) -> StepRecord {
     let memory = state::memory(state);
     let Transition { branch, reversed } = memory.locate(contact, displacement, |_| {});
     let Response { force, stiffness } = branch.response(contact, displacement);
@@ -149,11 +146,10 @@ pub fn step(contact: &Contact, state: &[f64], displacement: f64) -> Step {
         [start.force, end.force] = [start.force, force].map(|force| (force + pair.shift).min(limit).max(-limit));
         merge = Some(pair);
     }
-    Step { depth: branch.depth, reversed, merge, initial, start, end, stiffness }
+    StepRecord { depth: branch.depth, reversed, merge, initial, start, end, stiffness }
 }
 
 /// The energy \[J\] that a step dissipates, not negative.
-#[must_use]
 #[inline(never)]
 pub fn dissipated(contact: &Contact, state: &[f64], displacement: f64) -> f64 {
     let memory = state::memory(state);
@@ -165,16 +161,14 @@ pub fn dissipated(contact: &Contact, state: &[f64], displacement: f64) -> f64 {
     energy.total()
 }
 
-impl Step {
+impl StepRecord {
     /// Tangential force \[N\] after the step.
-    #[must_use]
     #[inline(always)]
     pub fn force(&self) -> f64 {
         self.end.force
     }
 
     /// dT/d(displacement) \[N/m\] on the branch on which the step ends; 0 in gross slip.
-    #[must_use]
     #[inline(always)]
     pub fn stiffness(&self) -> f64 {
         self.stiffness
@@ -197,43 +191,19 @@ impl Step {
     }
 }
 
-/// Where the results of each step of a path go; `None` is not computed.
-#[derive(Debug)]
-pub struct PathOutput<'a> {
-    /// Force \[N\] after each step.
-    pub force: Option<&'a mut [f64]>,
-    /// Tangent stiffness \[N/m\].
-    pub stiffness: Option<&'a mut [f64]>,
-    /// Energy \[J\] dissipated by each step.
-    pub dissipated: Option<&'a mut [f64]>,
-}
-
-/// Checks the inputs of a path.
-///
-/// # Errors
-/// `BadState`, `StateTooShort`, `BadDisplacement`.
-pub fn check_path(state: &[f64], path: &[f64]) -> Result<(), Error> {
-    state::check_header(state)?;
-    path.iter().try_for_each(|&displacement| check_displacement(displacement))
-}
+/// Force \[N\], tangent stiffness \[N/m\] and dissipated energy \[J\] of each step of a path; `None` is not computed.
+pub type PathOutput<'a> = [Option<&'a mut [f64]>; 3];
 
 /// Advances a state along a path of displacements \[m\], both checked.
 #[inline(never)]
 pub fn path(contact: &Contact, state: &mut [f64], path: &[f64], output: PathOutput) {
-    let PathOutput { mut force, mut stiffness, mut dissipated } = output;
-    let set = |output: &mut Option<&mut [f64]>, i: usize, value: f64| {
-        if let Some(place) = output.as_mut().and_then(|output| output.get_mut(i)) {
-            *place = value;
-        }
-    };
-    for (i, &displacement) in path.iter().enumerate() {
-        if dissipated.is_some() {
-            set(&mut dissipated, i, self::dissipated(contact, state, displacement));
-        }
+    let [mut forces, mut stiffnesses, mut energies] = output.map(|output| output.unwrap_or(&mut []).iter_mut());
+    for &displacement in path {
+        energies.next().into_iter().for_each(|energy| *energy = dissipated(contact, state, displacement));
         let step = step(contact, state, displacement);
         step.write(state);
-        set(&mut force, i, step.force());
-        set(&mut stiffness, i, step.stiffness());
+        forces.next().into_iter().for_each(|force| *force = step.force());
+        stiffnesses.next().into_iter().for_each(|stiffness| *stiffness = step.stiffness());
     }
 }
 
@@ -252,9 +222,7 @@ pub fn path_in_copy(contact: &Contact, state: &[f64], displacement: &[f64], outp
 
 /// Shear traction \[Pa\] at x \[m\] after any history: the traction of the initial loading, and twice that of half of each
 /// reversal's change of force (Eq. 21 with Masing's rule).
-///
-/// # Errors
-/// `BadState`, `StateTooShort`; `ForceExceedsSlip` for a state of another contact. Nothing is written then.
+/// Errors: `BadState`, `StateTooShort`; `ForceExceedsSlip` for a state of another contact. Nothing is written then.
 pub fn shear_tractions(contact: &Contact, state: &[f64], x: &[f64], shear: &mut [f64]) -> Result<(), Error> {
     let memory = state::read(state)?;
     let forces = || memory.reversals.iter().map(|[_, force, _]| *force).chain([memory.now.force]);
@@ -280,7 +248,7 @@ mod tests {
 
     /// Compiled once for all tests: the function itself is inlined into every caller.
     #[inline(never)]
-    fn step(contact: &Contact, state: &[f64], displacement: f64) -> Step {
+    fn step(contact: &Contact, state: &[f64], displacement: f64) -> StepRecord {
         super::step(contact, state, displacement)
     }
 
@@ -337,9 +305,8 @@ mod tests {
             for seed in 0..4 {
                 let path: Vec<f64> = pseudo_random(60, seed).map(|x| 1.1 * x * slip).collect();
                 let (mut discarded, mut kept) = (vec![0.0; 60], vec![0.0; 60]);
-                let output = |force| PathOutput { force: Some(force), stiffness: None, dissipated: None };
-                path_in_copy(&contact, &state, &path, output(&mut discarded));
-                super::path(&contact, &mut state, &path, output(&mut kept));
+                path_in_copy(&contact, &state, &path, [Some(&mut discarded[..]), None, None]);
+                super::path(&contact, &mut state, &path, [Some(&mut kept[..]), None, None]);
                 assert_eq!(discarded, kept);
             }
         }

@@ -31,9 +31,7 @@ use crate::shape::stick_zone::{Complement, StickZones, ellipse};
 impl Contact {
     /// Derivatives of the force of the monotonic curve at a fixed displacement \[m\]; beyond `slip_displacement` those of mu N. Without
     /// friction or without normal force they are one-sided: those of mu N.
-    ///
-    /// # Errors
-    /// `BadDisplacement` if the displacement is not finite, or beyond 1e150.
+    /// Errors: `BadDisplacement` if the displacement is not finite, or beyond 1e150.
     pub fn monotonic_sensitivity(&self, displacement: f64) -> Result<Sensitivity, Error> {
         check_displacement(displacement)?;
         Ok(times(sign_of(displacement), self.sensitivity(displacement.abs())))

@@ -21,16 +21,13 @@ const PER_REVERSAL: usize = 3;
 const MIN_REVERSALS: usize = 2;
 
 /// Number of doubles in a state that holds `reversals` nested reversals exactly; fewer than 2 count as 2.
-#[must_use]
 pub const fn state_length(reversals: usize) -> usize {
     let reversals = if reversals < MIN_REVERSALS { MIN_REVERSALS } else { reversals };
     reversals.saturating_mul(PER_REVERSAL).saturating_add(HEADER)
 }
 
 /// Initialises a state: unloaded, at displacement 0.
-///
-/// # Errors
-/// `StateTooShort` for fewer than [`state_length`]`(0)` doubles.
+/// Errors: `StateTooShort` for fewer than [`state_length`]`(0)` doubles.
 pub fn state_init(state: &mut [f64]) -> Result<(), Error> {
     if state.len() < state_length(0) {
         return Err(Error::StateTooShort);
@@ -127,9 +124,7 @@ pub(crate) fn set_point(state: &mut [f64], now: Point) {
 }
 
 /// Validates a state in full: all values are finite, and the reversals are nested. For states from outside the process.
-///
-/// # Errors
-/// `StateTooShort`; `BadState` for an array that was not initialised, or whose values no history leads to.
+/// Errors: `StateTooShort`; `BadState` for an array that was not initialised, or whose values no history leads to.
 pub fn state_check(state: &[f64]) -> Result<(), Error> {
     let Memory { initial: InitialCurve { offset, slip_direction }, now, reversals } = read(state)?;
     let header = [now.displacement, now.force, offset, slip_direction];
@@ -157,9 +152,7 @@ pub fn state_check(state: &[f64]) -> Result<(), Error> {
 
 /// Bound on the error \[N\] that merged reversals have caused in the force; 0 while none was merged, and again once gross slip has
 /// erased the memory.
-///
-/// # Errors
-/// `StateTooShort`, `BadState`.
+/// Errors: `StateTooShort`, `BadState`.
 pub fn state_error(state: &[f64]) -> Result<f64, Error> {
     Ok(force_error(read(state)?.reversals))
 }

@@ -27,7 +27,7 @@ impl<'c, 's> SteadyState<'c, 's> {
     }
 
     /// The branch that follows the present one at its end.
-    fn continuation(&self) -> Branch {
+    pub fn continuation(&self) -> Branch {
         self.memory(self.branch.start).continuation(self.contact, &self.branch)
     }
 
@@ -102,15 +102,10 @@ impl<'c, 's> SteadyState<'c, 's> {
         has_room
     }
 
-    /// Whether gross slip starts at the end of the present branch.
-    pub fn ends_in_gross_slip(&self) -> bool {
-        self.continuation().gross_slip
-    }
-
-    /// Continues on the branch that follows at the end of the present one.
-    pub fn pass_end(&mut self) {
-        self.branch = self.continuation();
-        self.depth = self.branch.depth;
+    /// Enters the branch that follows at the end of the present one.
+    pub fn enter(&mut self, continuation: Branch) {
+        self.branch = continuation;
+        self.depth = continuation.depth;
     }
 
     /// Adds the energy dissipated along the present branch and, in gross slip, moves the slider.

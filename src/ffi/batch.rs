@@ -14,6 +14,7 @@ use crate::constant_load::memory::Point;
 use crate::constant_load::state;
 use crate::element::{Directions, Element};
 use crate::error::Error;
+use crate::fourier::workspace::Layout;
 use crate::law::{ElementLaw, Requested};
 use crate::limits::{check_coefficients, check_displacement};
 use core::{ptr, slice};
@@ -107,9 +108,7 @@ impl<L: ElementLaw> StepLaw for L {
 
     #[inline(always)]
     fn check_step(element: &Element, tag: f64, state_length: usize, displacement: &L::Vector) -> Result<(), Error> {
-        let is_short = state_length < L::STATE_LENGTH;
-        let checked = if is_short { Err(Error::StateTooShort) } else { L::check_tag(tag, state_length) };
-        checked.map_err(|error| L::state_error(error, tag))?;
+        L::check_state(tag, state_length)?;
         <L as ElementLaw>::check_step(element, displacement)
     }
 
@@ -324,17 +323,15 @@ unsafe fn harmonic_forces<L: StepLaw, W>(
     check: impl Fn(&mut W, &L::Item, &[f64]) -> Result<(), Error>,
     compute: impl Fn(&L::Item, &mut W, &[f64], HarmonicOutput) -> Result<(), Error>,
 ) -> Result<(), Error> {
-    // The arrays of an element with another number of directions are shorter: no reference to them is created.
-    items.check::<L>(|_, _| Ok(()))?;
     let (all, square) = (items.n.checked_mul(one), items.n.checked_mul(one * one));
     let (all, square) = (all.ok_or(Error::BadArraySize)?, square.ok_or(Error::BadArraySize)?);
     let (force, jacobian, displacement) = (output(force, all)?, output(jacobian, square)?, input(displacement, all)?);
     let [dissipated, drift] = self::outputs([dissipated, drift], items.n)?;
     let mut outputs = Outputs { force, jacobian, dissipated, drift };
     let displacement_of = |i: usize| displacement.get(i * one..(i + 1) * one);
-    let active = || items.with(displacement_of);
-    active().try_for_each(|(_, law, displacement)| check(workspace, law, displacement))?;
-    active().try_for_each(|(i, law, displacement)| compute(law, workspace, displacement, outputs.of_item(i, one)))
+    items.check::<L>(|i, law| check(workspace, law, displacement_of(i).unwrap_or(&[])))?;
+    let mut active = items.with(displacement_of);
+    active.try_for_each(|(i, law, displacement)| compute(law, workspace, displacement, outputs.of_item(i, one)))
 }
 
 /// Outputs of a batch of harmonic forces.
@@ -502,9 +499,12 @@ pub unsafe extern "C" fn mslip_batch_element_harmonic_force(
     call(|| {
         let items = Items::new(n, n_elements, elements.cast::<Element>(), index, active)?;
         let outputs = [force, jacobian, dissipated, drift];
-        with_law!(pointers::element_workspace_size(workspace)?.0, L => {
-            let mut workspace = pointers::element_workspace::<L>(workspace)?;
-            let one = L::COMPONENTS * L::coefficients(&workspace);
+        let (directions, size, extent) = pointers::element_workspace_size(workspace)?;
+        with_law!(directions, L => {
+            let mut workspace = <L as ElementLaw>::Workspace::open(output(workspace, extent)?.ok_or(Error::BadWorkspace)?)?;
+            let one = L::COMPONENTS * size.coefficients();
+            // The arrays of an element with another number of directions are shorter: no reference to them is created.
+            items.check::<L>(|_, _| Ok(()))?;
             let (check, compute) = (L::check_motion, L::harmonic_force);
             harmonic_forces::<L, _>(items, &mut workspace, one, displacement, outputs, check, compute)
         })

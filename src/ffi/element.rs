@@ -243,7 +243,7 @@ pub unsafe extern "C" fn mslip_element_state_check(directions: i32, state_length
         let directions = directions_of(directions)?;
         let state = state_input(state_length, state)?;
         with_law!(directions, L => {
-            check_header::<L>(state)?;
+            L::check_header(state)?;
             L::state_check(state)
         })
     })
@@ -265,17 +265,11 @@ pub unsafe extern "C" fn mslip_element_state_error(
         let directions = directions_of(directions)?;
         let (state, mut force_error) = (state_input(state_length, state)?, output(force_error, 1)?);
         with_law!(directions, L => {
-            check_header::<L>(state)?;
+            L::check_header(state)?;
             set(&mut force_error, 0, || L::force_error(state));
             Ok(())
         })
     })
-}
-
-/// Checks the length and the tag of a state.
-#[inline(always)]
-fn check_header<L: ElementLaw>(state: &[f64]) -> Result<(), Error> {
-    L::check_header(state).map_err(|error| L::state_error(error, state.first().copied().unwrap_or(0.0)))
 }
 
 /// Advances the state of an element to a displacement: \[u, w\] with one tangential direction, \[u, v, w\] with two, tangential
@@ -342,17 +336,18 @@ unsafe fn path<L: ElementLaw>(
     state_new: *mut f64,
     [force, tangent, dissipated]: [*mut f64; 3],
 ) -> Result<(), Error> {
-    let times = |components: usize| n.checked_mul(components).ok_or(Error::BadArraySize);
-    let (vectors, tangents) = (times(L::COMPONENTS)?, times(L::COMPONENTS * L::COMPONENTS)?);
-    let path = input(displacement, vectors)?;
-    let (force, tangent, dissipated) = (output(force, vectors)?, output(tangent, tangents)?, output(dissipated, n)?);
-    let output = PathOutput { force, tangent, dissipated };
+    let path = input(displacement.cast::<L::Vector>(), n)?;
+    let output = PathOutput {
+        force: output(force.cast::<L::Vector>(), n)?,
+        tangent: output(tangent.cast::<L::Tangent>(), n)?,
+        dissipated: output(dissipated, n)?,
+    };
     check_alignment(state_new)?;
     {
         // The reference ends before the new state, which may be the same memory, is written.
         let start = state_input(state_length, state_old)?;
-        check_header::<L>(start)?;
-        L::check_path(element, path)?;
+        L::check_header(start)?;
+        path.iter().try_for_each(|displacement| L::check_step(element, displacement))?;
         if state_new.is_null() {
             L::path_in_copy(element, start, path, output);
             return Ok(());
@@ -384,7 +379,7 @@ pub unsafe extern "C" fn mslip_element_tractions(
         }
         let (state, x, [pressure, shear]) =
             (state_input(state_length, state)?, input(x, n)?, outputs([pressure, shear], n)?);
-        check_header::<OneDirection>(state)?;
+        OneDirection::check_header(state)?;
         tractions(element, state, x, pressure, shear)
     })
 }

@@ -7,7 +7,7 @@ use super::{MSLIP_EVENT_DRIVEN, MSLIP_UNIFORM_SAMPLING, mslip_contact, mslip_ele
 use crate::constant_load::harmonic_force::{self, HarmonicOutput, Rule, harmonic_sensitivity, workspace_size};
 use crate::element::Directions;
 use crate::error::Error;
-use crate::fourier::workspace::{Size, WorkspaceLayout};
+use crate::fourier::workspace::{Layout, Size};
 use crate::law::ElementLaw;
 use crate::parameters::PARAMETERS;
 use core::ptr;
@@ -96,12 +96,8 @@ pub extern "C" fn mslip_element_workspace_length(
     samples: size_t,
     rule: i32,
 ) -> size_t {
-    let length = |directions| {
-        let length = with_law!(directions, L => {
-            <L as ElementLaw>::Layout::new(Size::new(harmonics, samples)).map(|layout| layout.length())
-        });
-        length.unwrap_or(0)
-    };
+    let size = Size::new(harmonics, samples);
+    let length = |directions| with_law!(directions, L => <L as ElementLaw>::Workspace::length_or_zero(size));
     check_element_rule(directions, rule).map_or(0, length)
 }
 
@@ -125,7 +121,7 @@ pub unsafe extern "C" fn mslip_element_workspace_init(
         let directions = check_element_rule(directions, rule)?;
         let memory = memory(workspace_length, workspace)?;
         let size = Size::new(harmonics, samples).with_periods(periods);
-        with_law!(directions, L => <L as ElementLaw>::Layout::init(size, memory))
+        with_law!(directions, L => <L as ElementLaw>::Workspace::init(size, memory))
     })
 }
 

@@ -10,7 +10,7 @@ use crate::constant_load::contact::Contact;
 use crate::constant_load::harmonic_force::{Workspace, workspace_size};
 use crate::constant_load::stiffness_table::{StiffnessTable, TABLE_LENGTH};
 use crate::element::{Directions, Element};
-use crate::fourier::workspace::{Size, TAGS, WorkspaceLayout};
+use crate::fourier::workspace::{Layout, Size, TAGS};
 use crate::law::ElementLaw;
 
 use crate::error::Error;
@@ -42,6 +42,12 @@ pub fn check_alignment<T>(pointer: *const T) -> Result<(), Error> {
     if pointer.is_aligned() { Ok(()) } else { Err(Error::BadAlignment) }
 }
 
+/// Rejects NULL.
+#[inline(always)]
+pub fn not_null<T>(pointer: *const T) -> Result<(), Error> {
+    if pointer.is_null() { Err(Error::NullPointer) } else { Ok(()) }
+}
+
 /// One item: a contact or parameters.
 #[inline(always)]
 pub unsafe fn item<'a, T>(pointer: *const T) -> Result<&'a T, Error> {
@@ -57,9 +63,7 @@ pub unsafe fn input<'a, T>(pointer: *const T, n: usize) -> Result<&'a [T], Error
     if n == 0 {
         return Ok(&[]);
     }
-    if pointer.is_null() {
-        return Err(Error::NullPointer);
-    }
+    not_null(pointer)?;
     Ok(slice::from_raw_parts(pointer, n))
 }
 
@@ -74,9 +78,7 @@ pub unsafe fn optional_input<'a, T>(pointer: *const T, n: usize) -> Result<Optio
 /// A state as an input; not NULL.
 #[inline(always)]
 pub unsafe fn state_input<'a>(state_length: usize, state: *const f64) -> Result<&'a [f64], Error> {
-    if state.is_null() {
-        return Err(Error::NullPointer);
-    }
+    not_null(state)?;
     input(state, state_length)
 }
 
@@ -99,9 +101,7 @@ pub unsafe fn output<'a, T>(pointer: *mut T, n: usize) -> Result<Option<&'a mut 
 /// Memory of the given number of doubles to be initialised; not NULL.
 pub unsafe fn memory<'a>(length: usize, pointer: *mut f64) -> Result<&'a mut [f64], Error> {
     check_length::<f64>(length)?;
-    if pointer.is_null() {
-        return Err(Error::NullPointer);
-    }
+    not_null(pointer)?;
     Ok(output(pointer, length)?.unwrap_or(&mut []))
 }
 
@@ -187,9 +187,7 @@ pub unsafe fn stiffness_table_output<'a>(
 ) -> Result<&'a mut MaybeUninit<StiffnessTable>, Error> {
     check_length::<f64>(length)?;
     check_alignment(pointer)?;
-    if pointer.is_null() {
-        return Err(Error::NullPointer);
-    }
+    not_null(pointer)?;
     if length < TABLE_LENGTH {
         return Err(Error::TableTooShort);
     }
@@ -216,9 +214,7 @@ pub fn set(output: &mut Option<&mut [f64]>, i: usize, value: impl FnOnce() -> f6
 #[inline(always)]
 pub unsafe fn workspace_header(pointer: *const f64) -> Result<[f64; TAGS], Error> {
     check_alignment(pointer)?;
-    if pointer.is_null() {
-        return Err(Error::NullPointer);
-    }
+    not_null(pointer)?;
     Ok(pointer.cast::<[f64; TAGS]>().read())
 }
 
@@ -235,21 +231,11 @@ pub unsafe fn element_workspace_size(pointer: *const f64) -> Result<(Directions,
     let header = workspace_header(pointer)?;
     let read_as = |directions| {
         with_law!(directions, L => {
-            let layout = <L as ElementLaw>::Layout::read(&header)?;
-            Ok((directions, layout.size(), layout.length()))
+            let (size, length) = <L as ElementLaw>::Workspace::read(&header)?;
+            Ok((directions, size, length))
         })
     };
     read_as(Directions::One).or_else(|_: Error| read_as(Directions::Two))
-}
-
-/// An initialised workspace of elements with the number of directions of a law.
-#[inline(never)]
-pub unsafe fn element_workspace<'a, L: ElementLaw>(pointer: *mut f64) -> Result<L::Workspace<'a>, Error> {
-    let (directions, _, extent) = element_workspace_size(pointer)?;
-    if directions != L::DIRECTIONS {
-        return Err(Error::BadDirections);
-    }
-    L::workspace(output(pointer, extent)?.ok_or(Error::BadWorkspace)?)
 }
 
 /// Evaluates an expression in which `$law` is the law for a number of directions.

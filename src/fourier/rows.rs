@@ -205,29 +205,48 @@ impl<'a, const D: usize> OuterProducts<'a, D> {
         }
     }
 
-    /// `Σ Y_j ⊗ φ_j` with the rows Y of an index.
+    /// The terms with the rows Y of an index.
+    pub fn of(&self, index: usize) -> Products<'_> {
+        let OuterProducts { row_blocks, capacity, count, ref y, ref phi } = *self;
+        Products { row_blocks, capacity, count, y, phi, of_each: D, index }
+    }
+}
+
+/// The terms of [`OuterProducts`] with one of the rows Y, compiled once for any number of these.
+pub(crate) struct Products<'a> {
+    row_blocks: usize,
+    capacity: usize,
+    count: usize,
+    y: &'a Blocks,
+    phi: &'a Blocks,
+    of_each: usize,
+    index: usize,
+}
+
+impl Products<'_> {
+    /// `Σ Y_j ⊗ φ_j`.
     #[inline(always)]
-    pub fn products(&self, index: usize, products: &mut Blocks) {
-        with_strips!(self.row_blocks, self.products_of(index, products));
+    pub fn sum(&self, products: &mut Blocks) {
+        with_strips!(self.row_blocks, self.sum_of(products));
     }
 
     #[inline(always)]
-    fn products_of<const N: usize>(&self, index: usize, products: &mut Blocks) {
-        let y_rows = self.y.as_chunks::<N>().0.as_chunks::<D>().0;
-        let phi_rows = self.phi.as_chunks::<N>().0;
-        let strips = self.strips::<N>();
+    fn sum_of<const N: usize>(&self, products: &mut Blocks) {
+        let (y_rows, phi_rows) = (self.y.as_chunks::<N>().0, self.phi.as_chunks::<N>().0);
+        let (strips, of_each) = ((self.row_blocks / N).max(1), self.of_each.max(1));
         let terms = |strip: usize| strip * self.capacity..strip * self.capacity + self.count;
         for (strip, columns) in products.as_chunks_mut::<N>().0.chunks_mut((4 * N * strips).max(1)).enumerate() {
             columns.fill([[0.0; 4]; N]);
             let phi = phi_rows.get(terms(strip)).unwrap_or(&[]);
             for row_strip in 0..strips {
-                let y_rows = y_rows.get(terms(row_strip)).unwrap_or(&[]);
-                for block in 0..y_rows.len().div_ceil(IN_CACHE) {
-                    let (y_rows, phi) = (in_cache(y_rows, block), in_cache(phi, block));
+                let terms = terms(row_strip);
+                let y_rows = y_rows.get(of_each * terms.start..of_each * terms.end).unwrap_or(&[]);
+                for block in 0..phi.len().div_ceil(IN_CACHE) {
+                    let (y_rows, phi) = (in_cache(y_rows, block, of_each), in_cache(phi, block, 1));
                     for pair in 0..2 * N {
                         let (mut one, mut two) = ([[0.0; 4]; N], [[0.0; 4]; N]);
-                        for (y, phi) in y_rows.iter().zip(phi) {
-                            let Some(row) = y.get(index) else { break };
+                        for (y, phi) in y_rows.chunks_exact(of_each).zip(phi) {
+                            let Some(row) = y.get(self.index) else { break };
                             let phi = phi.as_flattened();
                             add_scaled(&mut one, phi[2 * pair], row);
                             add_scaled(&mut two, phi[2 * pair + 1], row);
@@ -247,9 +266,9 @@ impl<'a, const D: usize> OuterProducts<'a, D> {
 /// Terms whose rows stay in the first cache.
 const IN_CACHE: usize = 32;
 
-/// A block of [`IN_CACHE`] values, or what is left of them.
+/// The values of a block of [`IN_CACHE`] terms, or what is left of them.
 #[inline(always)]
-fn in_cache<T>(values: &[T], block: usize) -> &[T] {
-    let rest = values.get(block * IN_CACHE..).unwrap_or(&[]);
-    rest.get(..IN_CACHE).unwrap_or(rest)
+fn in_cache<T>(values: &[T], block: usize, of_each: usize) -> &[T] {
+    let rest = values.get(block * of_each * IN_CACHE..).unwrap_or(&[]);
+    rest.get(..of_each * IN_CACHE).unwrap_or(rest)
 }

@@ -4,7 +4,7 @@
 //! [tag with harmonics, tag with samples, tag with periods, 0 | tables | scratch memory]
 //! ```
 //!
-//! The tables are filled once and only read afterwards. Each quadrature rule implements [`WorkspaceLayout`].
+//! The tables are filled once and only read afterwards. Each quadrature rule implements [`Layout`].
 
 use crate::error::Error;
 use crate::tag::Kind;
@@ -42,85 +42,88 @@ impl Size {
     }
 }
 
-/// Layout of the workspace of a quadrature rule.
-pub(crate) trait WorkspaceLayout: Sized {
+/// The parts of the workspace of a quadrature rule.
+pub(crate) trait Layout<'a>: Sized {
     /// Kind of the tag, which distinguishes the rules.
     const KIND: Kind;
 
     /// Default number of periods before the one that counts; 1 if the second period is the steady state.
     const PERIODS: usize = 1;
 
-    fn of(size: Size) -> Self;
-
-    fn size(&self) -> Size;
-
     /// Upper bound on the number of rows over all orders up to 2H.
-    fn max_rows(&self) -> usize {
-        2 * self.size().samples + 16
+    fn max_rows(size: Size) -> usize {
+        2 * size.samples + 16
     }
 
-    /// Number of doubles in tables that are filled before the other parts are taken.
-    fn tables_length(&self) -> usize {
-        0
+    /// Takes the parts.
+    fn take(size: Size, parts: &mut Parts<'a>) -> Result<Self, Error>;
+
+    /// Fills the tables, in memory that is all zeros.
+    fn fill(&mut self);
+
+    /// Number of doubles in a workspace of a checked size, including the header.
+    fn length(size: Size) -> usize {
+        HEADER + Parts::count(|parts| Self::take(size, parts))
     }
 
-    /// Number of doubles in the workspace, including the header.
-    fn length(&self) -> usize;
+    /// Number of doubles in a workspace; 0 if the size is not allowed.
+    fn length_or_zero(size: Size) -> usize {
+        Self::check_size(size).map_or(0, Self::length)
+    }
 
-    /// Fills the tables of a workspace whose memory behind the header is all zeros.
-    fn fill_tables(&self, parts: &mut Parts) -> Result<(), Error>;
-
-    /// `BadHarmonics` unless 1 <= H <= 2^24, `BadSamples` unless 2H < samples <= 2^24, `BadPeriods` for more than 65536 periods.
-    fn new(size: Size) -> Result<Self, Error> {
+    /// A size with its number of periods.
+    /// Errors: `BadHarmonics` unless 1 <= H <= 2^24, `BadSamples` unless 2H < samples <= 2^24, `BadPeriods` for more than 65536 periods.
+    fn check_size(size: Size) -> Result<Size, Error> {
         const LARGEST: usize = 1 << 24;
         const MOST_PERIODS: usize = 1 << 16;
         let Size { harmonics, samples, periods } = size;
-        let periods = if periods == 0 { Self::PERIODS } else { periods };
+        let size = Size { periods: if periods == 0 { Self::PERIODS } else { periods }, ..size };
         if !(1..=LARGEST).contains(&harmonics) {
             return Err(Error::BadHarmonics);
         }
         if samples <= 2 * harmonics || samples > LARGEST {
             return Err(Error::BadSamples);
         }
-        if periods > MOST_PERIODS {
+        if size.periods > MOST_PERIODS {
             return Err(Error::BadPeriods);
         }
-        let layout = Self::of(Size { periods, ..size });
         // With 32-bit addresses these sizes may still be too large. The workspace is smaller than eight times `max_rows` rows.
-        let doubles = layout.max_rows().checked_mul(8 * (2 * harmonics + 8));
+        let doubles = Self::max_rows(size).checked_mul(8 * (2 * harmonics + 8));
         if doubles.is_none_or(|doubles| doubles > isize::MAX as usize / 8) {
             return Err(Error::BadSamples);
         }
-        Ok(layout)
+        Ok(size)
     }
 
     /// Initialises a workspace.
-    /// Errors: `WorkspaceTooShort`, and those of [`WorkspaceLayout::new`].
-    fn init(size: Size, workspace: &mut [f64]) -> Result<(), Error> {
-        let layout = Self::new(size)?;
-        let memory = workspace.get_mut(..layout.length()).ok_or(Error::WorkspaceTooShort)?;
+    /// Errors: `WorkspaceTooShort`, and those of [`Layout::check_size`].
+    fn init(size: Size, workspace: &'a mut [f64]) -> Result<(), Error> {
+        let size = Self::check_size(size)?;
+        let memory = workspace.get_mut(..Self::length(size)).ok_or(Error::WorkspaceTooShort)?;
         memory.fill(0.0);
         let (header, buffers) = memory.split_first_chunk_mut::<HEADER>().ok_or(Error::WorkspaceTooShort)?;
-        layout.fill_tables(&mut Parts::of(buffers))?;
-        let Size { harmonics, samples, periods } = layout.size();
+        Self::take(size, &mut Parts::of(buffers))?.fill();
+        let Size { harmonics, samples, periods } = size;
         *header = [Self::KIND.tag(harmonics), Kind::Samples.tag(samples), Kind::Periods.tag(periods), 0.0];
         Ok(())
     }
 
-    /// Layout of an initialised workspace, from its header.
+    /// Size and number of doubles of an initialised workspace, from its header.
     #[inline(always)]
-    fn read(&[first, second, third]: &[f64; TAGS]) -> Result<Self, Error> {
+    fn read(&[first, second, third]: &[f64; TAGS]) -> Result<(Size, usize), Error> {
         let counts = (Self::KIND.count(first), Kind::Samples.count(second), Kind::Periods.count(third));
         let (Some(harmonics), Some(samples), Some(periods @ 1..)) = counts else { return Err(Error::BadWorkspace) };
-        Self::new(Size { harmonics, samples, periods }).map_err(|_| Error::BadWorkspace)
+        let size = Self::check_size(Size { harmonics, samples, periods }).map_err(|_| Error::BadWorkspace)?;
+        Ok((size, Self::length(size)))
     }
 
-    /// Layout of an initialised workspace, and the memory behind its header.
+    /// Opens an initialised workspace.
+    /// Errors: `BadWorkspace` if uninitialised or too short.
     #[inline(always)]
-    fn open(workspace: &mut [f64]) -> Result<(Self, Parts<'_>), Error> {
+    fn open(workspace: &'a mut [f64]) -> Result<Self, Error> {
         let (header, buffers) = workspace.split_first_chunk_mut::<HEADER>().ok_or(Error::BadWorkspace)?;
-        let layout = Self::read(header.first_chunk().ok_or(Error::BadWorkspace)?)?;
-        Ok((layout, Parts::of(buffers)))
+        let (size, _) = Self::read(header.first_chunk().ok_or(Error::BadWorkspace)?)?;
+        Self::take(size, &mut Parts::of(buffers))
     }
 }
 

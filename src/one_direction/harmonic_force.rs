@@ -24,7 +24,7 @@ use crate::fourier::folded::{FoldedFourier, continue_half_wave, sample_length};
 use crate::fourier::normalise;
 use crate::fourier::rows::{OuterProducts, Rows, row_blocks};
 use crate::fourier::sampled_jacobian::Assembly;
-use crate::fourier::workspace::{HEADER, Parts, Size, WorkspaceLayout};
+use crate::fourier::workspace::{Layout, Parts, Size};
 use crate::limits::check_coefficients;
 use crate::tag::Kind;
 use forces::Forces;
@@ -33,43 +33,14 @@ use runs::PeriodicPath;
 use samples::{Part, Samples};
 
 /// Number of doubles in a workspace for the given number of harmonics and of samples per period; 0 if these are not allowed.
-#[must_use]
 pub fn workspace_length(harmonics: usize, samples: usize) -> usize {
-    Layout::new(Size::new(harmonics, samples)).map_or(0, |layout| layout.length())
+    Workspace::length_or_zero(Size::new(harmonics, samples))
 }
 
 /// Initialises a workspace: tables for the given harmonics and samples, and scratch memory.
-///
-/// # Errors
-/// `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24; `WorkspaceTooShort`.
+/// Errors: `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24; `WorkspaceTooShort`.
 pub fn workspace_init(harmonics: usize, samples: usize, workspace: &mut [f64]) -> Result<(), Error> {
-    Layout::init(Size::new(harmonics, samples), workspace)
-}
-
-/// Size of a workspace.
-pub(crate) struct Layout(Size);
-
-impl WorkspaceLayout for Layout {
-    const KIND: Kind = Kind::ElementSampling;
-
-    fn of(size: Size) -> Layout {
-        Layout(size)
-    }
-
-    fn size(&self) -> Size {
-        self.0
-    }
-
-    fn length(&self) -> usize {
-        HEADER + Parts::count(|parts| Workspace::take(self.0, parts))
-    }
-
-    fn fill_tables(&self, parts: &mut Parts) -> Result<(), Error> {
-        let mut workspace = Workspace::take(self.0, parts)?;
-        workspace.fourier.fill();
-        workspace.sensitivity.rows.fill();
-        Ok(())
-    }
+    Workspace::init(Size::new(harmonics, samples), workspace)
 }
 
 /// An opened workspace.
@@ -86,12 +57,23 @@ pub struct Workspace<'a> {
 
 impl<'a> Workspace<'a> {
     /// Opens an initialised workspace.
-    ///
-    /// # Errors
-    /// `BadWorkspace` if uninitialised or too short.
+    /// Errors: `BadWorkspace` if uninitialised or too short.
     pub fn new(memory: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
-        let (layout, mut parts) = Layout::open(memory)?;
-        Workspace::take(layout.0, &mut parts)
+        Workspace::open(memory)
+    }
+
+    /// 2H + 1.
+    pub fn coefficients(&self) -> usize {
+        self.size.coefficients()
+    }
+}
+
+impl<'a> Layout<'a> for Workspace<'a> {
+    const KIND: Kind = Kind::ElementSampling;
+
+    fn fill(&mut self) {
+        self.fourier.fill();
+        self.sensitivity.rows.fill();
     }
 
     #[inline(always)]
@@ -132,12 +114,6 @@ impl<'a> Workspace<'a> {
         let sensitivity = Sensitivity { rows, pieces, stored, places, outer, own };
         Ok(Workspace { size, fourier, samples, path, forces, sensitivity, assembly })
     }
-
-    /// 2H + 1.
-    #[must_use]
-    pub fn coefficients(&self) -> usize {
-        self.size.coefficients()
-    }
 }
 
 /// Properties of a motion.
@@ -160,11 +136,9 @@ const NORMAL_FORCE_ROUNDING: f64 = 8.0 * f64::EPSILON;
 ///
 /// The force has 2 (2H + 1) coefficients \[N\], T then N. The Jacobian has (2 (2H + 1))² entries, column by column: their derivatives
 /// with respect to the coefficients of the motion. It is the exact derivative of the discrete force, one-sided at corners.
-///
-/// # Errors
-/// `BadArraySize` if a length does not agree with the workspace; `BadDisplacement` if a coefficient is not finite or exceeds 1e150;
-/// `BadNormalForce` if a sample of the normal force is negative by more than rounding; `LengthTooShort` if the contact would become too
-/// wide for its length.
+/// Errors: `BadArraySize` if a length does not agree with the workspace; `BadDisplacement` if a coefficient is not finite or
+/// exceeds 1e150; `BadNormalForce` if a sample of the normal force is negative by more than rounding; `LengthTooShort` if the
+/// contact would become too wide for its length.
 pub fn harmonic_force(
     element: &Element,
     workspace: &mut Workspace,
@@ -342,7 +316,7 @@ impl Workspace<'_> {
                 }
                 fourier.sum(own, assembly.sums);
                 let symmetry = if motion.half_wave { Some(sign) } else { None };
-                assembly.set_products(&sensitivity.outer, index);
+                assembly.set_products(&sensitivity.outer.of(index));
                 assembly.write(symmetry, columns, 2 * coefficients);
             } else {
                 columns.fill(0.0);

@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::numerics::fp_class::is_finite;
 use crate::one_direction::Step;
 use crate::one_direction::diagram::Polygon;
-use crate::one_direction::step::{Point, step};
+use crate::one_direction::step::{Header, step};
 use crate::tag::Kind;
 
 const HEADER: usize = 8;
@@ -19,7 +19,6 @@ const PER_KNOT: usize = 4;
 const MIN_PIECES: usize = 4;
 
 /// Number of doubles in a state that holds `pieces` pieces of the diagram exactly; fewer than 4 count as 4.
-#[must_use]
 pub const fn state_length(pieces: usize) -> usize {
     let pieces = if pieces < MIN_PIECES { MIN_PIECES } else { pieces };
     // One knot more than pieces.
@@ -27,9 +26,7 @@ pub const fn state_length(pieces: usize) -> usize {
 }
 
 /// Initialises a state: open, at displacement 0 and normal component 0.
-///
-/// # Errors
-/// `StateTooShort` for fewer than [`state_length`]`(0)` doubles.
+/// Errors: `StateTooShort` for fewer than [`state_length`]`(0)` doubles.
 pub fn state_init(state: &mut [f64]) -> Result<(), Error> {
     if state.len() < state_length(0) {
         return Err(Error::StateTooShort);
@@ -61,22 +58,21 @@ pub(crate) fn check_tag(tag: f64, state_length: usize) -> Result<(), Error> {
 }
 
 /// A bound on the error of the force \[N\] from merging pieces; 0 while nothing was merged.
-#[must_use]
 pub fn force_error(state: &[f64]) -> f64 {
     state.get(ERROR).copied().unwrap_or(0.0)
 }
 
 const ERROR: usize = 7;
 
-impl Point {
+impl Header {
     #[inline(always)]
-    fn read(&[_, displacement, input, load, shift, load_slope, shift_slope, error]: &[f64; HEADER]) -> Point {
-        Point { displacement, input, normal: Normal { load, shift, load_slope, shift_slope }, error }
+    fn read(&[_, displacement, input, load, shift, load_slope, shift_slope, error]: &[f64; HEADER]) -> Header {
+        Header { displacement, input, normal: Normal { load, shift, load_slope, shift_slope }, error }
     }
 
     #[inline(always)]
     fn write(&self, used: usize, header: &mut [f64; HEADER]) {
-        let Point { displacement, input, normal: Normal { load, shift, load_slope, shift_slope }, error } = *self;
+        let Header { displacement, input, normal: Normal { load, shift, load_slope, shift_slope }, error } = *self;
         let tag = Kind::ElementState.tag(used);
         *header = [tag, displacement, input, load, shift, load_slope, shift_slope, error];
     }
@@ -91,7 +87,7 @@ pub(crate) struct View<'a> {
 
 pub(crate) fn view(state: &[f64]) -> View<'_> {
     let (header, knots) = parts(state);
-    let Point { displacement, normal, .. } = Point::read(header);
+    let Header { displacement, normal, .. } = Header::read(header);
     View { displacement, load: normal.load, knots }
 }
 
@@ -105,12 +101,12 @@ fn parts(state: &[f64]) -> (&[f64; HEADER], &[[f64; PER_KNOT]]) {
 }
 
 /// A step in place, with a state and a displacement that were checked.
-#[inline(always)]
+#[inline(never)]
 pub(crate) fn advance_checked(element: &Element, state: &mut [f64], displacement: [f64; 2], with_energy: bool) -> Step {
     let Some((header, knots)) = state.split_first_chunk_mut::<HEADER>() else { return Step::NONE };
     let used = Kind::ElementState.count(header[0]).unwrap_or(0);
     let mut polygon = Polygon::new(element.friction_coefficient, knots, used);
-    let (step, mut to) = step(element, &Point::read(header), &mut polygon, displacement, with_energy);
+    let (step, mut to) = step(element, &Header::read(header), &mut polygon, displacement, with_energy);
     to.error = if polygon.anew { polygon.error } else { to.error + polygon.error };
     to.write(polygon.used, header);
     step
@@ -120,7 +116,7 @@ pub(crate) fn advance_checked(element: &Element, state: &mut [f64], displacement
 #[inline(always)]
 pub(crate) fn trial(element: &Element, state: &[f64], displacement: [f64; 2], with_energy: bool) -> Step {
     let (header, mut knots) = parts(state);
-    step(element, &Point::read(header), &mut knots, displacement, with_energy).0
+    step(element, &Header::read(header), &mut knots, displacement, with_energy).0
 }
 
 /// Copies what is in use of a state whose header was checked to one of the same length.
@@ -147,13 +143,11 @@ pub(crate) fn copy(element: &Element, from: &[f64], to: &mut [f64]) {
 
 /// Validates a state in full: finite values, a monotone polygon from the centre to the present point. For states from outside the
 /// process.
-///
-/// # Errors
-/// `StateTooShort`; `BadState` for an array that was not initialised, or whose values no history leads to.
+/// Errors: `StateTooShort`; `BadState` for an array that was not initialised, or whose values no history leads to.
 pub fn state_check(state: &[f64]) -> Result<(), Error> {
     check_header(state)?;
     let (header, knots) = parts(state);
-    let Point { displacement, normal, error, .. } = Point::read(header);
+    let Header { displacement, normal, error, .. } = Header::read(header);
     let Normal { load, shift, load_slope, shift_slope } = normal;
     let finite =
         header.iter().all(|value| is_finite(*value)) && knots.as_flattened().iter().all(|value| is_finite(*value));

@@ -5,9 +5,9 @@ use crate::one_direction::Step;
 use crate::one_direction::diagram::{self, Diagram, Knot, Response};
 use crate::one_direction::energy::{self, Path};
 
-/// The point from which a step starts: displacements, normal state, and the error from merged pieces.
+/// The header of a state, from which a step starts: displacements, normal state, and the error from merged pieces.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Point {
+pub(crate) struct Header {
     pub displacement: f64,
     pub input: f64,
     pub normal: Normal,
@@ -42,11 +42,11 @@ impl Crossing {
 #[inline(always)]
 pub(crate) fn step(
     element: &Element,
-    from: &Point,
+    from: &Header,
     diagram: &mut impl Diagram,
     [displacement, input]: [f64; 2],
     with_energy: bool,
-) -> (Step, Point) {
+) -> (Step, Header) {
     if !(element.is_closed(input) && from.normal.load > 0.0 && element.friction_coefficient > 0.0) {
         return opening_or_closing(element, from, diagram, [displacement, input], with_energy);
     }
@@ -60,22 +60,22 @@ pub(crate) fn step(
     let Response { force, by_displacement, by_input } = diagram::step(element, diagram, displacement, &normal);
     let tangent = [by_displacement, 0.0, by_input, normal.load_slope];
     let step = Step { force: [force, normal.load], tangent, dissipated };
-    (step, Point { displacement, input, normal, error: from.error })
+    (step, Header { displacement, input, normal, error: from.error })
 }
 
 /// A step from or to an open contact, and every step without friction: the diagram starts anew.
 #[inline(never)]
 fn opening_or_closing(
     element: &Element,
-    from: &Point,
+    from: &Header,
     diagram: &mut impl Diagram,
     [displacement, input]: [f64; 2],
     with_energy: bool,
-) -> (Step, Point) {
+) -> (Step, Header) {
     let friction = element.friction_coefficient > 0.0;
     let (was_closed, closed) = (from.normal.load > 0.0, element.is_closed(input));
     let normal = if closed { element.normal(input) } else { Normal::OPEN };
-    let to = Point { displacement, input, normal, error: 0.0 };
+    let to = Header { displacement, input, normal, error: 0.0 };
     let start = if was_closed { from.input } else { from.input.min(0.0) };
     let end = if closed { input } else { input.min(0.0) };
     let crossing = if was_closed == closed {

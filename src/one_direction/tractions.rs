@@ -2,15 +2,13 @@
 
 use crate::element::Element;
 use crate::error::Error;
-use crate::numerics::fp_class::is_finite;
+use crate::limits::check_positions;
 use crate::one_direction::diagram::Knot;
 use crate::one_direction::state::{check_header, view};
 
 /// Pressure and shear traction \[Pa\] at the points x \[m\] along the width (elliptical: on the x axis), `q(x) = ∫ D dp(x)` over the
 /// sizes of the contact; 0 outside it.
-///
-/// # Errors
-/// `StateTooShort`, `BadState`; `BadPosition` if a point is not finite.
+/// Errors: `StateTooShort`, `BadState`; `BadPosition` if a point is not finite.
 pub fn tractions(
     element: &Element,
     state: &[f64],
@@ -19,9 +17,7 @@ pub fn tractions(
     shear: Option<&mut [f64]>,
 ) -> Result<(), Error> {
     check_header(state)?;
-    if !x.iter().all(|x| is_finite(*x)) {
-        return Err(Error::BadPosition);
-    }
+    check_positions(x)?;
     let shape = element.shape();
     let state = view(state);
     if let Some(pressure) = pressure {

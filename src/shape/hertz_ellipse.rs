@@ -45,9 +45,7 @@ impl HertzEllipse {
     }
 
     /// The shape of parameters that were checked, N > 0.
-    ///
-    /// # Errors
-    /// `OutOfRange` if derived quantities are not representable.
+    /// Errors: `OutOfRange` if derived quantities are not representable.
     pub fn new(parameters: &EllipticParameters) -> Result<HertzEllipse, Error> {
         let EllipticParameters { semi_axis_x, semi_axis_y, normal_force, ref material, .. } = *parameters;
         let modulus = Pair::new(material).composite_modulus;

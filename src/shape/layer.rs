@@ -39,9 +39,7 @@ impl Layer {
     pub(crate) const NONE: Layer = Layer { normal: 0.0, tangential: 0.0, stiffening: 0.0 };
 
     /// The layer of parameters that were checked, N > 0, and its compliance under N over that of the parameters.
-    ///
-    /// # Errors
-    /// `BadReferenceLoad` if the compliance under N is more than 2^40 times that of the parameters; `BadNormalCompliance`,
+    /// Errors: `BadReferenceLoad` if the compliance under N is more than 2^40 times that of the parameters; `BadNormalCompliance`,
     /// `BadTangentialCompliance` if it, or the displacement, is not representable.
     pub fn new(parameters: &parameters::Layer, normal_force: f64) -> Result<(Layer, f64), Error> {
         let parameters::Layer { normal_compliance, tangential_compliance, stiffening_load, reference_load } =
@@ -72,9 +70,8 @@ impl Layer {
         self.normal == 0.0 && self.tangential == 0.0
     }
 
-    /// # Errors
-    /// `BadNormalCompliance`, `BadTangentialCompliance` if the layer hides the contact: given the normal and tangential compliance of
-    /// both under a load.
+    /// Errors: `BadNormalCompliance`, `BadTangentialCompliance` if the layer hides the contact: given the normal and tangential
+    /// compliance of both under a load.
     pub fn check_share(&self, load: f64, [normal, tangential]: [f64; 2]) -> Result<(), Error> {
         let hides = |layer: f64, both: f64| layer * self.softness(load) > (1.0 - 1.0 / MOST_COMPLIANT) * both;
         match (hides(self.normal, normal), hides(self.tangential, tangential)) {
@@ -86,11 +83,7 @@ impl Layer {
 
     /// The compliance without load that enters U or S; 0 for N.
     fn unloaded(&self, quantity: Quantity) -> f64 {
-        match quantity {
-            Quantity::Load => 0.0,
-            Quantity::Approach => self.normal,
-            Quantity::Shift => self.tangential,
-        }
+        [0.0, self.normal, self.tangential][quantity as usize]
     }
 
     /// `ln(1 + N/N_c) N_c`: U2 and S2 over their compliance without load \[N\].
@@ -165,9 +158,7 @@ impl Layer {
 impl Layer {
     /// The layer in units of the stick zones under a normal force, whose compliance 1 is the inverse of `stiffness_scale`, given the
     /// compliance of the contact in these units.
-    ///
-    /// # Errors
-    /// `BadTangentialCompliance` if the layer hides the contact, or its compliance in these units is not representable.
+    /// Errors: `BadTangentialCompliance` if the layer hides the contact, or its compliance in these units is not representable.
     pub fn relative(&self, normal_force: f64, stiffness_scale: f64, of_contact: f64) -> Result<Layer, Error> {
         if self.tangential > 0.0 {
             in_range(&[self.tangential, stiffness_scale], &[]).map_err(|_| Error::BadTangentialCompliance)?;
@@ -418,10 +409,6 @@ impl StickZones for LayeredZones {
         self.contact().size(&self.in_contact(zone))
     }
 
-    fn size_parameter(&self, zone: &StickZone) -> f64 {
-        self.contact().size_parameter(&self.in_contact(zone))
-    }
-
     fn pressure(&self, point: &SurfacePoint) -> f64 {
         self.contact().pressure(point)
     }
@@ -462,9 +449,7 @@ pub(crate) struct Layered<S> {
 
 impl<S: Shape> Layered<S> {
     /// A shape and the layer of parameters that were checked, N > 0.
-    ///
-    /// # Errors
-    /// As for [`Layer::new`].
+    /// Errors: as for [`Layer::new`].
     pub fn new(shape: S, parameters: &Common) -> Result<Layered<S>, Error> {
         Ok(Layered { shape, layer: Layer::new(&parameters.layer, parameters.normal_force)?.0 })
     }

@@ -50,10 +50,8 @@ impl RoundedFlat {
     }
 
     /// The shape of parameters that were checked, N > 0.
-    ///
-    /// # Errors
-    /// `OutOfRange` if derived quantities are not representable; `LengthTooShort` if 2L <= b or if the tangential stiffness at b
-    /// would not be positive.
+    /// Errors: `OutOfRange` if derived quantities are not representable; `LengthTooShort` if 2L <= b or if the tangential stiffness
+    /// at b would not be positive.
     pub fn new(parameters: &Parameters) -> Result<RoundedFlat, Error> {
         // A zero without its sign, which would show in results.
         let flat = parameters.flat_half_width.abs();

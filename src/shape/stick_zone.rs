@@ -98,9 +98,6 @@ pub(crate) trait StickZones {
     /// c/b.
     fn size(&self, zone: &StickZone) -> f64;
 
-    /// Size parameter σ, from 0 for the smallest zone to 1 for b.
-    fn size_parameter(&self, zone: &StickZone) -> f64;
-
     /// Pressure in units of N/(bL) or, for an ellipse, of N over the product of the semi-axes.
     fn pressure(&self, point: &SurfacePoint) -> f64;
 

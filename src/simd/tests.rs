@@ -2,7 +2,7 @@
 
 use crate::constant_load::contact::tests::{FLATS, contact, ellipse};
 use crate::constant_load::harmonic_force::{HarmonicOutput, Rule, Workspace, harmonic_force, harmonic_sensitivity};
-use crate::constant_load::masing::{self, PathOutput};
+use crate::constant_load::masing;
 use crate::constant_load::state::{state_init, state_length};
 use crate::constant_load::stiffness_table::StiffnessTable;
 use crate::element::{Directions, Element, NormalInput};
@@ -61,7 +61,7 @@ fn the_curve_and_a_path() {
             state_init(&mut state).unwrap();
             let [mut force, mut stiffness, mut dissipated] = [(); 3].map(|()| vec![0.0; 1000]);
             let [one, two, three] = [&mut force, &mut stiffness, &mut dissipated].map(|v| Some(v.as_mut_slice()));
-            let output = PathOutput { force: one, stiffness: two, dissipated: three };
+            let output = [one, two, three];
             masing::path(&contact, &mut state, &displacement, output);
             [force, stiffness, dissipated, state].concat()
         });

@@ -20,28 +20,25 @@ use super::tables::{ALIGNMENT, Both, DualRows, END, N, PARAMETERS, ROWS, Rows, S
 use super::trial::{Motion, SPRINGS, Springs, Values, trial};
 use crate::element::{Element, Normal};
 use crate::error::Error;
-use crate::fourier::workspace::{HEADER, Parts, Size, WorkspaceLayout, padded};
+use crate::fourier::angle;
+use crate::fourier::workspace::{Layout, Parts, Size};
 use crate::limits::check_coefficients;
 use crate::simd::{dispatch, plus};
 use crate::tag::Kind;
-use core::f64::consts::TAU;
 
 pub use crate::fourier::HarmonicOutput;
 
 /// Number of doubles in a workspace for the given number of harmonics and of samples per period; 0 if these are not allowed.
-#[must_use]
 pub fn workspace_length(harmonics: usize, samples: usize) -> usize {
-    Layout::new(Size::new(harmonics, samples)).map_or(0, |layout| layout.length())
+    Workspace::length_or_zero(Size::new(harmonics, samples))
 }
 
 /// Initialises a workspace: tables for the given harmonics and samples, the number of periods before the one that counts (0: the
 /// default, 3), and scratch memory.
-///
-/// # Errors
-/// `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24, `BadPeriods` for more than 65536;
-/// `WorkspaceTooShort`.
+/// Errors: `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24, `BadPeriods` for more
+/// than 65536; `WorkspaceTooShort`.
 pub fn workspace_init(harmonics: usize, samples: usize, periods: usize, workspace: &mut [f64]) -> Result<(), Error> {
-    Layout::init(Size::new(harmonics, samples).with_periods(periods), workspace)
+    Workspace::init(Size::new(harmonics, samples).with_periods(periods), workspace)
 }
 
 /// Relative distance of the sizes whose tables are differentiated: the error is the square of it times the third derivative, up to 1e5 where
@@ -52,74 +49,15 @@ const NEIGHBOUR: f64 = 1e-6;
 const NARROW: usize = 12;
 const WIDE: usize = 36;
 
-pub(crate) struct Layout(Size);
-
-impl Layout {
-    /// Columns, one for each coefficient of the motion, in whole blocks: in each, those of the normal component, of u and of v.
-    fn columns(&self) -> usize {
-        let lanes = if 3 * self.0.coefficients() <= NARROW { NARROW } else { WIDE };
-        lanes * self.0.coefficients().div_ceil(lanes / 3)
-    }
-
-    /// Sums of the derivatives of both forces times 1, cos t, sin t, ...
-    fn sums_length(&self) -> usize {
-        2 * self.0.coefficients() * self.columns()
-    }
-}
-
 /// Doubles of a sample: the motion, the normal force and its derivative, and the tangential forces.
 const SAMPLE: usize = 8;
-
-impl WorkspaceLayout for Layout {
-    const KIND: Kind = Kind::TwoDirectionsSampling;
-    /// Static shear is shaken out over many periods: the table of `periods` in the guide has the errors.
-    const PERIODS: usize = 3;
-
-    fn of(size: Size) -> Layout {
-        Layout(size)
-    }
-
-    fn size(&self) -> Size {
-        self.0
-    }
-
-    fn max_rows(&self) -> usize {
-        8 * self.0.samples + 256
-    }
-
-    fn tables_length(&self) -> usize {
-        padded(self.0.coefficients() * self.0.samples)
-    }
-
-    fn length(&self) -> usize {
-        HEADER
-            + self.tables_length()
-            + SAMPLE * self.0.samples
-            + 7 * N * ROWS
-            + (SPRINGS + 2) * self.columns()
-            + self.sums_length()
-    }
-
-    fn fill_tables(&self, tables: &mut Parts) -> Result<(), Error> {
-        let (n, Size { samples, .. }) = (self.0.coefficients(), self.0);
-        let basis = tables.take(n * samples)?;
-        for (sample, values) in basis.chunks_exact_mut(n).enumerate() {
-            for (c, value) in values.iter_mut().enumerate() {
-                let turn = (c.div_ceil(2) * sample).checked_rem(samples).unwrap_or(0) as f64 / samples as f64;
-                let angle = TAU * turn;
-                *value = if c % 2 == 0 && c > 0 { angle.sin() } else { angle.cos() };
-            }
-        }
-        Ok(())
-    }
-}
 
 /// An opened workspace.
 #[derive(Debug)]
 pub struct Workspace<'a> {
     size: Size,
     /// Values of `[1, cos t, sin t, ...]`, sample after sample.
-    basis: &'a [f64],
+    basis: &'a mut [f64],
     samples: &'a mut [[f64; SAMPLE]],
     /// Tables of the springs, those of a slightly larger and a smaller reference size, and with the derivatives by its logarithm.
     tables: &'a mut [Rows],
@@ -130,37 +68,56 @@ pub struct Workspace<'a> {
     sums: &'a mut [f64],
 }
 
-impl<'a> Workspace<'a> {
-    /// Opens an initialised workspace.
-    ///
-    /// # Errors
-    /// `BadWorkspace` if uninitialised or too short.
-    pub fn new(memory: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
-        let (layout, mut parts) = Layout::open(memory)?;
-        let (size, columns) = (layout.0, layout.columns());
-        let basis = parts.take(size.coefficients() * size.samples)?;
+impl<'a> Layout<'a> for Workspace<'a> {
+    const KIND: Kind = Kind::TwoDirectionsSampling;
+    /// Static shear is shaken out over many periods: the table of `periods` in the guide has the errors.
+    const PERIODS: usize = 3;
+
+    fn max_rows(size: Size) -> usize {
+        8 * size.samples + 256
+    }
+
+    fn take(size: Size, parts: &mut Parts<'a>) -> Result<Workspace<'a>, Error> {
+        // One column for each coefficient of the motion, in whole blocks: in each, those of the normal component, of u and of v.
+        let lanes = if 3 * size.coefficients() <= NARROW { NARROW } else { WIDE };
+        let columns = lanes * size.coefficients().div_ceil(lanes / 3);
         Ok(Workspace {
             size,
-            basis,
+            basis: parts.take(size.coefficients() * size.samples)?,
             samples: parts.take(SAMPLE * size.samples)?.as_chunks_mut().0,
             tables: parts.take(3 * N * ROWS)?.as_chunks_mut::<N>().0.as_chunks_mut().0,
             dual_tables: parts.take(4 * N * ROWS)?.as_chunks_mut().0.as_chunks_mut::<N>().0.as_chunks_mut().0,
             derivatives: parts.take(SPRINGS * columns)?,
             forces: parts.take(2 * columns)?,
-            sums: parts.take(layout.sums_length())?,
+            sums: parts.take(2 * size.coefficients() * columns)?,
         })
     }
 
+    fn fill(&mut self) {
+        let samples = self.size.samples;
+        for (sample, values) in self.basis.chunks_exact_mut(self.size.coefficients().max(1)).enumerate() {
+            for (c, value) in values.iter_mut().enumerate() {
+                let angle = angle(c.div_ceil(2), sample, samples);
+                *value = if c % 2 == 0 && c > 0 { angle.sin() } else { angle.cos() };
+            }
+        }
+    }
+}
+
+impl<'a> Workspace<'a> {
+    /// Opens an initialised workspace.
+    /// Errors: `BadWorkspace` if uninitialised or too short.
+    pub fn new(memory: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
+        Workspace::open(memory)
+    }
+
     /// 2H + 1.
-    #[must_use]
     pub fn coefficients(&self) -> usize {
         self.size.coefficients()
     }
 
     /// Checks a motion: all of a batch are checked before the first output is written.
-    ///
-    /// # Errors
-    /// Those of [`harmonic_force`].
+    /// Errors: those of [`harmonic_force`].
     pub(crate) fn check(&mut self, element: &Element, displacement: &[f64]) -> Result<(), Error> {
         check_coefficients(displacement)?;
         let input = displacement.get(2 * self.coefficients()..).unwrap_or(&[]);
@@ -205,11 +162,9 @@ impl<'a> Workspace<'a> {
 /// The force has 3 (2H + 1) coefficients \[N\], Tx, Ty, N. The Jacobian has (3 (2H + 1))² entries, column by column: their derivatives
 /// with respect to the coefficients of the motion. The drift is the largest difference of the tangential force between the period that
 /// counts and the one before, over μ times the largest normal force; 0 if the contact opens.
-///
-/// # Errors
-/// `BadArraySize` if a length does not agree with the workspace; `BadDisplacement` if a coefficient is not finite or exceeds 1e150;
-/// `BadNormalForce` if a sample of the normal force is negative by more than rounding; `LengthTooShort` if the contact would become
-/// too wide for its length.
+/// Errors: `BadArraySize` if a length does not agree with the workspace; `BadDisplacement` if a coefficient is not finite or
+/// exceeds 1e150; `BadNormalForce` if a sample of the normal force is negative by more than rounding; `LengthTooShort` if the
+/// contact would become too wide for its length.
 pub fn harmonic_force(
     element: &Element,
     workspace: &mut Workspace,

@@ -40,15 +40,12 @@ const STATE_ROWS: usize = HEADER_ROWS + EDGE_ROWS + INVERSE_ROWS + SPRINGS / N +
 pub(super) const LENGTH: usize = N * STATE_ROWS;
 
 /// Number of doubles in a state.
-#[must_use]
 pub const fn state_length() -> usize {
     LENGTH
 }
 
 /// Initialises a state: open, at displacement 0 and normal component 0.
-///
-/// # Errors
-/// `StateTooShort` for fewer than [`state_length`] doubles.
+/// Errors: `StateTooShort` for fewer than [`state_length`] doubles.
 pub fn state_init(state: &mut [f64]) -> Result<(), Error> {
     let state = state.get_mut(..LENGTH).ok_or(Error::StateTooShort)?;
     state.fill(0.0);
@@ -57,9 +54,7 @@ pub fn state_init(state: &mut [f64]) -> Result<(), Error> {
 }
 
 /// Checks the length and the tag of a state.
-///
-/// # Errors
-/// `StateTooShort` for fewer than [`state_length`] doubles; `BadState` for an array that is no state.
+/// Errors: `StateTooShort` for fewer than [`state_length`] doubles; `BadState` for an array that is no state.
 #[inline(always)]
 pub(super) fn check_header(state: &[f64]) -> Result<(), Error> {
     if state.len() < LENGTH {
@@ -75,9 +70,7 @@ pub(super) fn check_tag(tag: f64) -> Result<(), Error> {
 }
 
 /// Validates a state in full: finite values, springs within their limits. For states from outside the process.
-///
-/// # Errors
-/// `StateTooShort`; `BadState` for an array that was not initialised, or whose values no history leads to.
+/// Errors: `StateTooShort`; `BadState` for an array that was not initialised, or whose values no history leads to.
 pub fn state_check(state: &[f64]) -> Result<(), Error> {
     check_header(state)?;
     let mut copy = [0.0; LENGTH];

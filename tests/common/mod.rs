@@ -57,7 +57,7 @@ pub fn unloaded(reversals: usize) -> Vec<f64> {
 
 /// Force and stiffness at a displacement, with the new state.
 #[inline(never)]
-pub fn step(contact: &Contact, state: &[f64], displacement: f64) -> masing::Step {
+pub fn step(contact: &Contact, state: &[f64], displacement: f64) -> masing::StepRecord {
     masing::step(contact, state, displacement)
 }
 

@@ -27,52 +27,22 @@ use crate::error::Error;
 use crate::fourier::folded::{FoldedFourier, sample_length};
 use crate::fourier::rows::row_blocks;
 use crate::fourier::sampled_jacobian::Assembly;
-use crate::fourier::workspace::{Blocks, HEADER, Parts, Size, WorkspaceLayout};
+use crate::fourier::workspace::{Blocks, Layout, Parts, Size};
 use crate::fourier::{complete_half_wave, normalise};
 use crate::parameters::PARAMETERS;
 use crate::tag::Kind;
 use core::f64::consts::PI;
 
-/// Size of a workspace.
-pub(super) struct Layout(Size);
-
-impl Layout {
-    /// Points of the search grid: an even number, at least sixteen per period of the highest harmonic. Three reversals within two grid
-    /// steps h may be taken for one: the width of the missed loop is `h⁴/24` times the fourth derivative, at most a thousandth of the
-    /// amplitude.
-    fn grid(&self) -> usize {
-        (self.0.samples.max(16 * self.0.harmonics) + 1) & !1
-    }
-
-    /// Capacity for reversals: a displacement has at most 2H per period; more are due to rounding.
-    fn reversals(&self) -> usize {
-        4 * self.0.harmonics + 8
-    }
+/// Points of the search grid: an even number, at least sixteen per period of the highest harmonic. Three reversals within two grid
+/// steps h may be taken for one: the width of the missed loop is `h⁴/24` times the fourth derivative, at most a thousandth of the
+/// amplitude.
+fn grid_points(size: Size) -> usize {
+    (size.samples.max(16 * size.harmonics) + 1) & !1
 }
 
-impl WorkspaceLayout for Layout {
-    const KIND: Kind = Kind::EventDriven;
-
-    fn of(size: Size) -> Layout {
-        Layout(size)
-    }
-
-    fn size(&self) -> Size {
-        self.0
-    }
-
-    fn max_rows(&self) -> usize {
-        self.grid() + self.reversals() + PANEL
-    }
-
-    fn length(&self) -> usize {
-        HEADER + Parts::count(|parts| Workspace::take(self, parts))
-    }
-
-    fn fill_tables(&self, parts: &mut Parts) -> Result<(), Error> {
-        Workspace::take(self, parts)?.buffers.grid.fourier.fill();
-        Ok(())
-    }
+/// Capacity for reversals: a displacement has at most 2H per period; more are due to rounding.
+fn most_reversals(size: Size) -> usize {
+    4 * size.harmonics + 8
 }
 
 /// An opened workspace.
@@ -102,17 +72,20 @@ struct Buffers<'a> {
     assembly: Assembly<'a>,
 }
 
-impl<'a> Workspace<'a> {
-    /// Opens an initialised workspace.
-    #[inline(always)]
-    pub fn new(workspace: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
-        let (layout, mut parts) = Layout::open(workspace)?;
-        Workspace::take(&layout, &mut parts)
+impl<'a> Layout<'a> for Workspace<'a> {
+    const KIND: Kind = Kind::EventDriven;
+
+    fn max_rows(size: Size) -> usize {
+        grid_points(size) + most_reversals(size) + PANEL
+    }
+
+    fn fill(&mut self) {
+        self.buffers.grid.fourier.fill();
     }
 
     #[inline(always)]
-    fn take(layout: &Layout, parts: &mut Parts<'a>) -> Result<Workspace<'a>, Error> {
-        let (points, size, row) = (layout.grid(), layout.0, row_blocks(layout.0.harmonics));
+    fn take(size: Size, parts: &mut Parts<'a>) -> Result<Workspace<'a>, Error> {
+        let (points, row, reversals) = (grid_points(size), row_blocks(size.harmonics), most_reversals(size));
         let buffers = Buffers {
             harmonics: size.harmonics,
             grid: Grid {
@@ -123,15 +96,17 @@ impl<'a> Workspace<'a> {
             },
             instants: parts.take_records(points)?,
             nodes: NodalFourier::take(parts, size)?,
-            gradients: parts.take_blocks(2 * row * layout.reversals())?,
+            gradients: parts.take_blocks(2 * row * reversals)?,
             phi_integrals: parts.take_blocks(row)?,
             segment_stiffness: parts.take_blocks(2 * row)?,
             force: parts.take(size.coefficients())?,
             assembly: Assembly::take(parts, size.harmonics, 0.5 / PI)?,
         };
-        Ok(Workspace { reversals: parts.take(3 * layout.reversals())?.as_chunks_mut().0, buffers })
+        Ok(Workspace { reversals: parts.take(3 * reversals)?.as_chunks_mut().0, buffers })
     }
+}
 
+impl Workspace<'_> {
     /// 2H + 1.
     pub fn coefficients(&self) -> usize {
         self.buffers.coefficients()
@@ -311,8 +286,9 @@ impl<'m, 'c, 's> Period<'m, 'c, 's> {
             }
             let t = if to.displacement == end { to.t } else { self.motion.crossing(at, from, to, end) };
             let event = Instant { t, displacement: end };
-            self.integrate_segment(buffers, at, event, self.law.ends_in_gross_slip());
-            self.law.pass_end();
+            let next = self.law.continuation();
+            self.integrate_segment(buffers, at, event, next.gross_slip);
+            self.law.enter(next);
             at = event;
         }
         self.now = self.law.response(to.displacement);

@@ -98,9 +98,11 @@ impl<'a> NodalFourier<'a> {
             let mut displacement: Nodes = [[0.0; 4]; _];
             fill_rows(self.rows, motion, orders, times.get(..rule.len()).unwrap_or(&[]), &mut displacement);
             let mut values: [Nodes; K] = [[[0.0; 4]; _]; _];
-            for (node, &displacement) in displacement.as_flattened().iter().enumerate().take(4 * rule.len()) {
-                for (values, value) in values.iter_mut().zip(functions(displacement)) {
-                    values.as_flattened_mut().iter_mut().skip(node).take(1).for_each(|place| *place = value);
+            for (block, displacement) in displacement.iter().enumerate().take(rule.len()) {
+                let at_nodes = displacement.map(&functions);
+                let by_function: [_; K] = core::array::from_fn(|k| at_nodes.map(|node| node[k]));
+                for (values, value) in values.iter_mut().zip(by_function) {
+                    values.iter_mut().skip(block).take(1).for_each(|place| *place = value);
                 }
             }
             for (values, sums) in values.iter().zip(&mut sums).filter(|(_, sums)| !sums.is_empty()) {

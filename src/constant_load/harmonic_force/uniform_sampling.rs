@@ -16,36 +16,10 @@ use crate::fourier::folded::FoldedFourier;
 use crate::fourier::normalise;
 use crate::fourier::rows::{OuterProducts, Rows, row_blocks};
 use crate::fourier::sampled_jacobian::Assembly;
-use crate::fourier::workspace::{HEADER, Parts, Size, WorkspaceLayout};
+use crate::fourier::workspace::{Layout, Parts, Size};
 use crate::parameters::{PARAMETERS, Sensitivity};
 use crate::simd::dispatch;
 use crate::tag::Kind;
-
-/// Size of a workspace.
-pub(super) struct Layout(Size);
-
-impl WorkspaceLayout for Layout {
-    const KIND: Kind = Kind::UniformSampling;
-
-    fn of(size: Size) -> Layout {
-        Layout(size)
-    }
-
-    fn size(&self) -> Size {
-        self.0
-    }
-
-    fn length(&self) -> usize {
-        HEADER + Parts::count(|parts| Workspace::take(self.0, parts))
-    }
-
-    fn fill_tables(&self, parts: &mut Parts) -> Result<(), Error> {
-        let mut workspace = Workspace::take(self.0, parts)?;
-        workspace.fourier.fill();
-        workspace.terms.rows.fill();
-        Ok(())
-    }
-}
 
 /// An opened workspace.
 #[derive(Debug)]
@@ -61,11 +35,12 @@ pub(super) struct Workspace<'a> {
     derivatives: &'a mut [Sensitivity],
 }
 
-impl<'a> Workspace<'a> {
-    /// Opens an initialised workspace.
-    pub fn new(workspace: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
-        let (layout, mut parts) = Layout::open(workspace)?;
-        Workspace::take(layout.0, &mut parts)
+impl<'a> Layout<'a> for Workspace<'a> {
+    const KIND: Kind = Kind::UniformSampling;
+
+    fn fill(&mut self) {
+        self.fourier.fill();
+        self.terms.rows.fill();
     }
 
     #[inline(always)]
@@ -89,7 +64,9 @@ impl<'a> Workspace<'a> {
         let terms = ReversalTerms { rows, entries, sums, outer };
         Ok(Workspace { size, fourier, reversals, path, terms, assembly, derivatives })
     }
+}
 
+impl Workspace<'_> {
     /// 2H + 1.
     pub fn coefficients(&self) -> usize {
         self.size.coefficients()
@@ -120,7 +97,7 @@ pub(super) fn harmonic_force(
     if let Some(jacobian) = jacobian {
         terms.gather(path.branches.get(..branches).unwrap_or(&[]), path.stiffness);
         fourier.sum_from(farthest + 1, symmetry(1.0), path.stiffness, assembly.sums);
-        assembly.set_products(&terms.outer, 0);
+        assembly.set_products(&terms.outer.of(0));
         assembly.write(symmetry(1.0), jacobian, size.coefficients());
     }
 }

@@ -3,9 +3,8 @@
 use crate::constant_load::contact::Contact;
 use crate::error::Error;
 use crate::ffi::mslip_contact;
-use crate::ffi::pointers::{self, call, check_alignment, input, item, output, outputs, set, status};
-use crate::limits::check_displacement;
-use crate::numerics::fp_class::is_finite;
+use crate::ffi::pointers::{self, call, check_alignment, input, item, not_null, output, outputs, set, status};
+use crate::limits::{check_displacement, check_positions};
 use crate::parameters::PARAMETERS;
 use crate::parameters::{EllipticParameters, Parameters};
 use core::ffi::{CStr, c_char};
@@ -64,9 +63,7 @@ unsafe fn initialise<P>(
 ) -> i32 {
     call(|| {
         let parameters = item(parameters)?;
-        if contact.is_null() {
-            return Err(Error::NullPointer);
-        }
+        not_null(contact)?;
         check_alignment(contact)?;
         contact.write(construct(parameters)?.into());
         Ok(())
@@ -124,10 +121,6 @@ pub unsafe extern "C" fn mslip_tractions(
         }
         Ok(())
     })
-}
-
-pub(in crate::ffi) fn check_positions(x: &[f64]) -> Result<(), Error> {
-    if x.iter().all(|&x| is_finite(x)) { Ok(()) } else { Err(Error::BadPosition) }
 }
 
 /// Relative slip \[m\] (Eq. 15) and frictional damage parameter mu p |s| \[N/m\] (section 3.5) at x\[n\] \[m\], under a

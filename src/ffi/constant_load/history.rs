@@ -1,14 +1,14 @@
 //! Load histories: states, and Masing's rule with return-point memory.
 
-use super::contact::check_positions;
 use crate::constant_load::contact::Contact;
-use crate::constant_load::masing::{self, PathOutput};
+use crate::constant_load::masing;
 use crate::constant_load::state;
 use crate::ffi::batch::update_one;
 use crate::ffi::mslip_contact;
 use crate::ffi::pointers::{
     self, call, check_alignment, input, memory, new_state, output, outputs, set, state_input, status,
 };
+use crate::limits::{check_displacement, check_positions};
 use libc::size_t;
 
 /// Number of doubles in a state with a capacity of `reversals` nested reversals, at least 2. A state is never full: if the capacity
@@ -88,11 +88,11 @@ pub unsafe extern "C" fn mslip_masing_path(
 ) -> i32 {
     call(|| {
         let (contact, path) = (pointers::contact(contact)?, input(displacement, n)?);
-        let [force, stiffness, dissipated] = outputs([force, stiffness, dissipated], n)?;
+        let output = outputs([force, stiffness, dissipated], n)?;
         check_alignment(state_new)?;
         let start = state_input(state_length, state_old)?;
-        let output = PathOutput { force, stiffness, dissipated };
-        masing::check_path(start, path)?;
+        state::check_header(start)?;
+        path.iter().try_for_each(|&displacement| check_displacement(displacement))?;
         if state_new.is_null() {
             masing::path_in_copy(contact, start, path, output);
             return Ok(());

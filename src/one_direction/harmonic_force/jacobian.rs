@@ -147,96 +147,16 @@ impl Sensitivity<'_> {
     /// Gathers the derivatives along the runs.
     #[inline(never)]
     pub fn gather(&mut self, context: &Context, cuts: &Cuts, runs: &[Run]) {
+        runs.iter().for_each(|run| self.write_own(context, cuts, run));
         with_strips!(self.rows.blocks(), self.gather_strips(context, cuts, runs));
     }
 
-    #[inline(always)]
-    fn gather_strips<const N: usize>(&mut self, context: &Context, cuts: &Cuts, runs: &[Run]) {
-        dispatch!({
-            let Sensitivity { rows, pieces, stored, places, outer, own: [own_by_u, own_by_input] } = self;
-            let stored = stored.as_chunks_mut::<N>().0.as_chunks_mut().0;
-            for strip in 0..outer.strips::<N>() {
-                places.fill(-1.0);
-                let (rows, terms) = (rows.strips(strip), outer.terms(strip));
-                let mut gathering = Gathering { context, cuts, rows, pieces, depth: 0, stored, places, terms };
-                gathering.gather(runs, own_by_u, own_by_input);
-            }
-        });
-    }
-}
-
-/// Boundaries of the slip zones, packed: S, N and f.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Cuts<'c> {
-    pub shifts: &'c [f64],
-    pub loads: &'c [f64],
-    pub stiffnesses: &'c [f64],
-    /// D of the pieces that samples made by sticking.
-    pub slopes: &'c [f64],
-}
-
-/// The derivatives in strips of N blocks.
-struct Gathering<'c, const N: usize> {
-    context: &'c Context<'c>,
-    cuts: &'c Cuts<'c>,
-    rows: RowStrips<'c, N>,
-    /// Piece k ends at knot k: pieces are counted from the centre.
-    pieces: &'c mut [Piece],
-    depth: usize,
-    stored: &'c mut [[Strip<N>; 2]],
-    places: &'c mut [f64],
-    terms: Terms<'c, N, 2>,
-}
-
-impl<const N: usize> Gathering<'_, N> {
-    #[inline(always)]
-    fn gather(&mut self, runs: &[Run], by_u: &mut [f64], by_input: &mut [f64]) {
-        let samples = self.context.samples;
-        let mut now = 0;
-        for run in runs.iter().chain([&Run::EMPTY]) {
-            let range = run.samples();
-            let (count, last) = (range.len(), range.end.saturating_sub(1));
-            let kept = match run.kind {
-                Kind::SLIP => run.kept(),
-                Kind::STUCK => run.kept().saturating_sub(1),
-                _ => 0,
-            };
-            self.remove_beyond(kept, run.kind == Kind::SLIP, now);
-            let by_u = by_u.get_mut(range.clone()).unwrap_or(&mut []);
-            self.write_own(run, by_u, by_input.get_mut(range).unwrap_or(&mut []));
-            let line = Piece {
-                made: if run.sign > 0.0 { Made::FORWARDS } else { Made::BACKWARDS },
-                sample: last as u64,
-                weights: [at(samples.stiffness, last), 0.0],
-                since: (now + count) as u64,
-                parameter: 0.0,
-                cut: NO_CUT,
-                stored: 0,
-            };
-            match run.kind {
-                Kind::OPEN => {}
-                Kind::GROSS_SLIP => self.push(&line),
-                Kind::STUCK => self.stick(run, now),
-                _ => {
-                    let packed = run.cuts();
-                    if self.depth < run.kept() {
-                        self.push(&Piece { made: Made::NEVER, ..line });
-                    }
-                    if let Some(piece) = self.depth.checked_sub(1).and_then(|top| self.pieces.get_mut(top)) {
-                        piece.cut = Cut { step: now as u64, count: count as u64, packed: packed.start as u64 };
-                    }
-                    let cut = at(self.cuts.stiffnesses, packed.end.saturating_sub(1));
-                    self.push(&Piece { weights: [line.weights[0] - cut, 0.0], parameter: cut, ..line });
-                }
-            }
-            now += count;
-        }
-    }
-
     /// Writes the weights of φ ⊗ φ of the samples of a run.
-    #[inline(always)]
-    fn write_own(&self, run: &Run, by_u: &mut [f64], by_input: &mut [f64]) {
-        let Context { element, samples, .. } = *self.context;
+    fn write_own(&mut self, context: &Context, cuts: &Cuts, run: &Run) {
+        let Context { element, samples, .. } = *context;
+        let [by_u, by_input] = &mut self.own;
+        let by_u = by_u.get_mut(run.samples()).unwrap_or(&mut []);
+        let by_input = by_input.get_mut(run.samples()).unwrap_or(&mut []);
         let mu = run.sign * element.friction_coefficient;
         match run.kind {
             Kind::OPEN => {
@@ -252,7 +172,7 @@ impl<const N: usize> Gathering<'_, N> {
                 by_u.iter_mut().zip(run.of(samples.stiffness)).for_each(|(weight, stiffness)| *weight = *stiffness);
             }
             _ => {
-                let cuts = self.cuts.stiffnesses.get(run.cuts()).unwrap_or(&[]);
+                let cuts = cuts.stiffnesses.get(run.cuts()).unwrap_or(&[]);
                 let values = cuts.iter().zip(run.of(samples.stiffness)).zip(run.of(samples.shift_slope));
                 for ((by_u, by_input), ((cut, stiffness), slope)) in by_u.iter_mut().zip(by_input).zip(values) {
                     *by_u = *cut;
@@ -263,6 +183,38 @@ impl<const N: usize> Gathering<'_, N> {
     }
 
     #[inline(always)]
+    fn gather_strips<const N: usize>(&mut self, context: &Context, cuts: &Cuts, runs: &[Run]) {
+        dispatch!({
+            let Sensitivity { rows, pieces, stored, places, outer, .. } = self;
+            let stored = stored.as_chunks_mut::<N>().0.as_chunks_mut().0;
+            for strip in 0..outer.strips::<N>() {
+                places.fill(-1.0);
+                let (rows, terms) = (rows.strips(strip), outer.terms(strip));
+                let stack = Stack { pieces, depth: 0 };
+                let mut gathering = Gathering { context, cuts, rows, stack, stored, places, terms };
+                gathering.gather(runs);
+            }
+        });
+    }
+}
+
+/// Boundaries of the slip zones, packed: S, N and f.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Cuts<'c> {
+    pub shifts: &'c [f64],
+    pub loads: &'c [f64],
+    pub stiffnesses: &'c [f64],
+    /// D of the pieces that samples made by sticking.
+    pub slopes: &'c [f64],
+}
+
+/// Pieces of the diagram: piece k ends at knot k, counted from the centre.
+struct Stack<'c> {
+    pieces: &'c mut [Piece],
+    depth: usize,
+}
+
+impl Stack<'_> {
     fn push(&mut self, piece: &Piece) {
         if let Some(place) = self.pieces.get_mut(self.depth) {
             *place = *piece;
@@ -270,14 +222,14 @@ impl<const N: usize> Gathering<'_, N> {
         }
     }
 
-    /// Pushes a piece for each sample of a run that sticks.
-    #[inline(always)]
-    fn stick(&mut self, run: &Run, now: usize) {
-        let Context { samples, part, .. } = *self.context;
+    /// Pushes a piece for each sample of a run that sticks. Compiled once, not for each length of a row.
+    #[inline(never)]
+    fn stick(&mut self, context: &Context, run: &Run, now: usize) {
+        let Context { samples, part, .. } = *context;
         let range = run.samples();
         let closes = part.opens && samples.is_open(samples.before(range.start));
         let mut made = if closes { Made::SINCE_CLOSING } else { Made::BY_STICKING };
-        let mut inner = self.context.inner_end(range.start);
+        let mut inner = context.inner_end(range.start);
         for (since, sample) in (now..).zip(range) {
             let [shift, load, stiffness] =
                 [at(samples.shift, sample), at(samples.load, sample), at(samples.stiffness, sample)];
@@ -287,6 +239,62 @@ impl<const N: usize> Gathering<'_, N> {
             self.push(&Piece { made, sample, weights, since, parameter, cut: NO_CUT, stored: 0 });
             inner = InnerEnd { shift, load, stiffness };
             made = Made::BY_STICKING;
+        }
+    }
+}
+
+/// The derivatives in strips of N blocks.
+struct Gathering<'c, const N: usize> {
+    context: &'c Context<'c>,
+    cuts: &'c Cuts<'c>,
+    rows: RowStrips<'c, N>,
+    stack: Stack<'c>,
+    stored: &'c mut [[Strip<N>; 2]],
+    places: &'c mut [f64],
+    terms: Terms<'c, N, 2>,
+}
+
+impl<const N: usize> Gathering<'_, N> {
+    #[inline(always)]
+    fn gather(&mut self, runs: &[Run]) {
+        let samples = self.context.samples;
+        let mut now = 0;
+        for run in runs.iter().chain([&Run::EMPTY]) {
+            let range = run.samples();
+            let (count, last) = (range.len(), range.end.saturating_sub(1));
+            let kept = match run.kind {
+                Kind::SLIP => run.kept(),
+                Kind::STUCK => run.kept().saturating_sub(1),
+                _ => 0,
+            };
+            self.remove_beyond(kept, run.kind == Kind::SLIP, now);
+            let line = Piece {
+                made: if run.sign > 0.0 { Made::FORWARDS } else { Made::BACKWARDS },
+                sample: last as u64,
+                weights: [at(samples.stiffness, last), 0.0],
+                since: (now + count) as u64,
+                parameter: 0.0,
+                cut: NO_CUT,
+                stored: 0,
+            };
+            match run.kind {
+                Kind::OPEN => {}
+                Kind::GROSS_SLIP => self.stack.push(&line),
+                Kind::STUCK => self.stack.stick(self.context, run, now),
+                _ => {
+                    let packed = run.cuts();
+                    let stack = &mut self.stack;
+                    if stack.depth < run.kept() {
+                        stack.push(&Piece { made: Made::NEVER, ..line });
+                    }
+                    if let Some(piece) = stack.depth.checked_sub(1).and_then(|top| stack.pieces.get_mut(top)) {
+                        piece.cut = Cut { step: now as u64, count: count as u64, packed: packed.start as u64 };
+                    }
+                    let cut = at(self.cuts.stiffnesses, packed.end.saturating_sub(1));
+                    stack.push(&Piece { weights: [line.weights[0] - cut, 0.0], parameter: cut, ..line });
+                }
+            }
+            now += count;
         }
     }
 
@@ -343,11 +351,11 @@ impl<const N: usize> Gathering<'_, N> {
     /// Removes the pieces beyond those that stay. The last one of these, if it is cut again, stores its sums.
     #[inline(always)]
     fn remove_beyond(&mut self, kept: usize, is_cut: bool, now: usize) {
-        while let Some(index) = self.depth.checked_sub(1)
-            && let Some(mut piece) = self.pieces.get(index).copied()
+        while let Some(index) = self.stack.depth.checked_sub(1)
+            && let Some(mut piece) = self.stack.pieces.get(index).copied()
         {
-            let (removes, was_cut) = (self.depth > kept, piece.cut.count > 0);
-            if !(removes || is_cut && was_cut && self.depth == kept) {
+            let (removes, was_cut) = (self.stack.depth > kept, piece.cut.count > 0);
+            if !(removes || is_cut && was_cut && self.stack.depth == kept) {
                 return;
             }
             let has_sums = piece.stored > 0 || was_cut || now > piece.since as usize;
@@ -361,9 +369,9 @@ impl<const N: usize> Gathering<'_, N> {
                 }
             }
             if removes {
-                self.depth = index;
+                self.stack.depth = index;
             } else {
-                self.pieces.iter_mut().skip(index).take(1).for_each(|place| *place = piece);
+                self.stack.pieces.iter_mut().skip(index).take(1).for_each(|place| *place = piece);
                 return;
             }
         }

@@ -82,10 +82,6 @@ impl StickZones for EllipseZones {
         zone.size_parameter.unwrap_or_else(|| 1.0 / (1.0 + zone.compliance_increase))
     }
 
-    fn size_parameter(&self, zone: &StickZone) -> f64 {
-        self.size(zone)
-    }
-
     fn pressure(&self, point: &SurfacePoint) -> f64 {
         SLIP_SHIFT / PI * (point.from_edge * (1.0 + point.x)).max(0.0).sqrt()
     }

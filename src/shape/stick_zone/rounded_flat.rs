@@ -209,6 +209,13 @@ impl RoundedFlatZones {
         4.0 * ((1.0 + remaining) * (self.beta - remaining * beta) - work - (self.gamma - remaining * remaining * gamma))
     }
 
+    /// Size parameter σ, from 0 for the smallest zone to 1 for b.
+    fn size_parameter(&self, zone: &StickZone) -> f64 {
+        zone.size_parameter.unwrap_or_else(|| {
+            (1.0 + (-2.0 * zone.compliance_increase).exp_m1() / (self.w * self.w).max(TINY)).max(0.0).sqrt()
+        })
+    }
+
     fn punch(&self, zone: &StickZone) -> RoundedPunch {
         RoundedPunch::new(self.flat, self.w * self.size_parameter(zone))
     }
@@ -258,12 +265,6 @@ impl StickZones for RoundedFlatZones {
             }
             None => (-zone.compliance_increase).exp(),
         }
-    }
-
-    fn size_parameter(&self, zone: &StickZone) -> f64 {
-        zone.size_parameter.unwrap_or_else(|| {
-            (1.0 + (-2.0 * zone.compliance_increase).exp_m1() / (self.w * self.w).max(TINY)).max(0.0).sqrt()
-        })
     }
 
     fn pressure(&self, point: &SurfacePoint) -> f64 {

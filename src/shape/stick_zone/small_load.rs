@@ -133,17 +133,12 @@ impl SmallLoadSeries {
 
     /// λ = ∫ h'' dt and ∫ t h'' dt from 0 to τ.
     pub fn moments(&self, tau: f64) -> [f64; 2] {
-        [self.sum(&COMPLIANCE, tau) * tau, 0.25 * self.d_dissipation(tau)]
+        [self.sum(&COMPLIANCE, tau) * tau, 0.25 * self.sum(&D_DISSIPATION, tau) * tau * tau]
     }
 
     /// e at τ.
     pub fn dissipation(&self, tau: f64) -> f64 {
         self.sum(&DISSIPATION, tau) * tau * tau * tau
-    }
-
-    /// de/dτ at τ.
-    pub fn d_dissipation(&self, tau: f64) -> f64 {
-        self.sum(&D_DISSIPATION, tau) * tau * tau
     }
 
     /// e and de/dτ at τ.
