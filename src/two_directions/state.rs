@@ -384,20 +384,10 @@ fn tangent(
     slopes: &Pressed<f64>,
     motion: &Motion<Dual<1>, Dual<1>>,
     slip: &Slips,
-    springs: &Values,
-) -> Both<Dual<1>> {
-    dispatch!(tangent_kernel(tables, contact, slopes, motion, slip, springs))
-}
-
-#[inline(always)]
-fn tangent_kernel(
-    tables: &Rows,
-    contact: &Contact<f64>,
-    slopes: &Pressed<f64>,
-    motion: &Motion<Dual<1>, Dual<1>>,
-    slip: &Slips,
     mut springs: &Values,
 ) -> Both<Dual<1>> {
-    let contact = contact.derived(&tables, slopes);
-    step(&tables, &contact, motion, slip, &mut springs)
+    dispatch!({
+        let contact = contact.derived(&tables, slopes);
+        step(&tables, &contact, motion, slip, &mut springs)
+    })
 }
