@@ -60,3 +60,11 @@ def flat(row: dict[str, Any], **others: float) -> dict[str, Any]:
     else:
         parameters |= {"young_modulus": row["E"], "poisson_ratio": row["nu"]}
     return parameters | others
+
+
+def differences(function: Any, x: np.ndarray, step: Any) -> np.ndarray:
+    """Central differences: their error is of the second power of the step, and of the rounding error over the step."""
+    steps = np.broadcast_to(step, x.shape).ravel()
+    moves = [np.reshape(one, x.shape) for one in np.diag(steps)]
+    change = [(function(x + d) - function(x - d)) / (2 * h) for d, h in zip(moves, steps)]
+    return np.moveaxis(change, 0, -1).reshape(*np.shape(change[0]), *x.shape)

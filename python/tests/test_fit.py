@@ -122,7 +122,7 @@ def test_constants_are_given_by_number_or_word():
 
 
 def test_measured_loops_of_three_loads_to_a_contact(tmp_path):
-    """Measured loops, fit, parameter file, contact: without an edit, to the true contact, whose layer is stiffer under a larger load."""
+    """Measured loops, fit, parameter file: without an edit, to the true contact. Its layer is stiffer under a larger load."""
     random = np.random.default_rng(7)
     layer = {
         "tangential_compliance": 0.3 / contact.initial_stiffness,
@@ -140,7 +140,7 @@ def test_measured_loops_of_three_loads_to_a_contact(tmp_path):
     report = microslip.fit(measured, TRUTH | {"friction_coefficient": 0.3, "flat_half_width": 0.05e-3})
     file.write_text(report.contact_toml)
     assert report.series_stiffening.status == "determined"
-    # The largest difference of the forces from partial to gross slip, under another load too. Noise of 5e-4 in some hundred samples.
+    # From partial to gross slip, under another load too. Noise of 5e-4 in some hundred samples.
     for load in (300.0, 800.0):
         truth = microslip.Contact(**TRUTH | layer | {"normal_force": load})
         fitted = microslip.Contact(**microslip.read_parameters(file) | {"normal_force": load})

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from microslip import _core
 from numpy.testing import assert_allclose
-from tables import FLAT, REPOSITORY
+from tables import FLAT, REPOSITORY, differences
 
 ELLIPSE = {
     "semi_axis_x": 1e-3,
@@ -70,16 +70,8 @@ def test_errors():
         microslip.Contact(**{**FLAT, "edge_radius": -1})
     assert caught.value.status is microslip.Status.BAD_EDGE_RADIUS
     assert reloaded(caught.value).status == caught.value.status
-    with pytest.raises(microslip.Error, match="each poisson_ratio"):
-        microslip.Contact(**{**FLAT, "poisson_ratio": (0.3, 0.6)})
-    with pytest.raises(microslip.Error, match="displacement must be finite"):
-        contact.monotonic_force([0.0, np.nan])
     with pytest.raises(microslip.Error, match="not available"):
         elliptic.slip(1.0, [0.0])
-    with pytest.raises(microslip.Error, match="harmonics"):
-        microslip.Workspace(0, 8)
-    with pytest.raises(microslip.Error, match="samples"):
-        microslip.Workspace(4, 8)
     with pytest.raises(microslip.Error, match="BAD_INDEX"):
         contacts.complex_stiffness([1e-7], index=[2])
     with pytest.raises(microslip.Error, match="BAD_INDEX"):
@@ -136,22 +128,10 @@ def test_arrays_are_used_as_they_are_or_converted():
     assert contact.monotonic_force(np.zeros((0, 2))).force.shape == (0, 2)
 
 
-def difference(function, at, steps):
-    """Central differences by column."""
-    columns = []
-    for j in range(at.size):
-        step = np.zeros(at.size)
-        step[j] = steps.ravel()[j]
-        step = step.reshape(at.shape)
-        columns.append((function(at + step) - function(at - step)).ravel() / (2 * step.ravel()[j]))
-    return np.array(columns).T
-
-
 def test_jacobians_are_not_transposed():
     # Differences of second order; steps within a branch.
     found = contact.harmonic_force(workspace, HARMONICS).jacobian
-    steps = np.full(5, 1e-7 * SLIP)
-    expected = difference(lambda u: contact.harmonic_force(workspace, u, jacobian=False).force, HARMONICS, steps)
+    expected = differences(lambda u: contact.harmonic_force(workspace, u, jacobian=False).force, HARMONICS, 1e-7 * SLIP)
     scale = abs(expected).max()
     assert abs(expected - expected.T).max() > 0.1 * scale
     assert_allclose(found, expected, rtol=0, atol=1e-6 * scale)
@@ -167,8 +147,8 @@ def test_jacobians_of_elements_are_not_transposed(directions):
     u = ELEMENT_HARMONICS if directions == 1 else np.insert(ELEMENT_HARMONICS, 1, HARMONICS[::-1], axis=0)
     found = one.harmonic_force(space, u)
     assert found.force.shape == u.shape
-    steps = np.repeat([SLIP] * directions + [element.approach], 5) * 1e-7
-    expected = difference(lambda u: one.harmonic_force(space, u, jacobian=False).force, u, steps)
+    steps = 1e-7 * np.array([[SLIP]] * directions + [[element.approach]])
+    expected = differences(lambda u: one.harmonic_force(space, u, jacobian=False).force, u, steps).reshape(u.size, u.size)
     scale = abs(expected).max()
     # Nothing tangential changes the normal force; the normal displacement changes the tangential force.
     assert (found.jacobian[5 * directions :, : 5 * directions] == 0).all()
@@ -199,7 +179,7 @@ def test_tangents_are_not_transposed(directions):
     state = pressed(directions)
     to = np.array([*[1.4 * SLIP, 0.7 * SLIP][:directions], 0.9 * element.approach])
     found = one.update(state, to)
-    expected = difference(lambda u: one.update(state, u).force, to, 1e-6 * to)
+    expected = differences(lambda u: one.update(state, u).force, to, 1e-6 * to)
     assert abs(found.tangent[0, -1]) > 0
     assert found.tangent[-1, 0] == 0
     assert_allclose(found.tangent, expected, rtol=0, atol=1e-5 * abs(expected).max())

@@ -10,7 +10,7 @@ import pytest
 from jax_microslip import NAMES, contact, harmonic_force, history
 from jax_two_masses import CONTACT, amplitudes, responses
 from numpy.testing import assert_allclose
-from tables import REPOSITORY
+from tables import REPOSITORY, differences
 
 SLIP = microslip.Contact(**CONTACT).slip_displacement
 LAYER = 0.3 / microslip.Contact(**CONTACT).initial_stiffness
@@ -18,12 +18,6 @@ random = np.random.default_rng(5)
 # Of central differences with steps of 1e-6, over the largest change of the force with the whole argument: rounding errors of
 # forces, some 1e-15 of them, over the step. Errors of the second power of the step are smaller, corners within a step not met.
 DIFFERENCE = 1e-8
-
-
-def differences(function, x, step):
-    """Central differences: their error is of the second power of the step, and of the rounding error over the step."""
-    change = [(function(x + d) - function(x - d)) / (2 * step) for d in step * np.eye(x.size).reshape(x.size, *x.shape)]
-    return np.moveaxis(change, 0, -1).reshape(*np.shape(change[0]), *x.shape)
 
 
 @pytest.mark.parametrize("directions", [0, 1, 2])

@@ -155,7 +155,8 @@ def element_of(row, largest, by_force):
         try:
             return microslip.Element(**flat(row, normal_force=largest), **common)
         except microslip.Error as error:
-            assert error.status == microslip.Status.LENGTH_TOO_SHORT
+            if error.status != microslip.Status.LENGTH_TOO_SHORT:
+                raise
             largest /= 4
 
 
@@ -213,21 +214,3 @@ def test_varying_load(group, factor):
         assert (tangent == path.tangent[i]).all()
         assert dissipated == path.dissipated[i]
     assert (state.array == path.state.array).all()
-
-
-@pytest.mark.parametrize("group", groups("two_directions", "path", "a"))
-def test_two_directions(group):
-    first = group[0]
-    normal_force = column(group, "N").max()
-    element = microslip.Element(
-        **flat(first, normal_force=normal_force, friction_coefficient=first["mu"]),
-        directions=2,
-        normal_input=microslip.INPUT_NORMAL_FORCE,
-    )
-    start = element.update(microslip.ElementState(2), [first["u"], first["v"], 0]).state
-    path = element.update(start, np.column_stack([column(group, name) for name in ("u", "v", "N")]))
-    slip_force = first["mu"] * normal_force
-    error = np.hypot(path.force[:, 0] - column(group, "Tx"), path.force[:, 1] - column(group, "Ty")).max()
-    # The error of the law with its few points of slip.
-    assert error <= 0.012 * slip_force
-    assert path.dissipated.sum() == pytest.approx(column(group, "dissipated").sum(), rel=0.065)

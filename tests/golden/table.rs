@@ -37,8 +37,8 @@ macro_rules! tables {
 
 pub fn table(name: &str) -> Vec<Row> {
     let text: &'static str = tables!(name,
-        "complex_stiffness" "contacts" "elliptic" "energy" "harmonic_force" "histories" "layer_normal_law" "layer_varying_load"
-        "monotonic" "monotonic_inverse" "normal_law" "slip" "strip_3d" "tractions" "two_directions" "varying_load");
+        "complex_stiffness" "contacts" "elliptic" "energy" "harmonic_force" "histories" "monotonic" "monotonic_inverse"
+        "normal_law" "slip" "tractions" "varying_load");
     let mut lines = text.lines();
     let names: Vec<&str> = lines.next().unwrap().split(',').map(str::trim).collect();
     let row = |line: &'static str| {

@@ -29,8 +29,8 @@ static const function functions[] = {
 };
 enum { FUNCTIONS = sizeof functions / sizeof *functions };
 
-/* Besides the functions: the versions, and amplitudes near slip. */
-static const size_t number_of_calls = FUNCTIONS + 2;
+/* Besides the functions: the versions. */
+static const size_t number_of_calls = FUNCTIONS + 1;
 
 static int takes(const function *f, int kind)
 {
@@ -271,19 +271,6 @@ static void make_function(struct sequence *s, const function *f, int rule)
     }
 }
 
-/* Amplitudes enough for a table inside the call. */
-static void make_near_slip(struct sequence *s)
-{
-    double *x = array(s, ITEMS), *k[4];
-    for (size_t i = 0; i < ITEMS; ++i) {
-        x[i] = s->contact->slip_displacement * (1.0 + 1e-3 * (double)(i + 1));
-    }
-    for (int i = 0; i < 4; ++i) {
-        k[i] = array(s, ITEMS);
-    }
-    accept(mslip_complex_stiffness(s->contact, ITEMS, x, k[0], k[1], k[2], k[3]));
-}
-
 void make_call(struct sequence *s, size_t call)
 {
     if (call < FUNCTIONS) {
@@ -292,8 +279,6 @@ void make_call(struct sequence *s, size_t call)
         for (int rule = 0; rule < (has_rule && !strstr(f->name, "element") ? RULES : 1); ++rule) {
             make_function(s, f, rule);
         }
-    } else if (call == FUNCTIONS + 1) {
-        make_near_slip(s);
     } else {
         accept(mslip_abi_version() == MSLIP_ABI_VERSION ? MSLIP_OK : MSLIP_NOT_AVAILABLE);
         s->hash = hashed(s->hash, mslip_version(), strlen(mslip_version()));

@@ -199,19 +199,6 @@ impl Family {
         }
     }
 
-    /// The size of a tangential compliance K_t; without one (of a flat, that of w = 0) the smallest.
-    pub fn with_compliance(&self, compliance: &Real) -> Size {
-        match &self.kind {
-            Kind::Flat { a, length, compliance_scale, constants: [_, constant], .. } => {
-                let half_width = 2.0 * length * (constant - compliance / compliance_scale).exp();
-                self.size(&(half_width.square() - a.square()).max(&self.real(0.0)).sqrt())
-            }
-            Kind::Ellipse { semi_axis, compliances: [_, tangential], .. } => {
-                self.size(&(semi_axis * tangential / compliance))
-            }
-        }
-    }
-
     /// The size of a positive load, approach or shift: Newton's iteration.
     pub fn find(&self, given: Given, value: &Real) -> Size {
         let (a, length, load_scale, compliance_scale, constants, reference) = match &self.kind {
