@@ -104,7 +104,7 @@ impl ElementLaw for OneDirection {
 /// A step in place.
 /// Errors: `StateTooShort`, `BadState`, `BadDisplacement`, `BadNormalForce` or `LengthTooShort`.
 pub fn advance(element: &Element, state: &mut [f64], displacement: [f64; 2], with_energy: bool) -> Result<Step, Error> {
-    state::check_header(state)?;
+    OneDirection::check_header(state)?;
     OneDirection::check_step(element, &displacement)?;
     Ok(OneDirection::advance(element, state, displacement, Requested { tangent: true, energy: with_energy }))
 }

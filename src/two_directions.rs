@@ -111,7 +111,7 @@ impl ElementLaw for TwoDirections {
 /// A step in place.
 /// Errors: `StateTooShort`, `BadState`, `BadDisplacement`, `BadNormalForce` or `LengthTooShort`.
 pub fn advance(element: &Element, state: &mut [f64], displacement: [f64; 3]) -> Result<Step, Error> {
-    state::check_header(state)?;
+    TwoDirections::check_header(state)?;
     TwoDirections::check_step(element, &displacement)?;
     Ok(TwoDirections::advance(element, state, displacement, Requested { tangent: true, energy: true }))
 }

@@ -7,10 +7,11 @@
 
 use crate::element::{Element, Normal};
 use crate::error::Error;
+use crate::law::ElementLaw;
 use crate::numerics::fp_class::is_finite;
-use crate::one_direction::Step;
 use crate::one_direction::diagram::Polygon;
 use crate::one_direction::step::{Header, step};
+use crate::one_direction::{OneDirection, Step};
 use crate::tag::Kind;
 
 const HEADER: usize = 8;
@@ -36,16 +37,6 @@ pub fn state_init(state: &mut [f64]) -> Result<(), Error> {
         *tag = Kind::ElementState.tag(1);
     }
     Ok(())
-}
-
-/// Checks the length, the tag and the number of knots of a state.
-/// Errors: `StateTooShort` for fewer than [`state_length`]`(0)` doubles; `BadState` for a tag that no state of that length has.
-#[inline(always)]
-pub(crate) fn check_header(state: &[f64]) -> Result<(), Error> {
-    if state.len() < state_length(0) {
-        return Err(Error::StateTooShort);
-    }
-    check_tag(state.first().copied().unwrap_or(0.0), state.len())
 }
 
 /// Rejects a tag that no state of that length has.
@@ -145,7 +136,7 @@ pub(crate) fn copy(element: &Element, from: &[f64], to: &mut [f64]) {
 /// process.
 /// Errors: `StateTooShort`; `BadState` for an array that was not initialised, or whose values no history leads to.
 pub fn state_check(state: &[f64]) -> Result<(), Error> {
-    check_header(state)?;
+    OneDirection::check_header(state)?;
     let (header, knots) = parts(state);
     let Header { displacement, normal, error, .. } = Header::read(header);
     let Normal { load, shift, load_slope, shift_slope } = normal;

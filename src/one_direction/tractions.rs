@@ -2,9 +2,11 @@
 
 use crate::element::Element;
 use crate::error::Error;
+use crate::law::ElementLaw;
 use crate::limits::check_positions;
+use crate::one_direction::OneDirection;
 use crate::one_direction::diagram::Knot;
-use crate::one_direction::state::{check_header, view};
+use crate::one_direction::state::view;
 
 /// Pressure and shear traction \[Pa\] at the points x \[m\] along the width (elliptical: on the x axis), `q(x) = ∫ D dp(x)` over the
 /// sizes of the contact; 0 outside it.
@@ -16,7 +18,7 @@ pub fn tractions(
     pressure: Option<&mut [f64]>,
     shear: Option<&mut [f64]>,
 ) -> Result<(), Error> {
-    check_header(state)?;
+    OneDirection::check_header(state)?;
     check_positions(x)?;
     let shape = element.shape();
     let state = view(state);

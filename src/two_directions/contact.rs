@@ -107,7 +107,32 @@ impl Contact<f64> {
 
     /// The contact under a load, and C⁻¹ as `[spring][point]`.
     pub fn press(rows: &Rows, now: &Pressed<f64>, under_flat: usize, inverse: &mut Both<Matrix>) -> Contact<f64> {
-        dispatch!(press_kernel(rows, now, under_flat, inverse))
+        dispatch!({
+            let contact = Contact::new(&rows, now, at_edge(rows, under_flat, now.inside[1]), under_flat);
+            let last = contact.last.min(N - 1);
+            for k in 0..2 {
+                inverse[k] = [[0.0; N]; N];
+                for i in (0..=last).rev() {
+                    // v_i = [p_i r_i + Σ_{j>i} (G_i,j-1 - G_ij) v_j]/G_ii: all positive.
+                    let mut row = [0.0; N];
+                    row[i] = contact.pressure[i];
+                    let mut before = contact.map(&rows, k, i, i);
+                    for j in i + 1..=last {
+                        let g = contact.map(&rows, k, j, i);
+                        let fall = before - g;
+                        for m in 0..N {
+                            row[m] += fall * inverse[k][j][m];
+                        }
+                        before = g;
+                    }
+                    let per_map = contact.per_map(&rows, k, i);
+                    for m in 0..N {
+                        inverse[k][i][m] = row[m] * per_map;
+                    }
+                }
+            }
+            contact
+        })
     }
 
     /// G of a shell.
@@ -125,40 +150,7 @@ impl Contact<f64> {
 
 /// The derivatives that are multiplied with columns are those by the load at the end and the alignment.
 pub(crate) fn derive(contact: &Contact<f64>, tables: &DualRows, slopes: &Pressed<f64>) -> Contact<Dual<1>> {
-    dispatch!(derive_kernel(contact, tables, slopes))
-}
-
-#[inline(always)]
-fn derive_kernel(contact: &Contact<f64>, tables: &DualRows, slopes: &Pressed<f64>) -> Contact<Dual<1>> {
-    contact.derived(&tables, slopes)
-}
-
-#[inline(always)]
-fn press_kernel(rows: &Rows, now: &Pressed<f64>, under_flat: usize, inverse: &mut Both<Matrix>) -> Contact<f64> {
-    let contact = Contact::new(&rows, now, at_edge(rows, under_flat, now.inside[1]), under_flat);
-    let last = contact.last.min(N - 1);
-    for k in 0..2 {
-        inverse[k] = [[0.0; N]; N];
-        for i in (0..=last).rev() {
-            // v_i = [p_i r_i + Σ_{j>i} (G_i,j-1 - G_ij) v_j]/G_ii: all positive.
-            let mut row = [0.0; N];
-            row[i] = contact.pressure[i];
-            let mut before = contact.map(&rows, k, i, i);
-            for j in i + 1..=last {
-                let g = contact.map(&rows, k, j, i);
-                let fall = before - g;
-                for m in 0..N {
-                    row[m] += fall * inverse[k][j][m];
-                }
-                before = g;
-            }
-            let per_map = contact.per_map(&rows, k, i);
-            for m in 0..N {
-                inverse[k][i][m] = row[m] * per_map;
-            }
-        }
-    }
-    contact
+    dispatch!({ contact.derived(&tables, slopes) })
 }
 
 impl<A: Real> Contact<A> {

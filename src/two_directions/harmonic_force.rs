@@ -172,14 +172,9 @@ pub fn harmonic_force(
     output: HarmonicOutput,
 ) -> Result<(), Error> {
     let n = workspace.coefficients();
-    let HarmonicOutput { force, jacobian, dissipated, drift } = output;
-    let fits = |output: &Option<&mut [f64]>, length: usize| output.as_ref().is_none_or(|o| o.len() == length);
-    if displacement.len() != 3 * n || !fits(&force, 3 * n) || !fits(&jacobian, 9 * n * n) {
-        return Err(Error::BadArraySize);
-    }
-    check_coefficients(displacement)?;
+    output.check(3 * n, displacement)?;
     workspace.synthesise(element, displacement)?;
-    walk(element, workspace, HarmonicOutput { force, jacobian, dissipated, drift });
+    walk(element, workspace, output);
     Ok(())
 }
 
@@ -368,19 +363,10 @@ fn columns<const L: usize, const M: usize>(
     slip: &Slips,
     springs: &mut Columns<L>,
 ) -> Both<[[f64; 4]; L]> {
-    dispatch!(columns_kernel(tables, contact, motion, slip, springs))
-}
-
-#[inline(always)]
-fn columns_kernel<const L: usize, const M: usize>(
-    tables: &DualRows,
-    contact: &Contact<Dual<1>>,
-    motion: &Motion<Dual<1>, Dual<M>>,
-    slip: &Slips,
-    springs: &mut Columns<L>,
-) -> Both<[[f64; 4]; L]> {
-    let force = step(&tables, contact, motion, slip, springs);
-    [springs.of(&force[0]), springs.of(&force[1])]
+    dispatch!({
+        let force = step(&tables, contact, motion, slip, springs);
+        [springs.of(&force[0]), springs.of(&force[1])]
+    })
 }
 
 /// Tables with their derivatives by the logarithm of the reference size, from those of a slightly larger and a smaller one.
@@ -528,22 +514,19 @@ fn row(matrix: &[f64], n: usize, r: usize) -> &[f64] {
 
 /// Adds the derivatives of both forces times each value of the basis.
 fn accumulate(sums: &mut [f64], basis: &[f64], forces: &[f64]) {
-    dispatch!(accumulate_kernel(sums, basis, forces));
-}
-
-#[inline(always)]
-fn accumulate_kernel(sums: &mut [f64], basis: &[f64], forces: &[f64]) {
-    let half = forces.len() / 2;
-    let of_both = sums.chunks_exact_mut((half * basis.len()).max(1)).zip(forces.chunks_exact(half.max(1)));
-    for (sums, forces) in of_both {
-        for (sums, value) in sums.chunks_exact_mut(half.max(1)).zip(basis) {
-            for (sums, forces) in sums.as_chunks_mut::<4>().0.iter_mut().zip(forces.as_chunks::<4>().0) {
-                for k in 0..4 {
-                    sums[k] += value * forces[k];
+    dispatch!({
+        let half = forces.len() / 2;
+        let of_both = sums.chunks_exact_mut((half * basis.len()).max(1)).zip(forces.chunks_exact(half.max(1)));
+        for (sums, forces) in of_both {
+            for (sums, value) in sums.chunks_exact_mut(half.max(1)).zip(basis) {
+                for (sums, forces) in sums.as_chunks_mut::<4>().0.iter_mut().zip(forces.as_chunks::<4>().0) {
+                    for k in 0..4 {
+                        sums[k] += value * forces[k];
+                    }
                 }
             }
         }
-    }
+    });
 }
 
 /// Derivatives of the springs and of the tangential forces at the end of a step between samples.

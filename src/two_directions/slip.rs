@@ -106,11 +106,90 @@ impl Slips {
         contact: &Contact<f64>,
         inverse: &Both<Matrix>,
         motion: &Motion<f64, f64>,
-        from: (&Trial, &Values),
+        (trial, old): (&Trial, &Values),
         derivatives: bool,
     ) {
         let slips = self;
-        dispatch!(find_kernel(slips, t, contact, inverse, motion, from, derivatives));
+        dispatch!({
+            let (end, start) = ((contact.last + 1).min(N), &trial.start);
+            (slips.middle.set, slips.end.set, slips.slides, slips.v) = (0, 0, 0.0, trial.v);
+            if trial.sticks {
+                return;
+            }
+            slips.slides = slid(&t, contact, &trial.v);
+            let theta = 0.5 * (1.0 + slips.slides);
+            (slips.middle.level, slips.end.level) = ([1.0; N], [1.0; N]);
+            if !motion.constant_load {
+                let before = limits_before(&t, contact, contact.now.shift[0] - motion.before[0]);
+                for i in 0..N {
+                    slips.middle.level[i] = if i < end { before[i] + theta * (1.0 - before[i]) } else { 1.0 };
+                }
+            }
+            let mut problem = Problem { v: trial.v, r: *start, t, contact, inverse, end };
+            for k in 0..2 {
+                for i in 0..N {
+                    problem.r[k][i] += theta * (trial.r[k][i] - start[k][i]);
+                    problem.v[k][i] = old[k][i] + theta * (trial.v[k][i] - old[k][i]);
+                }
+            }
+            let mut guesses = slips.guesses(&problem.r, start, &motion.by, end);
+            for stage in 0..2 {
+                let middle = stage == 0;
+                let [slip, other] =
+                    if middle { [&mut slips.middle, &mut slips.end] } else { [&mut slips.end, &mut slips.middle] };
+                if !middle {
+                    for i in 0..end {
+                        let (x, y) = (problem.r[0][i], problem.r[1][i]);
+                        let square = x * x + y * y;
+                        let length = (if square > TINY { square } else { TINY }).sqrt();
+                        (guesses[0].e[0][i], guesses[0].e[1][i]) = (x / length, y / length);
+                        guesses[0].set |= Set::from(square > ROUNDING) << i;
+                    }
+                    guesses[1] = guesses[0];
+                    guesses[0].set |= other.set;
+                }
+                if guesses[1].set != 0 {
+                    let mut sweeps = Sweeps {
+                        guess: Guess { e: problem.r, set: 0 },
+                        sigma: [[0.0; N]; 2],
+                        r: problem.r,
+                        count: SWEEPS,
+                    };
+                    let mut attempt = 0;
+                    while attempt < MOST_ATTEMPTS {
+                        let guess = if attempt < 2 { guesses[attempt] } else { sweeps.next(&problem, &slip.level) };
+                        if slip.solve(other, &problem, &guess, derivatives) {
+                            break;
+                        }
+                        attempt += 1;
+                    }
+                }
+                slips.v = if slip.set == 0 { problem.v } else { slip.springs(&problem) };
+                if !middle || (theta >= 1.0 && slip.set.count_ones() as usize == end) {
+                    // The middle of a contact that slides far is its end.
+                    break;
+                }
+                // The rest of the step slips as the middle did.
+                guesses[0].set = 0;
+                let at = problem.v;
+                (problem.v, problem.r) = (trial.v, trial.r);
+                if slip.set != 0 {
+                    let (first, per) = (slip.set.trailing_zeros() as usize, 1.0 / theta);
+                    for k in 0..2 {
+                        let mut relaxed = [0.0; N];
+                        for j in 0..N {
+                            relaxed[j] = (at[k][j] - slips.v[k][j]) * per;
+                            problem.v[k][j] -= relaxed[j];
+                        }
+                        let relaxed = tractions(t, contact, k, &relaxed, first);
+                        for i in 0..N {
+                            let slipped = start[k][i] + (slip.level[i] * slip.e[k][i] - start[k][i]) * per;
+                            problem.r[k][i] = if slip.contains(i) { slipped } else { problem.r[k][i] - relaxed[i] };
+                        }
+                    }
+                }
+            }
+        });
     }
 
     /// Guesses for the middle: a contact that slips on hardly turns; otherwise slip begins from the trial state.
@@ -149,92 +228,6 @@ impl Slips {
         }
         self.start = *start;
         [Guess { e, set }, Guess { e: from_trial, set: outside }]
-    }
-}
-
-#[inline(always)]
-fn find_kernel(
-    slips: &mut Slips,
-    t: &Rows,
-    contact: &Contact<f64>,
-    inverse: &Both<Matrix>,
-    motion: &Motion<f64, f64>,
-    (trial, old): (&Trial, &Values),
-    derivatives: bool,
-) {
-    let (end, start) = ((contact.last + 1).min(N), &trial.start);
-    (slips.middle.set, slips.end.set, slips.slides, slips.v) = (0, 0, 0.0, trial.v);
-    if trial.sticks {
-        return;
-    }
-    slips.slides = slid(&t, contact, &trial.v);
-    let theta = 0.5 * (1.0 + slips.slides);
-    (slips.middle.level, slips.end.level) = ([1.0; N], [1.0; N]);
-    if !motion.constant_load {
-        let before = limits_before(&t, contact, contact.now.shift[0] - motion.before[0]);
-        for i in 0..N {
-            slips.middle.level[i] = if i < end { before[i] + theta * (1.0 - before[i]) } else { 1.0 };
-        }
-    }
-    let mut problem = Problem { v: trial.v, r: *start, t, contact, inverse, end };
-    for k in 0..2 {
-        for i in 0..N {
-            problem.r[k][i] += theta * (trial.r[k][i] - start[k][i]);
-            problem.v[k][i] = old[k][i] + theta * (trial.v[k][i] - old[k][i]);
-        }
-    }
-    let mut guesses = slips.guesses(&problem.r, start, &motion.by, end);
-    for stage in 0..2 {
-        let middle = stage == 0;
-        let [slip, other] =
-            if middle { [&mut slips.middle, &mut slips.end] } else { [&mut slips.end, &mut slips.middle] };
-        if !middle {
-            for i in 0..end {
-                let (x, y) = (problem.r[0][i], problem.r[1][i]);
-                let square = x * x + y * y;
-                let length = (if square > TINY { square } else { TINY }).sqrt();
-                (guesses[0].e[0][i], guesses[0].e[1][i]) = (x / length, y / length);
-                guesses[0].set |= Set::from(square > ROUNDING) << i;
-            }
-            guesses[1] = guesses[0];
-            guesses[0].set |= other.set;
-        }
-        if guesses[1].set != 0 {
-            let mut sweeps =
-                Sweeps { guess: Guess { e: problem.r, set: 0 }, sigma: [[0.0; N]; 2], r: problem.r, count: SWEEPS };
-            let mut attempt = 0;
-            while attempt < MOST_ATTEMPTS {
-                let guess = if attempt < 2 { guesses[attempt] } else { sweeps.next(&problem, &slip.level) };
-                if slip.solve(other, &problem, &guess, derivatives) {
-                    break;
-                }
-                attempt += 1;
-            }
-        }
-        slips.v = if slip.set == 0 { problem.v } else { slip.springs(&problem) };
-        if !middle || (theta >= 1.0 && slip.set.count_ones() as usize == end) {
-            // The middle of a contact that slides far is its end.
-            break;
-        }
-        // The rest of the step slips as the middle did.
-        guesses[0].set = 0;
-        let at = problem.v;
-        (problem.v, problem.r) = (trial.v, trial.r);
-        if slip.set != 0 {
-            let (first, per) = (slip.set.trailing_zeros() as usize, 1.0 / theta);
-            for k in 0..2 {
-                let mut relaxed = [0.0; N];
-                for j in 0..N {
-                    relaxed[j] = (at[k][j] - slips.v[k][j]) * per;
-                    problem.v[k][j] -= relaxed[j];
-                }
-                let relaxed = tractions(t, contact, k, &relaxed, first);
-                for i in 0..N {
-                    let slipped = start[k][i] + (slip.level[i] * slip.e[k][i] - start[k][i]) * per;
-                    problem.r[k][i] = if slip.contains(i) { slipped } else { problem.r[k][i] - relaxed[i] };
-                }
-            }
-        }
     }
 }
 

@@ -18,9 +18,10 @@ use super::step::{advance, separated, step};
 use super::stick;
 use super::tables::{Both, END, FINE, INSIDE, MOST_PARTS, Matrix, N, ROWS, Row, Rows, Units, fill, starts, under_flat};
 use super::trial::{FINE_SPRING, Motion, SPRINGS, Values, trial};
-use super::{Requested, Step};
+use super::{Requested, Step, TwoDirections};
 use crate::element::{Element, Normal};
 use crate::error::Error;
+use crate::law::ElementLaw;
 use crate::numerics::fp_class::is_finite;
 use crate::shape::TINY;
 use crate::simd::dispatch;
@@ -53,16 +54,6 @@ pub fn state_init(state: &mut [f64]) -> Result<(), Error> {
     Ok(())
 }
 
-/// Checks the length and the tag of a state.
-/// Errors: `StateTooShort` for fewer than [`state_length`] doubles; `BadState` for an array that is no state.
-#[inline(always)]
-pub(super) fn check_header(state: &[f64]) -> Result<(), Error> {
-    if state.len() < LENGTH {
-        return Err(Error::StateTooShort);
-    }
-    check_tag(state.first().copied().unwrap_or(0.0))
-}
-
 /// Rejects the tag of what is no state.
 #[inline(always)]
 pub(super) fn check_tag(tag: f64) -> Result<(), Error> {
@@ -72,7 +63,7 @@ pub(super) fn check_tag(tag: f64) -> Result<(), Error> {
 /// Validates a state in full: finite values, springs within their limits. For states from outside the process.
 /// Errors: `StateTooShort`; `BadState` for an array that was not initialised, or whose values no history leads to.
 pub fn state_check(state: &[f64]) -> Result<(), Error> {
-    check_header(state)?;
+    TwoDirections::check_header(state)?;
     let mut copy = [0.0; LENGTH];
     copy_used(state, &mut copy);
     let Some(memory) = Memory::of(&mut copy) else { return Err(Error::StateTooShort) };
@@ -384,20 +375,10 @@ fn tangent(
     slopes: &Pressed<f64>,
     motion: &Motion<Dual<1>, Dual<1>>,
     slip: &Slips,
-    springs: &Values,
-) -> Both<Dual<1>> {
-    dispatch!(tangent_kernel(tables, contact, slopes, motion, slip, springs))
-}
-
-#[inline(always)]
-fn tangent_kernel(
-    tables: &Rows,
-    contact: &Contact<f64>,
-    slopes: &Pressed<f64>,
-    motion: &Motion<Dual<1>, Dual<1>>,
-    slip: &Slips,
     mut springs: &Values,
 ) -> Both<Dual<1>> {
-    let contact = contact.derived(&tables, slopes);
-    step(&tables, &contact, motion, slip, &mut springs)
+    dispatch!({
+        let contact = contact.derived(&tables, slopes);
+        step(&tables, &contact, motion, slip, &mut springs)
+    })
 }

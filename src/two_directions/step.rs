@@ -384,28 +384,18 @@ fn product<X: Real>(matrix: &Matrix, [first, end]: [usize; 2], x: &Row<X>) -> Ro
 /// A step of values whose slip is known, in the units of the springs: force, and dissipated energy if requested.
 pub(crate) fn advance(
     t: &Rows,
-    contacts: [&Contact<f64>; 2],
-    motion: &Motion<f64, f64>,
-    slip: &Slips,
-    energy: bool,
-    springs: &mut Values,
-) -> (Both<f64>, f64) {
-    dispatch!(kernel(t, contacts, motion, slip, energy, springs))
-}
-
-#[inline(always)]
-fn kernel(
-    t: &Rows,
     [from, c]: [&Contact<f64>; 2],
     motion: &Motion<f64, f64>,
     slip: &Slips,
     energy: bool,
     springs: &mut Values,
 ) -> (Both<f64>, f64) {
-    let old = *springs;
-    let force = finish(&t, c, motion, slip, slip.slides, slip.v, &mut &mut *springs);
-    let dissipated = if energy { dissipated(t, [from, c], motion, slip, [&old, springs]) } else { 0.0 };
-    (force, dissipated)
+    dispatch!({
+        let old = *springs;
+        let force = finish(&t, c, motion, slip, slip.slides, slip.v, &mut &mut *springs);
+        let dissipated = if energy { dissipated(t, [from, c], motion, slip, [&old, springs]) } else { 0.0 };
+        (force, dissipated)
+    })
 }
 
 /// Energy that the springs dissipate in a step, each from where its path leaves its limit.

@@ -10,53 +10,52 @@ use crate::simd::dispatch;
 /// Moves the springs, unless a point or a fine spring would slip; the displacement of the fine spring at the edge, which may, before it returns
 /// to its limit.
 pub(crate) fn stick(t: &Rows, c: &Contact<f64>, by: &Both<f64>, springs: &mut Values) -> Option<Both<f64>> {
-    dispatch!(kernel(t, c, by, springs))
-}
-
-#[inline(always)]
-fn kernel(t: &Rows, c: &Contact<f64>, by: &Both<f64>, springs: &mut Values) -> Option<Both<f64>> {
-    let mut largest = [0.0; N];
-    let mut r = both!(|k| tractions(t, c, k, &springs[k], 0));
-    for k in 0..2 {
+    dispatch!({
+        let mut largest = [0.0; N];
+        let mut r = both!(|k| tractions(t, c, k, &springs[k], 0));
+        for k in 0..2 {
+            for i in 0..N {
+                r[k][i] += c.edge[k][i] * c.per_pressure[i] * by[k];
+            }
+        }
         for i in 0..N {
-            r[k][i] += c.edge[k][i] * c.per_pressure[i] * by[k];
+            largest[i] = r[0][i] * r[0][i] + r[1][i] * r[1][i] - ROUNDING;
         }
-    }
-    for i in 0..N {
-        largest[i] = r[0][i] * r[0][i] + r[1][i] * r[1][i] - ROUNDING;
-    }
-    // Rows of fine springs, up to that of the part at the edge, whose last ones are not in use.
-    let rows = FINE / N;
-    let mut fine = *springs;
-    for row in 0..rows {
-        for j in 0..N {
-            let inside = row * N + j <= c.part;
-            let (limit_x, limit_y) = (c.now.shift[0] - t[SHIFT + row][j], c.now.shift[1] - t[SHIFT + rows + row][j]);
-            let (x, y) = (springs[FINE_SPRING / N + row][j] + by[0], springs[FINE_SPRING / N + rows + row][j] + by[1]);
-            let (x, y) = (if inside { x } else { 0.0 }, if inside { y } else { 0.0 });
-            let (across, along, bound) = (x * limit_y, y * limit_x, limit_x * limit_y);
-            let excess = across * across + along * along - bound * bound;
-            largest[j] = if inside && excess > largest[j] { excess } else { largest[j] };
-            (fine[FINE_SPRING / N + row][j], fine[FINE_SPRING / N + rows + row][j]) = (x, y);
+        // Rows of fine springs, up to that of the part at the edge, whose last ones are not in use.
+        let rows = FINE / N;
+        let mut fine = *springs;
+        for row in 0..rows {
+            for j in 0..N {
+                let inside = row * N + j <= c.part;
+                let (limit_x, limit_y) =
+                    (c.now.shift[0] - t[SHIFT + row][j], c.now.shift[1] - t[SHIFT + rows + row][j]);
+                let (x, y) =
+                    (springs[FINE_SPRING / N + row][j] + by[0], springs[FINE_SPRING / N + rows + row][j] + by[1]);
+                let (x, y) = (if inside { x } else { 0.0 }, if inside { y } else { 0.0 });
+                let (across, along, bound) = (x * limit_y, y * limit_x, limit_x * limit_y);
+                let excess = across * across + along * along - bound * bound;
+                largest[j] = if inside && excess > largest[j] { excess } else { largest[j] };
+                (fine[FINE_SPRING / N + row][j], fine[FINE_SPRING / N + rows + row][j]) = (x, y);
+            }
         }
-    }
-    let mut most = largest[0];
-    for i in 1..N {
-        most = if largest[i] > most { largest[i] } else { most };
-    }
-    if most > 0.0 {
-        return None;
-    }
-    let edge = both!(|k| springs[(FINE_SPRING + k * FINE + INSIDE) / N][INSIDE % N] + by[k]);
-    let ends = returned(edge, &both!(|k| c.limit_inside(k)), None);
-    for k in 0..2 {
-        for j in 0..=c.last.min(N - 1) {
-            fine[k][j] += by[k];
+        let mut most = largest[0];
+        for i in 1..N {
+            most = if largest[i] > most { largest[i] } else { most };
         }
-        fine[(FINE_SPRING + k * FINE + INSIDE) / N][INSIDE % N] = ends[k];
-    }
-    *springs = fine;
-    Some(edge)
+        if most > 0.0 {
+            return None;
+        }
+        let edge = both!(|k| springs[(FINE_SPRING + k * FINE + INSIDE) / N][INSIDE % N] + by[k]);
+        let ends = returned(edge, &both!(|k| c.limit_inside(k)), None);
+        for k in 0..2 {
+            for j in 0..=c.last.min(N - 1) {
+                fine[k][j] += by[k];
+            }
+            fine[(FINE_SPRING + k * FINE + INSIDE) / N][INSIDE % N] = ends[k];
+        }
+        *springs = fine;
+        Some(edge)
+    })
 }
 
 /// Derivatives of the force of such a step: by the normal component, of which `slopes` are those of the contact, and by both displacements of

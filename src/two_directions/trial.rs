@@ -83,31 +83,28 @@ pub(crate) struct Trial {
 
 /// The trial state of a step of values.
 pub(crate) fn trial(t: &Rows, c: &Contact<f64>, motion: &Motion<f64, f64>, old: &Values) -> Trial {
-    dispatch!(trial_kernel(t, c, motion, old))
-}
-
-#[inline(always)]
-fn trial_kernel(t: &Rows, c: &Contact<f64>, motion: &Motion<f64, f64>, old: &Values) -> Trial {
-    let (last, start_of) = (c.last.min(N - 1), starts(c.under_flat));
-    let (mut all, mut start, mut r) = ([[0.0; N]; 2], [[0.0; N]; 2], [[0.0; N]; 2]);
-    for k in 0..2 {
-        let rise = c.now.shift[k] - motion.before[k];
-        for j in 0..=last {
-            all[k][j] = old[k][j] + moved(c.limit(&t, k, start_of[j]), rise, motion.by[k]);
+    dispatch!({
+        let (last, start_of) = (c.last.min(N - 1), starts(c.under_flat));
+        let (mut all, mut start, mut r) = ([[0.0; N]; 2], [[0.0; N]; 2], [[0.0; N]; 2]);
+        for k in 0..2 {
+            let rise = c.now.shift[k] - motion.before[k];
+            for j in 0..=last {
+                all[k][j] = old[k][j] + moved(c.limit(&t, k, start_of[j]), rise, motion.by[k]);
+            }
+            start[k] = tractions(t, c, k, &old[k], 0);
+            r[k] = if motion.constant_load { start[k] } else { tractions(t, c, k, &all[k], 0) };
+            let moved = if motion.constant_load { motion.by[k] } else { 0.0 };
+            for i in 0..N {
+                r[k][i] += c.edge[k][i] * c.per_pressure[i] * moved;
+            }
         }
-        start[k] = tractions(t, c, k, &old[k], 0);
-        r[k] = if motion.constant_load { start[k] } else { tractions(t, c, k, &all[k], 0) };
-        let moved = if motion.constant_load { motion.by[k] } else { 0.0 };
+        let mut largest = 0.0;
         for i in 0..N {
-            r[k][i] += c.edge[k][i] * c.per_pressure[i] * moved;
+            let square = r[0][i] * r[0][i] + r[1][i] * r[1][i];
+            largest = if square > largest { square } else { largest };
         }
-    }
-    let mut largest = 0.0;
-    for i in 0..N {
-        let square = r[0][i] * r[0][i] + r[1][i] * r[1][i];
-        largest = if square > largest { square } else { largest };
-    }
-    Trial { v: all, start, r, sticks: largest <= ROUNDING }
+        Trial { v: all, start, r, sticks: largest <= ROUNDING }
+    })
 }
 
 /// r of displacements of the springs up to the last one, of which those before a first one are 0.
