@@ -275,10 +275,19 @@ impl<'a> Walk<'a> {
         self.derived = None;
     }
 
-    /// Derivatives of the springs and the forces after a step between samples.
-    fn differentiate(&mut self, workspace: &mut Workspace, taken: &Taken, samples: [Option<usize>; 3], by_top: f64) {
+    /// Derivatives of the springs and the forces after a step between samples; those of forces are summed if the step counts.
+    fn differentiate(
+        &mut self,
+        workspace: &mut Workspace,
+        taken: &Taken,
+        samples: [Option<usize>; 3],
+        by_top: f64,
+        [fades, counts]: [bool; 2],
+    ) {
         if taken.closed != [true, true] {
             workspace.derivatives.fill(0.0);
+        } else if fades {
+            fade(workspace.derivatives);
         }
         if !taken.closed[1] {
             workspace.forces.fill(0.0);
@@ -286,6 +295,10 @@ impl<'a> Walk<'a> {
             differentiate::<{ NARROW / 4 }, { NARROW / 4 + 1 }>(workspace, self, taken, samples, by_top);
         } else {
             differentiate::<{ WIDE / 4 }, { WIDE / 4 + 1 }>(workspace, self, taken, samples, by_top);
+        }
+        if counts && let [_, Some(index), _] = samples {
+            let basis = row(workspace.basis, workspace.size.coefficients(), index);
+            accumulate(workspace.sums, basis, workspace.forces);
         }
     }
 
@@ -425,26 +438,18 @@ fn walk(element: &Element, workspace: &mut Workspace, output: HarmonicOutput) {
         for step in 0..=(periods + 1) * count {
             let index = (largest + step).checked_rem(count).unwrap_or(0);
             let counts = step > periods * count;
-            let asked = Requested { energy: requested.energy && counts, ..requested };
-            let taken = walk.advance(workspace.place(index), asked);
+            let taken =
+                walk.advance(workspace.place(index), Requested { energy: requested.energy && counts, ..requested });
             if requested.tangent {
-                if taken.closed == [true, true] && step % FADING == 0 {
-                    fade(workspace.derivatives);
-                }
-                walk.differentiate(workspace, &taken, [before, Some(index), Some(largest)], by_top);
-                if counts {
-                    let basis = row(workspace.basis, workspace.size.coefficients(), index);
-                    accumulate(workspace.sums, basis, workspace.forces);
-                }
+                let fades = step % FADING == 0;
+                walk.differentiate(workspace, &taken, [before, Some(index), Some(largest)], by_top, [fades, counts]);
             }
             before = Some(index);
-            energy += taken.dissipated * f64::from(u8::from(counts));
+            energy += taken.dissipated;
             if let Some(sample) = workspace.samples.get_mut(index) {
                 let [x, y] = taken.force.map(|force| unit * force);
-                if counts {
-                    let (dx, dy) = (x - sample[5], y - sample[6]);
-                    largest_change = largest_change.max(dx * dx + dy * dy);
-                }
+                let change = (x - sample[5]).powi(2) + (y - sample[6]).powi(2);
+                largest_change = if counts { largest_change.max(change) } else { 0.0 };
                 [sample[3], sample[4], sample[5], sample[6]] = [walk.normal.load, walk.normal.load_slope, x, y];
             }
         }

@@ -131,12 +131,16 @@ fn finish<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
             }
         }
     }
-    // Coulomb's bound.
-    let bound = c.now.load;
+    bounded(force, c.now.load)
+}
+
+/// A force within Coulomb's bound.
+#[inline(always)]
+fn bounded<A: Real, X: Over<A>>(force: Both<X>, bound: A) -> Both<X> {
     let square = force[0] * force[0] + force[1] * force[1];
     if square.value() > bound.value() * bound.value() {
         let scale = square.at_least(TINY).sqrt().inverse().times(bound);
-        force = both!(|k| force[k] * scale);
+        return both!(|k| force[k] * scale);
     }
     force
 }

@@ -169,142 +169,165 @@ pub(crate) fn at_edge(rows: &Rows, under_flat: usize, shift: f64) -> [usize; 2] 
 }
 
 /// Fills the tables of the springs of an element that are aligned with the size of the units times a number near 1.
-#[expect(clippy::too_many_lines, reason = "the tables in their order")]
 #[inline(never)]
 pub(crate) fn fill(rows: &mut Rows, element: &Element, units: &Units, reference: f64) {
-    let (plane, inner) = (element.plane(), under_flat(element, units).min(UNDER_FLAT));
-    let (start, flat, graded) = (starts(inner), plane.flat / units.size, (N - inner) as f64);
+    let inner = under_flat(element, units).min(UNDER_FLAT);
+    let flat = element.plane().flat / units.size;
+    let mut shells = Shells { inner, reference, flat, width: [0.0; N], position: [0.0; N], per_step: [[0.0; N]; 2] };
     *rows = [[0.0; N]; ROWS];
-    let node = |j: usize, part: f64| {
-        let exponent = (j as f64 - inner as f64 + part) / graded;
-        reference * (1.0 - (exponent * GRADING.ln()).exp()) / (1.0 - GRADING)
-    };
-    let half_width = |w: f64| (flat * flat + w * w).sqrt();
-    // N and S at the parts.
-    let (nodes, rest) = rows.as_flattened_mut().split_at_mut(FINE);
-    let (shift_x, rest) = rest.split_at_mut(FINE);
-    let (shift_y, _) = rest.split_at_mut(FINE);
-    nodes.fill(NEVER);
-    shift_x.fill(NEVER);
-    shift_y.fill(NEVER);
-    for j in inner..N {
-        let count = start[j + 1] - start[j];
-        for r in 0..count {
-            let part = if j + 1 == N { BEYOND[r.min(3)] } else { r as f64 / count as f64 };
-            let (f, w) = (start[j] + r, node(j, part) * units.size);
-            let values = match f {
-                0 => [0.0; 3],
-                // The same for slightly larger and smaller sizes.
-                _ if w >= plane.largest * reference => continue,
-                _ => plane.load_and_shifts(w),
-            };
-            if let (Some(load), Some(x), Some(y)) = (nodes.get_mut(f), shift_x.get_mut(f), shift_y.get_mut(f)) {
-                (*load, *x, *y) = (values[0] / units.load, values[1] / units.shift, values[2] / units.shift);
+    shells.fill_nodes(rows, element, units);
+    shells.fill_points(rows, element, units);
+    shells.fill_stiffness(rows);
+    shells.fill_maps(rows);
+}
+
+/// Sets value i of a row, or beyond it of the next ones.
+fn put(rows: &mut Rows, row: usize, i: usize, value: f64) {
+    rows.as_flattened_mut().get_mut(row * N + i).into_iter().for_each(|place| *place = value);
+}
+
+/// The shells of tables while these are filled, in units of the reference size: how many are under the flat, its half-width; of those under
+/// it widths and points, and 1/ΔS in both directions.
+struct Shells {
+    inner: usize,
+    reference: f64,
+    flat: f64,
+    width: Row<f64>,
+    position: Row<f64>,
+    per_step: Both<Row<f64>>,
+}
+
+impl Shells {
+    /// The size at a part of a shell under pressure.
+    fn node(&self, j: usize, part: f64) -> f64 {
+        let exponent = (j as f64 - self.inner as f64 + part) / (N - self.inner) as f64;
+        self.reference * (1.0 - (exponent * GRADING.ln()).exp()) / (1.0 - GRADING)
+    }
+
+    /// Where a shell under the flat begins.
+    fn ring(&self, j: usize) -> f64 {
+        if j == UNDER_FLAT { self.flat } else { self.flat * (0.5 * PI * j as f64 / UNDER_FLAT as f64).sin() }
+    }
+
+    /// N and S at the parts.
+    fn fill_nodes(&self, rows: &mut Rows, element: &Element, units: &Units) {
+        let (plane, start) = (element.plane(), starts(self.inner));
+        rows[LOAD..SHIFT + 2 * FINE / N].fill([NEVER; N]);
+        for j in self.inner..N {
+            let count = start[j + 1] - start[j];
+            for r in 0..count {
+                let part = if j + 1 == N { BEYOND[r.min(3)] } else { r as f64 / count as f64 };
+                let (f, w) = (start[j] + r, self.node(j, part) * units.size);
+                let [load, x, y] = match f {
+                    0 => [0.0; 3],
+                    // The same for slightly larger and smaller sizes.
+                    _ if w >= plane.largest * self.reference => continue,
+                    _ => plane.load_and_shifts(w),
+                };
+                put(rows, LOAD, f, load / units.load);
+                put(rows, SHIFT, f, x / units.shift);
+                put(rows, SHIFT + FINE / N, f, y / units.shift);
             }
         }
     }
-    // Sizes and points; 1/ΔS in both directions.
-    let (mut position, mut width, mut per_step) = ([0.0; N], [0.0; N], [[0.0; N]; 2]);
-    let ring = |j: usize| if j == UNDER_FLAT { flat } else { flat * (0.5 * PI * j as f64 / UNDER_FLAT as f64).sin() };
-    for j in 0..inner {
-        let (from, to) = (ring(j), ring(j + 1));
-        (position[j], width[j]) = (from + POINT * (to - from), to - from);
-        rows[SIZE][j] = -(flat - from) * (flat + from);
-        rows[POINTS][j] = -(flat - position[j]) * (flat + position[j]);
-        for k in 0..2 {
-            let compliance = plane.compliance_under_flat(k, units.size * 0.5 * (from + to));
-            per_step[k][j] = units.shift / (units.load * compliance);
-        }
-    }
-    for j in inner..N {
-        let (lower, upper) = (node(j, 0.0), if j + 1 < N { node(j + 1, 0.0) } else { reference });
-        let distance = (upper - lower) * (upper + lower) / (half_width(upper) + half_width(lower));
-        rows[SIZE][j] = lower * lower;
-        rows[POINTS][j] = lower * lower + POINT * distance * (2.0 * half_width(lower) + POINT * distance);
-        rows[WEIGHT][j] = plane.shape.pressure_weight(units.size * 0.5 * (lower + upper));
-    }
-    let table = &*rows;
-    let at = |row: usize, f: usize| Tables::<f64>::at(&table, row, f);
-    let rise = |k: usize, from: usize, to: usize| {
-        let [lower, upper] = [from, to].map(|f| at(SHIFT + k * FINE / N, f));
-        [at(LOAD, to) - at(LOAD, from), (upper - lower).max(TINY)]
-    };
-    // Secants lie above N, by h² N''/12 on average.
-    let mut bias = [0.0; FINE];
-    for f in start[inner] + 1..start[N] - 1 {
-        let [[load_before, before], [load, step]] = [rise(0, f - 1, f), rise(0, f, f + 1)];
-        bias[f.min(FINE - 1)] = if step < NEVER / 2.0 {
-            (before * before + step * step) / (before + step) / 12.0 * (load / step - load_before / before)
-        } else {
-            0.0
-        };
-    }
-    let (mut secants, mut stiffness, mut fine_stiffness) = ([[0.0; N]; 2], [[0.0; N]; 2], [[0.0; FINE]; 2]);
-    let mut fine_secants = [[0.0; FINE]; 2];
-    for k in 0..2 {
-        let (mut before, mut fine_before) = (0.0, 0.0);
-        for j in 0..N - 1 {
-            if j >= inner {
-                let [load, step] = rise(k, start[j], start[j + 1]);
-                per_step[k][j] = 1.0 / step;
-                secants[k][j] = load / step;
-            } else {
-                secants[k][j] = per_step[k][j];
-            }
-            let own = secants[k][j];
-            // If all sizes have the same stiffness, the differences are rounding errors.
-            stiffness[k][j] = (own - before).max(LEAST_STIFFNESS * own);
-            // The springs under the flat are at the first node of the fine ones.
-            let law = own - if j > inner { before } else { 0.0 };
-            for (r, f) in (start[j]..start[j + 1]).enumerate() {
-                let [load, step] = rise(k, f, f + 1);
-                let load = load - (bias[(f + 1).min(FINE - 1)] - bias[f.min(FINE - 1)]);
-                fine_stiffness[k][f.min(FINE - 1)] = load / step - fine_before - if r == 0 { law } else { 0.0 };
-                fine_before = load / step;
-                fine_secants[k][f.min(FINE - 1)] = fine_before;
-            }
-            before = own;
-        }
-    }
-    // F, cut so that G does not increase in either direction.
-    let quarter_load = 0.25 * RoundedPunch::new(flat, 1.0).load();
-    let acosh = |s: f64, x: f64| {
-        let ratio = (s / x).max(1.0);
-        (ratio + ((ratio - 1.0) * (ratio + 1.0)).sqrt()).ln()
-    };
-    let (mut map, mut pressure) = ([[[0.0; N]; N]; 2], [[0.0; N]; N]);
-    for j in 0..N - 1 {
-        for i in 0..=j {
-            let mut traction = if j < inner {
-                quarter_load * (acosh(ring(j + 1), position[i]) - acosh(ring(j), position[i])) / width[j].max(TINY)
-            } else {
-                rows[WEIGHT][j] * root_difference(rows[SIZE][j + 1], rows[SIZE][j], rows[POINTS][i])
-            };
+
+    /// Sizes, points and weights.
+    fn fill_points(&mut self, rows: &mut Rows, element: &Element, units: &Units) {
+        let (plane, flat) = (element.plane(), self.flat);
+        for j in 0..self.inner.min(UNDER_FLAT) {
+            let (from, to) = (self.ring(j), self.ring(j + 1));
+            (self.position[j], self.width[j]) = (from + POINT * (to - from), to - from);
+            rows[SIZE][j] = -(flat - from) * (flat + from);
+            rows[POINTS][j] = -(flat - self.position[j]) * (flat + self.position[j]);
             for k in 0..2 {
-                let bound = if i < j { map[k][j - 1][i] / per_step[k][j] } else { traction };
-                traction = traction.min(bound);
+                let compliance = plane.compliance_under_flat(k, units.size * 0.5 * (from + to));
+                self.per_step[k][j] = units.shift / (units.load * compliance);
             }
-            (map[0][j][i], map[1][j][i]) = (traction * per_step[0][j], traction * per_step[1][j]);
-            pressure[j + 1][i] = pressure[j][i] + if j < inner { 0.0 } else { traction };
+        }
+        let half_width = |w: f64| (flat * flat + w * w).sqrt();
+        for j in self.inner..N {
+            let (lower, upper) = (self.node(j, 0.0), if j + 1 < N { self.node(j + 1, 0.0) } else { self.reference });
+            let distance = (upper - lower) * (upper + lower) / (half_width(upper) + half_width(lower));
+            rows[SIZE][j] = lower * lower;
+            rows[POINTS][j] = lower * lower + POINT * distance * (2.0 * half_width(lower) + POINT * distance);
+            rows[WEIGHT][j] = plane.shape.pressure_weight(units.size * 0.5 * (lower + upper));
         }
     }
-    for k in 0..2 {
-        (rows[SECANT + k], rows[STIFFNESS + k]) = (secants[k], stiffness[k]);
-        for j in 0..N {
-            rows[MAP + k * N + j] = map[k][j];
-            if j + 1 < N {
-                (rows[FLEXIBILITY + k][j], rows[PER_MAP + k][j]) = (1.0 / stiffness[k][j], 1.0 / map[k][j][j]);
+
+    /// Secants and stiffnesses.
+    fn fill_stiffness(&mut self, rows: &mut Rows) {
+        let (start, inner, nodes) = (starts(self.inner), self.inner, *rows);
+        let at = |row: usize, f: usize| Tables::<f64>::at(&&nodes, row, f);
+        let rise = |k: usize, from: usize, to: usize| {
+            let [lower, upper] = [from, to].map(|f| at(SHIFT + k * FINE / N, f));
+            [at(LOAD, to) - at(LOAD, from), (upper - lower).max(TINY)]
+        };
+        // Secants lie above N, by h² N''/12 on average.
+        let bias = |f: usize| {
+            if f <= start[inner.min(N)] || f + 1 >= start[N] {
+                return 0.0;
             }
-        }
-        for (first, values) in [(FINE_STIFFNESS, &fine_stiffness[k]), (FINE_SECANT, &fine_secants[k])] {
-            for (row, values) in rows[first + k * FINE / N..].iter_mut().zip(values.as_chunks::<N>().0) {
-                *row = *values;
+            let [[load_before, before], [load, step]] = [rise(0, f - 1, f), rise(0, f, f + 1)];
+            let curved =
+                (before * before + step * step) / (before + step) / 12.0 * (load / step - load_before / before);
+            if step < NEVER / 2.0 { curved } else { 0.0 }
+        };
+        (0..FINE).for_each(|f| put(rows, BIAS, f, bias(f)));
+        for k in 0..2 {
+            let (mut before, mut fine_before) = (0.0, 0.0);
+            for j in 0..N - 1 {
+                let mut own = self.per_step[k][j];
+                if j >= inner {
+                    let [load, step] = rise(k, start[j], start[j + 1]);
+                    (self.per_step[k][j], own) = (1.0 / step, load / step);
+                }
+                // If all sizes have the same stiffness, the differences are rounding errors.
+                let stiffness = (own - before).max(LEAST_STIFFNESS * own);
+                (rows[SECANT + k][j], rows[STIFFNESS + k][j]) = (own, stiffness);
+                rows[FLEXIBILITY + k][j] = 1.0 / stiffness;
+                // The springs under the flat are at the first node of the fine ones.
+                let law = own - if j > inner { before } else { 0.0 };
+                for (r, f) in (start[j]..start[j + 1]).enumerate() {
+                    let [load, step] = rise(k, f, f + 1);
+                    let secant = (load - (bias(f + 1) - bias(f))) / step;
+                    let fine = secant - fine_before - if r == 0 { law } else { 0.0 };
+                    put(rows, FINE_STIFFNESS + k * FINE / N, f, fine);
+                    put(rows, FINE_SECANT + k * FINE / N, f, secant);
+                    fine_before = secant;
+                }
+                before = own;
             }
         }
     }
-    rows[PRESSURE..PRESSURE + N].copy_from_slice(&pressure);
-    for (row, values) in rows[BIAS..].iter_mut().zip(bias.as_chunks::<N>().0) {
-        *row = *values;
+
+    /// F, cut so that G does not increase in either direction.
+    fn fill_maps(&self, rows: &mut Rows) {
+        let quarter_load = 0.25 * RoundedPunch::new(self.flat, 1.0).load();
+        let acosh = |s: f64, x: f64| {
+            let ratio = (s / x).max(1.0);
+            (ratio + ((ratio - 1.0) * (ratio + 1.0)).sqrt()).ln()
+        };
+        for j in 0..N - 1 {
+            for i in 0..=j {
+                let mut traction = if j < self.inner {
+                    let [from, to] = [j, j + 1].map(|j| acosh(self.ring(j), self.position[i]));
+                    quarter_load * (to - from) / self.width[j].max(TINY)
+                } else {
+                    rows[WEIGHT][j] * root_difference(rows[SIZE][j + 1], rows[SIZE][j], rows[POINTS][i])
+                };
+                for k in 0..2 {
+                    let bound = if i < j { rows[MAP + k * N + j - 1][i] / self.per_step[k][j] } else { traction };
+                    traction = traction.min(bound);
+                }
+                for k in 0..2 {
+                    rows[MAP + k * N + j][i] = traction * self.per_step[k][j];
+                }
+                rows[PRESSURE + j + 1][i] = rows[PRESSURE + j][i] + if j < self.inner { 0.0 } else { traction };
+            }
+            for k in 0..2 {
+                rows[PER_MAP + k][j] = 1.0 / rows[MAP + k * N + j][j];
+            }
+        }
     }
 }
 
