@@ -155,9 +155,7 @@ def test_parameter_files_of_the_command_line(tmp_path):
     damper = {"flat_half_width": 0, "edge_radius": 10e-3, "length": 3e-3, "normal_force": 800, "friction_coefficient": 0.4}
     titanium = {"young_modulus": 114e9, "poisson_ratio": 0.32, "displacement_reference": "rigid_strip"}
     assert microslip.Contact(**microslip.read_parameters(file)) == microslip.Contact(**damper | titanium)
-    text = (
-        "units = 'mm'\nspring = 1\nedge_radius = 3\ntangential_compliance = 2e-6\n[[material]]\nyoung_modulus = 2e5\n"
-    )
+    text = "units = 'mm'\nspring = 1\nedge_radius = 3\ntangential_compliance = 2e-6\n[[material]]\nyoung_modulus = 2e5\n"
     (tmp_path / "mm.toml").write_text(text)
     # Products by powers of ten.
     expected = {"edge_radius": 3e-3, "tangential_compliance": 2e-9, "young_modulus": 2e11, "spring": 1}
