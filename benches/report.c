@@ -133,7 +133,7 @@ static void newton_row(FILE *file, const char *contact, const char *task, const 
     const entry kind = { .task = task, .motion = motion, .harmonics = harmonics, .samples = samples, .jacobian = 1 };
     summary s = *summary_of("microslip", &kind);
     if (s.own.n) {
-        fprintf(file, "| %s, H = %d, %d samples | %s | %.0e | %s | %.0e | %.2g |\n", contact, harmonics, samples, cell(&s.own),
+        fprintf(file, "| %s, H = %d, %d samples | %s | %.0e | %s | %.0e | %.3g |\n", contact, harmonics, samples, cell(&s.own),
                 s.sampling, cell(&s.one), s.sampling_of_one,
                 median_of(s.own.value, s.own.n) / median_of(s.one.value, s.one.n));
     }
