@@ -15,7 +15,7 @@ use super::contact::{Contact, Pressed, derive};
 use super::path::Path;
 use super::scalar::{Dual, Real};
 use super::slip::Slips;
-use super::step::{advance, separated, step};
+use super::step::{advance, bounded, separated, step};
 use super::tables::{ALIGNMENT, Both, DualRows, END, N, PARAMETERS, ROWS, Rows, START, Units, fill, under_flat};
 use super::trial::{Motion, SPRINGS, Springs, Values, trial};
 use crate::element::{Element, Normal};
@@ -262,6 +262,7 @@ impl<'a> Walk<'a> {
         let contacts = [&from, &self.contact];
         let (force, dissipated) =
             advance(self.tables, contacts, &motion, &self.slip, requested.energy, &mut self.springs);
+        let force = bounded(force, self.contact.now.load);
         Taken { force, dissipated: dissipated * path.scale, old, motion, path, before, closed }
     }
 

@@ -14,7 +14,7 @@ use super::contact::{Contact, Pressed};
 use super::path::{LONGEST, Path};
 use super::scalar::{Dual, Real};
 use super::slip::Slips;
-use super::step::{advance, separated, step};
+use super::step::{advance, bounded, separated, step};
 use super::stick;
 use super::tables::{Both, END, FINE, INSIDE, MOST_PARTS, Matrix, N, ROWS, Row, Rows, Units, fill, starts, under_flat};
 use super::trial::{FINE_SPRING, Motion, SPRINGS, Values, trial};
@@ -354,7 +354,8 @@ pub(super) fn advance_state(element: &Element, state: &mut [f64], to: [f64; 3], 
     }
     let contacts = [&from, &contact];
     let (force, energy) = advance(memory.tables, contacts, &motion, &slip, requested.energy, memory.springs);
-    result.force = [force_unit * force[0], force_unit * force[1], normal.load];
+    let [x, y] = bounded(force, contact.now.load).map(|force| force_unit * force);
+    result.force = [x, y, normal.load];
     result.dissipated = energy_unit * energy;
     let header = Header { displacement: to, normal_force: normal.load, force, ..header };
     memory.write(&header, &contact);

@@ -54,7 +54,7 @@ pub(crate) fn step<A: Over<A>, X: Over<A>, T: Tables<A>, S: Springs<X>>(
             in_part(&mut v, s, per, 2.0, [first, end]);
         }
     }
-    finish(t, c, motion, slip, slides, v, s)
+    bounded(finish(t, c, motion, slip, slides, v, s), c.now.load)
 }
 
 /// Springs after a part of their motion, which is a constant if none is given.
@@ -131,12 +131,12 @@ fn finish<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
             }
         }
     }
-    bounded(force, c.now.load)
+    force
 }
 
 /// A force within Coulomb's bound.
 #[inline(always)]
-fn bounded<A: Real, X: Over<A>>(force: Both<X>, bound: A) -> Both<X> {
+pub(crate) fn bounded<A: Real, X: Over<A>>(force: Both<X>, bound: A) -> Both<X> {
     let square = force[0] * force[0] + force[1] * force[1];
     if square.value() > bound.value() * bound.value() {
         let scale = square.at_least(TINY).sqrt().inverse().times(bound);
@@ -385,7 +385,7 @@ fn product<X: Real>(matrix: &Matrix, [first, end]: [usize; 2], x: &Row<X>) -> Ro
     y
 }
 
-/// A step of values whose slip is known, in the units of the springs: force, and dissipated energy if requested.
+/// A step of values whose slip is known, in the units of the springs: force, not yet bounded, and dissipated energy if requested.
 pub(crate) fn advance(
     t: &Rows,
     [from, c]: [&Contact<f64>; 2],
