@@ -3,9 +3,10 @@
 mod common;
 
 use common::Random;
+use common::two_directions::Contact;
 use microslip::element::{Directions, Element, NormalInput};
 use microslip::parameters::{CENTRE_POINT, EllipticParameters, Layer, Material, Parameters};
-use microslip::two_directions::{Step, advance, state_init, state_length};
+use microslip::two_directions::Step;
 use std::f64::consts::TAU;
 
 /// A value between two positive ones, uniform in its logarithm.
@@ -55,23 +56,7 @@ fn element(random: &mut Random) -> Element {
     build(flat, ratio, layer)
 }
 
-#[derive(Clone)]
-struct Contact<'a> {
-    element: &'a Element,
-    state: Vec<f64>,
-}
-
 impl Contact<'_> {
-    fn new(element: &Element) -> Contact<'_> {
-        let mut state = vec![0.0; state_length()];
-        state_init(&mut state).unwrap();
-        Contact { element, state }
-    }
-
-    fn to(&mut self, displacement: [f64; 3]) -> Step {
-        advance(self.element, &mut self.state, displacement).unwrap()
-    }
-
     /// Dissipated energy of a path that is straight in the displacement and in S, in a number of steps.
     fn along(&mut self, from: [f64; 3], to: [f64; 3], steps: usize) -> f64 {
         let shifts = [from, to].map(|[_, _, load]| self.element.shift_under(load));
@@ -166,7 +151,7 @@ fn the_force_does_not_jump() {
             let (sin, cos) = (TAU * random.next()).sin_cos();
             let force = |part: f64| {
                 let place = [at[0] + 1e-3 * part * unit * cos, at[1] + 1e-3 * part * unit * sin, at[2]];
-                contact.clone().to(place).force
+                contact.trial(place).force
             };
             let apart = |one: [f64; 3], two: [f64; 3]| {
                 (one[0] - two[0]).hypot(one[1] - two[1]) / (element.friction_coefficient * at[2])

@@ -4,13 +4,14 @@
 mod common;
 
 use common::Random;
+use common::two_directions::Contact;
 use microslip::element::{Directions, Element, NormalInput};
 use microslip::one_direction;
 use microslip::parameters::{CENTRE_POINT, EllipticParameters, Layer, Material, Parameters};
 use microslip::two_directions::harmonic_force::{
     HarmonicOutput, Workspace, harmonic_force, workspace_init, workspace_length,
 };
-use microslip::two_directions::{Step, advance, state_check, state_init, state_length};
+use microslip::two_directions::{Step, state_check};
 use std::array::from_fn;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -104,27 +105,6 @@ const HALF_WIDTHS: [f64; 3] = [0.0, 1e-4, 3.7e-4];
 /// The shift of the contact under its normal force: motions are given in units of mu times it.
 fn unit(element: &Element) -> f64 {
     element.friction_coefficient * element.shift_under(element.normal_force)
-}
-
-struct Contact<'a> {
-    element: &'a Element,
-    state: Vec<f64>,
-}
-
-impl Contact<'_> {
-    fn new(element: &Element) -> Contact<'_> {
-        let mut state = vec![0.0; state_length()];
-        state_init(&mut state).unwrap();
-        Contact { element, state }
-    }
-
-    fn to(&mut self, displacement: [f64; 3]) -> Step {
-        advance(self.element, &mut self.state, displacement).unwrap()
-    }
-
-    fn trial(&self, displacement: [f64; 3]) -> Step {
-        advance(self.element, &mut self.state.clone(), displacement).unwrap()
-    }
 }
 
 #[test]

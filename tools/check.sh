@@ -21,7 +21,7 @@ rust() {
     step 'accuracy and adversarial histories, 1e5 points' "$CARGO" run --quiet --locked --package verify -- --points 1e5
     step 'verdicts of 40 fits of each kind' env MICROSLIP_FITS=40 \
         "$CARGO" test --locked --package microslip-fit --test wrong_models -- plateau microslip
-    step 'two directions: Jacobians of 4,000 random motions' \
+    step 'two directions: Jacobians of 10,000 random motions' \
         "$CARGO" test --locked --test two_directions -- --ignored
     step 'histories: random, and 20,000 cycles' env MICROSLIP_CYCLES=20000 "$CARGO" test --locked --test histories
     step 'references of the interfaces' tools/docs.sh

@@ -5,8 +5,8 @@
 //!
 //! With K the inverse of A among the points that slip and e the direction of r, `σ = K (r* - l e)`, and the residual is `e × σ`: Newton's
 //! method for the angles of e. Slip without gaps, of all points from one on to the edge, has the springs `v = C⁻¹ l e` there, and
-//! `K = C⁻¹' w C⁻¹`, free of cancellation. σ is the minimum of the strictly convex `σ'Aσ/2 - σ·r* + Σ l |σ|`: there is one, it depends continuously on
-//! r* and l, and sweeps of the points, each to its own minimum, find the points that slip if Newton's method does not.
+//! `K = C⁻¹' w C⁻¹`, free of cancellation. σ is the minimum of the strictly convex `σ'Aσ/2 - σ·r* + Σ l |σ|`: there is one, it depends
+//! continuously on r* and l, and sweeps of the points, each to its own minimum, find the points that slip if Newton's method does not.
 
 use super::contact::Contact;
 use super::scalar::both;
@@ -25,7 +25,8 @@ const CHANGES: usize = 12;
 const CONVERGED: f64 = 1e-14;
 const RENEWED: f64 = 1e-2;
 const LARGEST_TURN: f64 = 0.8;
-/// A change over that before from which on, with a new inverse each, it is a rounding error.
+/// Of two changes that are at most the first number, with a new inverse each, the second one is a rounding error from this part on.
+const SMALL_TURN: f64 = 1e-9;
 const STALLED: f64 = 0.5;
 /// Beyond this a guess is lost.
 const LOST: f64 = 1e4;
@@ -410,7 +411,7 @@ impl Slip {
                 // Quadratic with a new inverse, linear with an old one.
                 let linear = turn / if before > TINY { before } else { TINY };
                 let rate = if turn > RENEWED || before > RENEWED { turn } else { linear };
-                let stalled = renewed == [true; 2] && before <= 1e-9 && turn >= STALLED * before;
+                let stalled = renewed == [true; 2] && before <= SMALL_TURN && turn >= STALLED * before;
                 done = stalled || turn * (if rate < 1.0 { rate } else { 1.0 }) <= CONVERGED;
                 fresh = turn <= 0.1 * before && turn <= RENEWED;
             }

@@ -1,9 +1,9 @@
-//! A step of a closed contact, written once for values and for derivatives.
+//! A step of a closed contact.
 //!
 //! The springs stick at first; a load that rises engages new ones, which follow the part of the motion from there on. If |r| then exceeds 1
-//! at a point, the points slip: `slip` finds which and how, of values. The step itself begins there and takes one more step of Newton's
-//! method, the linear equation for σ first, then the angles: of values it halves the exponent of the error, of dual numbers it gives the
-//! derivatives. The fine springs have limits of their own.
+//! at a point, the points slip: `slip` finds which and how, and the springs, of values. Derivatives are those of one more step of Newton's
+//! method from there, in dual numbers. The end of the step is written once for both: the fine springs, with limits of their own, and the
+//! force.
 
 use super::contact::{Contact, Pressed};
 use super::scalar::{Over, Real, both};
@@ -13,7 +13,7 @@ use super::trial::{FINE_SPRING, LEAST, Motion, Springs, Values, limits_before, m
 use crate::shape::TINY;
 use crate::simd::dispatch;
 
-/// A step whose slip is known, with derivatives: the force.
+/// A step whose slip is known, in dual numbers: the force.
 #[inline(always)]
 pub(crate) fn step<A: Over<A>, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     t: &T,
@@ -35,6 +35,9 @@ pub(crate) fn step<A: Over<A>, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     let theta = (slides + X::constant(1.0)).scale(0.5);
     for stage in 0..2 {
         let (middle, now) = if stage == 0 { (true, &slip.middle) } else { (false, &slip.end) };
+        if now.set == 0 {
+            continue;
+        }
         let first = (now.set.trailing_zeros() as usize).min(end);
         let mut limits = Limits { start: [one; N], rise: [one; N], part: None };
         if middle {
@@ -46,9 +49,7 @@ pub(crate) fn step<A: Over<A>, X: Over<A>, T: Tables<A>, S: Springs<X>>(
             }
             in_part(&mut v, s, limits.part, 0.5, [first, end]);
         }
-        if now.set != 0 {
-            slide(t, c, &limits, &mut v, now);
-        }
+        slide(t, c, &limits, &mut v, now);
         if middle {
             let per = if far { Some(theta.inverse()) } else { None };
             in_part(&mut v, s, per, 2.0, [first, end]);

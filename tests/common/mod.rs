@@ -2,6 +2,8 @@
 //! random numbers.
 #![allow(dead_code, reason = "not every crate uses all of them")]
 
+pub mod two_directions;
+
 use microslip::Contact;
 use microslip::constant_load::harmonic_force::{HarmonicOutput, Rule, Workspace, harmonic_force};
 use microslip::constant_load::masing;
