@@ -15,21 +15,21 @@
 //! ```
 //!
 //! The tangent stiffness k is singular at ρ = 0, like a power of `q = ρ^(1/3)`, the size of a stick zone under a flat, or a logarithm; the
-//! root at ρ = e, on either side. The distance of that is the scale s of `q = q0 + s (cosh u - 1)`, which moves all of these singularities
-//! to |Im u| >= π/4 and makes the root at q0 smooth; `u = u_end (1 - ζ²)` does the same for that at x = 0. For Λ near 0, k is nearly
-//! singular there, too: ζ is a hyperbolic sine then. Gauss's rule converges for all amplitudes. Away
-//! from gross slip and for larger Λ, fewer points of the midpoint rule in θ, `x = ξ sin²(θ/2)`, are enough.
+//! root at ρ = e, on either side. The distance of that is the scale s of `q = q0 + s sinh²(u/2)`, which moves all of these singularities
+//! to |Im u| >= π/4 and makes the root at q0 smooth; `sinh(u/8) = (1 - ζ²) sinh(u_end/8)` does the same for that at x = 0. Two doublings
+//! of the angle give `sinh²(u/2)` as a polynomial. For Λ near 0, k is nearly singular there, too: ζ is a hyperbolic sine then. Gauss's rule
+//! converges for all amplitudes.
 
 use crate::constant_load::contact::{BLOCKS_IN_SLIP, Contact};
 use crate::error::Error;
 use crate::limits::MAX_DISPLACEMENT;
-use crate::numerics::chebyshev::Interpolant;
 use crate::numerics::const_math::tabulate;
 use crate::numerics::fp_class::in_0_to;
 use crate::numerics::polynomial::{Rows, rows};
-use crate::numerics::quadrature::gauss_legendre;
-use crate::simd::dispatch;
+use crate::numerics::quadrature::{gauss_legendre, gauss_rule};
+use crate::simd::{dispatch, plus};
 use core::f64::consts::PI;
+use core::hint::black_box;
 
 /// Complex stiffness at one displacement amplitude.
 #[derive(Debug, Clone, Copy)]
@@ -46,12 +46,10 @@ pub struct ComplexStiffness {
     pub dissipated: f64,
 }
 
-/// Nodes of the midpoint rule for e from these two values on, which has the error of rounding; of Gauss's next to gross slip, and beyond
-/// it up to `e = -0.05`, from where the contact has weights. F has an error of 3e-15, dF/dξ of 5e-15; next to gross slip of 1e-13, and of
-/// 1e-12 for Λ near 0. The last number is that for all amplitudes of a curve without an interpolant: it has a knee, or is nearly singular.
-const FAR_BELOW: [f64; 2] = [0.1, 0.03];
-const NODES_FAR_BELOW: [usize; 2] = [24, 48];
-const NODES_BELOW: usize = 64;
+/// Nodes of Gauss's rule within 1e-3 below gross slip, where 40 have an error of 1e-15 of F and 1e-12 of dF/dξ, and beyond it up to
+/// `e = -0.05`, from where the contact has weights: 1e-15 and 1e-13. The last number is that for all amplitudes of a curve without an
+/// interpolant, too: it has a knee, or is nearly singular.
+const NODES_BELOW: usize = 48;
 const NODES_BEYOND: usize = 96;
 const IN_SLIP: f64 = -0.05;
 
@@ -82,16 +80,24 @@ const fn blocks<const N: usize, const M: usize>([nodes, weights]: &[[f64; N]; 2]
     tabulate!(M, |i| [nodes[i], weights[i]])
 }
 
-/// F and dF/dξ from the terms of F and `ρ - e` at blocks of nodes.
+/// `sinh²(4a)` and its derivative with respect to `sinh²(a)`, from this one.
+#[inline(always)]
+fn two_doublings(mut square: f64) -> (f64, f64) {
+    let mut rate = 1.0;
+    for _ in 0..2 {
+        rate *= 4.0 + 8.0 * square;
+        square *= 4.0 + 4.0 * square;
+    }
+    (square, rate)
+}
+
+/// F and dF/dξ from the terms of F and of 2 dF/dξ at blocks of nodes.
 #[inline(always)]
 fn sum<B>(blocks: impl Iterator<Item = B>, at: impl Fn(B) -> [[f64; 4]; 2]) -> [f64; 2] {
     let mut sums = [[0.0; 4]; 2];
     for block in blocks {
-        let [terms, rest] = at(block);
-        for k in 0..4 {
-            sums[0][k] += terms[k];
-            sums[1][k] += 0.5 * terms[k] / rest[k];
-        }
+        let [terms, rates] = at(block);
+        sums = [plus(sums[0], 1.0, terms), plus(sums[1], 0.5, rates)];
     }
     sums.map(|sum| (sum[0] + sum[2]) + (sum[1] + sum[3]))
 }
@@ -135,50 +141,34 @@ impl Contact {
     /// F and dF/dξ at ξ = 1 - e, in units of the initial stiffness.
     pub(crate) fn cycle_integrals(&self, xi: f64, e: f64) -> [f64; 2] {
         dispatch!({
-            if !self.has_weights_in_slip() || (e > IN_SLIP && e < FAR_BELOW[1]) {
-                let is_beyond = e <= 0.0 || !self.has_weights_in_slip();
-                return self.integrals(if is_beyond { &RULE_BEYOND } else { &RULE_BELOW }, xi, e);
+            if !self.has_weights_in_slip() {
+                return self.integrals(&RULE_BEYOND, xi, e);
             }
-            if e > 0.0 {
-                let few = const { &Interpolant::<{ NODES_FAR_BELOW[0] }>::POINTS };
-                let many = const { &Interpolant::<{ NODES_FAR_BELOW[1] }>::POINTS };
-                return self.midpoint(if e >= FAR_BELOW[0] { few } else { many }, xi, e);
+            if e > IN_SLIP {
+                // 24 and 32 nodes have an error of 2e-15.
+                let rule = match e {
+                    0.05.. => gauss_rule(6),
+                    1e-3.. => gauss_rule(8),
+                    0.0.. => &RULE_BELOW,
+                    _ => &RULE_BEYOND,
+                };
+                return self.integrals(rule, xi, e);
             }
             sum(
                 self.weights_in_slip.iter().zip(&RULE_IN_SLIP),
                 #[inline(always)]
                 |(weights, [rho, ..])| {
-                    let (mut terms, mut rest) = (*weights, *rho);
+                    let [mut terms, mut rates] = [*weights; 2];
+                    // As in `integrals`.
+                    let roots = *black_box(&rho.map(|rho| (rho - e).sqrt()));
                     for k in 0..4 {
-                        rest[k] -= e;
-                        terms[k] *= rest[k].sqrt();
+                        terms[k] *= roots[k];
+                        rates[k] /= roots[k];
                     }
-                    [terms, rest]
+                    [terms, rates]
                 },
             )
         })
-    }
-
-    /// F and dF/dξ by the midpoint rule in θ, `x = ξ sin²(θ/2)`: the integrands are periodic and even.
-    #[inline(always)]
-    fn midpoint(&self, cosines: &[f64], xi: f64, e: f64) -> [f64; 2] {
-        let weight = PI / cosines.len() as f64;
-        sum(
-            cosines.as_chunks::<4>().0.iter(),
-            #[inline(always)]
-            |cosines| {
-                let [mut x, mut rho, mut rest] = [[0.0; 4]; 3];
-                for k in 0..4 {
-                    (x[k], rest[k]) = (xi * (0.5 - 0.5 * cosines[k]), xi * (0.5 + 0.5 * cosines[k]));
-                    rho[k] = e + rest[k];
-                }
-                let mut terms = self.relative_stiffnesses(&x, &rho);
-                for k in 0..4 {
-                    terms[k] *= weight * (x[k] * rest[k]);
-                }
-                [terms, rest]
-            },
-        )
     }
 
     /// F and dF/dξ by Gauss's rule.
@@ -187,12 +177,15 @@ impl Contact {
         let (below, excess) = (e.max(0.0), (-e).max(0.0));
         let q0 = below.cbrt();
         let scale = e.abs().cbrt().clamp(SMALLEST_SCALE, 1.0);
-        // The largest x; u at x = 0.
+        // The largest x; sinh²(u/8) at x = 0, by two half-angle formulas.
         let top = xi.min(1.0);
-        let end = 2.0 * (0.5 * top / (1.0 + q0 * (1.0 + q0)) / scale).sqrt().asinh();
+        let mut end = top / (1.0 + q0 * (1.0 + q0)) / scale;
+        for _ in 0..2 {
+            end /= 2.0 + 2.0 * (1.0 + end).sqrt();
+        }
         // x is its product with ζ² at first.
-        let bend = (self.relative_distance_of_zero_compliance() / (3.0 * scale * end.sinh() * end)).sqrt();
-        let largest = (1.0 / bend).asinh();
+        let bend = (self.relative_distance_of_zero_compliance() / (6.0 * scale * end * two_doublings(end).1)).sqrt();
+        let largest = if bend < 0.4 { (1.0 / bend).asinh() } else { 0.0 };
         sum(
             rule.iter(),
             #[inline(always)]
@@ -204,27 +197,27 @@ impl Contact {
                         (zeta[k], weights[k]) = (bend * argument.sinh(), weights[k] * bend * largest * argument.cosh());
                     }
                 }
-                // exp(u) - 1.
-                let mut growth = [0.0; 4];
+                let [mut x, mut rho, mut rates] = [[0.0; 4]; 3];
                 for k in 0..4 {
-                    let u = end * (1.0 - zeta[k] * zeta[k]);
-                    growth[k] = if end < 1.0 { u.exp_m1() } else { u.exp() - 1.0 };
-                }
-                let [mut x, mut rho, mut rest] = [[0.0; 4]; 3];
-                for k in 0..4 {
-                    let half = 0.5 * scale * growth[k] / (growth[k] + 1.0);
-                    let (step, rate) = (half * growth[k], half * (growth[k] + 2.0) * (2.0 * end * zeta[k]));
+                    let fraction = 1.0 - zeta[k] * zeta[k];
+                    let (square, rate) = two_doublings(end * (fraction * fraction));
+                    let step = scale * square;
                     let q = q0 + step;
                     // ρ less its smallest value.
                     let rise = step * (q * q + q * q0 + q0 * q0);
-                    (x[k], rho[k], rest[k]) = ((top - rise).max(0.0), below + rise, rise + excess);
-                    weights[k] *= (x[k] * rest[k]).sqrt() * (3.0 * q * q) * rate;
+                    let rest = rise + excess;
+                    (x[k], rho[k]) = ((top - rise).max(0.0), below + rise);
+                    weights[k] *= (x[k] * rest).sqrt() * (12.0 * q * q) * (scale * end * rate * fraction * zeta[k]);
+                    rates[k] = weights[k] / rest;
                 }
+                // The compiler combines values in vectors where they are stored.
+                let [x, rho, mut weights, mut rates] = *black_box(&[x, rho, weights, rates]);
                 let stiffness = self.relative_stiffnesses(&x, &rho);
                 for k in 0..4 {
                     weights[k] *= stiffness[k];
+                    rates[k] *= stiffness[k];
                 }
-                [weights, rest]
+                [weights, rates]
             },
         )
     }
