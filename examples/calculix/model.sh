@@ -179,8 +179,8 @@ driven() {
 trapezoidal='*DYNAMIC, DIRECT, ALPHA=0.'
 driven lifting_dynamic "$trapezoidal" '1.33333333333e-5, 1.33333333333e-2' 2 3 > lifting_dynamic.inp
 
-# Two directions of sliding: y as before, and x. 1715 state variables: 7 results, and a state. Pressed, then two turns of a force
-# that rotates in x and y while the normal force swings twice per turn.
+# Two directions of sliding: y as before, and x. 1715 state variables: 7 results, and room for a state. Pressed, then a force that
+# rotates twice in the plane of x and y while the normal force varies, two periods in each rotation.
 sed 's/=10/=11/; $s/$/, 2./' element.inp > two_directions.inp
 blade_on 1715 '0., 1., 0.' two_directions.inp > orbit_blade.inp
 awk 'BEGIN {
