@@ -19,10 +19,10 @@ plot file('why_loop') using (1e6*$2):3 with lines ls 1 title 'microslip', \
      file('why_loop') using (1e6*$2):(initial_stiffness*$2) with lines ls 2 title 'spring-slider'
 set title 'loss factor'
 set logscale xy
-set xlabel 'amplitude / that of gross slip'
+set xlabel 'amplitude / amplitude at gross slip'
 set ylabel "K'' / K'"
 set xrange [0.05:5]
-set yrange [0.001:5]
+set yrange [0.001:100]
 set key top left
 plot file('why_stiffness') using ($1/slip_displacement):($3/$2) with lines ls 1 title 'microslip', \
      loss(initial_stiffness, slip_force, x*slip_displacement) with lines ls 2 title 'spring-slider', \
@@ -32,7 +32,7 @@ set title 'two blades with this damper'
 set xlabel 'frequency [Hz]'
 set ylabel 'tip amplitude [µm]'
 set xrange [464:474]
-set yrange [0:*]
+set yrange [0:300]
 set key top left
 response(law) = sprintf('../../fortran_examples/results/%s_response.csv', law)
 at_load(dummy) = int(column('load')) == 11 ? 1e6*column('peak_m') : NaN
