@@ -2,7 +2,7 @@ program static_first
   ! A body on springs that is pressed against a wall and sheared, then shaken. The static state is known, from a static analysis with
   ! normal force N0 and shear Ts in the contact, and the displacements of the body are measured from it. The harmonic balance is
   ! solved by Newton's method for rising excitations: along the shear with one direction of sliding, then across it with two, where
-  ! the vibration shakes the shear out over many periods. The last drift tells whether enough of them are walked.
+  ! the vibration reduces the shear over many periods. A small drift shows that the number of periods is sufficient.
   use microslip
   implicit none
 

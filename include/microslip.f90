@@ -174,8 +174,7 @@ module microslip
     !! directions must be 1 or 2, equal for all elements, states and workspaces of a call
   integer(mslip_int), parameter, public :: MSLIP_BAD_NORMAL_INPUT = 43
     !! normal_input must be MSLIP_INPUT_APPROACH or MSLIP_INPUT_NORMAL_FORCE
-  integer(mslip_int), parameter, public :: MSLIP_BAD_PERIODS = 44
-    !! the number of periods before the one that counts must be at most 65536
+  integer(mslip_int), parameter, public :: MSLIP_BAD_PERIODS = 44  !! the number of periods must be at most 65536
   integer(mslip_int), parameter, public :: MSLIP_BAD_COEFFICIENTS = 45
     !! a displacement must have the number of coefficients of the workspace: 2*harmonics + 1 for each component (in
     !! Fortran)
@@ -2198,13 +2197,14 @@ contains
 
   subroutine mslip_element_workspace_init(directions, harmonics, samples, periods, workspace, status, rule)
     !! Initialises a workspace of elements: tables for one (directions, harmonics, samples, rule), and scratch memory.
-    !! Each thread needs its own. periods is the number of periods that are walked before the one that counts, at most
-    !! 65536. 0 is the default: 3 with two directions; 1 with one, where more change nothing and cost nothing.
+    !! Each thread needs its own. periods is the number of periods that are applied before the returned one, at most
+    !! 65536. 0 is the default: 3 with two directions; 1 with one, where a larger number changes neither results nor
+    !! time.
     integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1 or 2.
     integer(mslip_size), intent(in) :: harmonics  !! Highest harmonic H, >= 1.
     integer(mslip_size), intent(in) :: samples  !! Samples per period, > 2H.
     integer(mslip_size), intent(in) :: periods
-      !! Periods that are walked before the one that counts, at most 65536; 0 is the default: 3 with two directions, 1
+      !! Periods that are applied before the returned one, at most 65536; 0 is the default: 3 with two directions, 1
       !! with one.
     real(mslip_real), intent(inout), target, contiguous :: workspace(:)
       !! The workspace, of at least `mslip_element_workspace_length(directions, harmonics, samples, rule)` values.
@@ -2226,17 +2226,16 @@ contains
     !! force_i / d displacement_j, m(2H+1) x m(2H+1), column-major: the exact derivative of the discrete force,
     !! one-sided at corners. dissipated [J] is the energy per period.
     !!
-    !! Steady state: the element is pressed by the normal force of the sample at which that is largest (the first such
-    !! sample) with no tangential displacement, is displaced to that sample at constant normal force, and advances from
-    !! there through the periods of the workspace and one more, which counts. The Jacobian is that for a fixed start. If
-    !! w is constant, any swing of it moves the start to another sample, and the mean tangential force may depend on the
-    !! start.
+    !! Steady state: at the first sample of the largest normal force the element is pressed without tangential
+    !! displacement and then displaced at constant normal force. It advances from there through the periods of the
+    !! workspace and one more, which is returned. The Jacobian is the derivative for a fixed start. If w is constant,
+    !! any variation of w moves the start to another sample, and the mean tangential force may depend on the start.
     !!
-    !! With one direction the period that counts is the steady state. With two, a mean tangential force beside a
-    !! vibration across it is shaken out over many periods: drift is the largest difference of the tangential force
-    !! between the last period and the one before, over mu times the largest normal force; 0 with one direction, and for
-    !! a contact that opens, because it forgets. With 1 period before the one that counts, the drift contains the first
-    !! loading. A drift is not an error.
+    !! With one direction the returned period is the steady state. With two, a vibration across a mean tangential force
+    !! reduces that force over many periods: drift is the largest difference of the tangential force between the last
+    !! two periods, over mu times the largest normal force; 0 with one direction, and for a contact that opens, because
+    !! that erases its memory. If the workspace has 1 period, the drift contains the first loading. A drift is not an
+    !! error.
     type(mslip_element), intent(in) :: element  !! An initialised element.
     real(mslip_real), intent(inout), target, contiguous :: workspace(:)
       !! An initialised workspace; it decides H, and that of an element m.

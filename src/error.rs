@@ -99,7 +99,7 @@ status_codes! {
     BadIndex, MSLIP_BAD_INDEX = 41: "an index must refer to one of the n_contacts contacts or n_elements elements";
     BadDirections, MSLIP_BAD_DIRECTIONS = 42: "directions must be 1 or 2, equal for all elements, states and workspaces of a call";
     BadNormalInput, MSLIP_BAD_NORMAL_INPUT = 43: "normal_input must be MSLIP_INPUT_APPROACH or MSLIP_INPUT_NORMAL_FORCE";
-    BadPeriods, MSLIP_BAD_PERIODS = 44: "the number of periods before the one that counts must be at most 65536";
+    BadPeriods, MSLIP_BAD_PERIODS = 44: "the number of periods must be at most 65536";
     BadCoefficients, MSLIP_BAD_COEFFICIENTS = 45:
         "a displacement must have the number of coefficients of the workspace: 2*harmonics + 1 for each component (in Fortran)";
     BadArraySize, MSLIP_BAD_ARRAY_SIZE = 90:

@@ -73,7 +73,7 @@ pub enum Command {
         "curve contact.toml --to 2e-6 --points 401 --out curve.csv"
     ))]
     Curve(ContactCommand<Curve>),
-    /// Hysteresis loops between +amplitude and -amplitude under a constant or swinging normal force
+    /// Hysteresis loops between +amplitude and -amplitude under a constant or varying normal force
     #[command(after_help = help!(
         "amplitude, displacement, force, dissipated (energy per cycle)
   with --normal-amplitude: amplitude, phase, displacement, normal_force, force, dissipated,
@@ -243,7 +243,7 @@ pub struct Loop {
     /// Number of points of a period, uniformly spaced in time; the first is repeated at the end
     #[arg(long, value_name = "COUNT", default_value_t = 200, value_parser = at_least_two())]
     pub points: u32,
-    /// Amplitude of a harmonic swing of the normal force about normal_force: a force, or a percentage of normal_force; the
+    /// Amplitude of a harmonic variation of the normal force about normal_force: a force, or a percentage of normal_force; the
     /// contact is open while the sum is negative
     #[arg(long, value_name = "N|%", value_parser = parse_amount, allow_hyphen_values = true, requires = "phase")]
     pub normal_amplitude: Option<Amount>,

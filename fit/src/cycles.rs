@@ -110,7 +110,7 @@ pub(crate) fn loops(original: &Record) -> Result<Vec<Loop>, Error> {
     let swing = loops.iter().map(Loop::swing).fold(0.0, f64::max);
     if swing > LARGEST_SWING {
         return fail(&format!(
-            "the normal force swings by {:.0} % about its mean; the law for a constant normal force admits 10 %. Measure under a \
+            "the normal force varies by {:.0} % about its mean; the law for a constant normal force admits 10 %. Measure under a \
              steady load, or compare with `microslip history --normal-force-column`",
             100.0 * swing
         ));

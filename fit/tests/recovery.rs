@@ -267,7 +267,7 @@ fn bad_data_are_reported() {
             one.force.truncate(80);
         }),
         ("the contact is open", &|one| one.normal_force = Some(NormalForce::Constant(0.0))),
-        ("swings by", &|one| {
+        ("varies by", &|one| {
             let load = (0..one.force.len()).map(|i| 800.0 + 200.0 * (i as f64 / 30.0).sin());
             one.normal_force = Some(NormalForce::Samples(load.collect()));
         }),

@@ -22,7 +22,7 @@ program forced_response
 
   character(len=*), parameter :: usage = 'forced_response CASE DIRECTORY'
   integer, parameter :: loop_points = 256
-  !> The forces of elements change by more than this from period to period: too few are walked before the one that counts.
+  !> The forces of elements change by more than this from period to period: the balance needs more periods.
   real(wp), parameter :: large_drift = 1.0e-2_wp
   character(len=:), allocatable :: prefix
   type(case_data) :: data

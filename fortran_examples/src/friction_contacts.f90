@@ -71,7 +71,7 @@ module friction_contacts
     logical, allocatable :: is_linear(:)                    !! whether the force of a component is that of a spring,
     real(wp), allocatable :: spring(:)                      !! and its stiffness
     real(wp), allocatable :: workspace(:)
-    integer :: periods = 3                                  !! before the one that counts
+    integer :: periods = 3                                  !! before the returned one
     real(wp) :: drift = 0.0_wp                              !! the largest one of the elements in the last harmonic force
     real(wp), allocatable :: fine_basis(:,:)                !! Fourier functions at the instants searched for extremes
     ! Arguments of the calls, item after item.
@@ -133,7 +133,7 @@ contains
     end if
   end subroutine add_incidence
 
-  !> `load_factor` multiplies the normal force of the contacts with `load_varied`; `periods` are walked before the one that counts.
+  !> `load_factor` multiplies the normal force of the contacts with `load_varied`; `periods` are applied before the returned one.
   subroutine prepare(self, inputs, load_factor, harmonics, samples, periods)
     class(contact_set), intent(inout) :: self
     type(contact_input), intent(in) :: inputs(:)

@@ -170,9 +170,9 @@ class Element(_Law):
 
         Displacement and force have the shape (m, 2H+1), a row [c0, cos1, sin1, ...] for each component. jacobian[i, j] is
         d force.ravel()[i] / d displacement.ravel()[j], (m(2H+1), m(2H+1)), None if not requested. The element is pressed by the
-        largest normal force of the period without a tangential displacement, then displaced, and walks the periods of the workspace
-        and one more, which counts. With two directions a mean tangential force beside a vibration across it is shaken out over many
-        periods: `drift` says what the last one changed.
+        largest normal force of the period without a tangential displacement, then displaced. It advances through the periods of the
+        workspace and one more, which is returned. With two directions a vibration across a mean tangential force reduces that force
+        over many periods: `drift` is the change in the last period.
         """
         return self._harmonic_force(workspace, displacement, jacobian)
 

@@ -187,14 +187,14 @@ class Workspace(_Workspace):
 class ElementWorkspace(_Workspace):
     """Tables and scratch memory for harmonic forces of elements with 1 or 2 tangential `directions`.
 
-    `harmonics` is H >= 1, `samples` > 2H per period, `rule` `UNIFORM_SAMPLING`. `periods`, at most 65536, are walked before the
-    one that counts; 0 is the default, 3 with two directions and 1 with one, where more change nothing. Calls with one workspace
+    `harmonics` is H >= 1, `samples` > 2H per period, `rule` `UNIFORM_SAMPLING`. `periods`, at most 65536, are applied before
+    the returned one; 0 is the default, 3 with two directions and 1 with one, where more change nothing. Calls with one workspace
     wait for each other: use one per thread.
     """
 
     _calls = "mslip_element_workspace"
     directions = Field[int]("Number of tangential directions, 1 or 2.")
-    periods = Field[int]("Number of periods before the one that counts.")
+    periods = Field[int]("Number of periods before the returned one.")
 
     def __init__(self, directions: int, harmonics: int, samples: int, rule: Constant = 0, periods: int = 0) -> None:
         super().__init__(directions=directions, harmonics=harmonics, samples=samples, rule=rule, periods=periods)

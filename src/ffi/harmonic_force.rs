@@ -102,8 +102,8 @@ pub extern "C" fn mslip_element_workspace_length(
 }
 
 /// Initialises a workspace of elements: tables for one (directions, harmonics, samples, rule), and scratch memory. Each thread
-/// needs its own. periods is the number of periods that are walked before the one that counts, at most 65536. 0 is the default:
-/// 3 with two directions; 1 with one, where more change nothing and cost nothing.
+/// needs its own. periods is the number of periods that are applied before the returned one, at most 65536. 0 is the default: 3 with
+/// two directions; 1 with one, where a larger number changes neither results nor time.
 ///
 /// Returns MSLIP_BAD_DIRECTIONS, MSLIP_BAD_RULE, MSLIP_NOT_AVAILABLE for MSLIP_EVENT_DRIVEN, MSLIP_BAD_HARMONICS,
 /// MSLIP_BAD_SAMPLES, MSLIP_BAD_PERIODS, MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
@@ -125,7 +125,7 @@ pub unsafe extern "C" fn mslip_element_workspace_init(
     })
 }
 
-/// Number of directions, of harmonics and of samples, rule, and number of periods before the one that counts (never 0), of an
+/// Number of directions, of harmonics and of samples, rule, and number of periods before the returned one (never 0), of an
 /// initialised workspace of elements. Outputs may be NULL.
 ///
 /// Returns MSLIP_NULL_POINTER or MSLIP_BAD_WORKSPACE.
@@ -157,15 +157,15 @@ pub unsafe extern "C" fn mslip_element_workspace_size(
 /// displacement is the approach \[m\] or the normal force \[N\]. jacobian is d force_i / d displacement_j, m(2H+1) x m(2H+1),
 /// column-major: the exact derivative of the discrete force, one-sided at corners. dissipated \[J\] is the energy per period.
 ///
-/// Steady state: the element is pressed by the normal force of the sample at which that is largest (the first such sample) with no
-/// tangential displacement, is displaced to that sample at constant normal force, and advances from there through the periods of the
-/// workspace and one more, which counts. The Jacobian is that for a fixed start. If w is constant, any swing of it moves the start to
-/// another sample, and the mean tangential force may depend on the start.
+/// Steady state: at the first sample of the largest normal force the element is pressed without tangential displacement and then
+/// displaced at constant normal force. It advances from there through the periods of the workspace and one more, which is returned. The
+/// Jacobian is the derivative for a fixed start. If w is constant, any variation of w moves the start to another sample, and the mean
+/// tangential force may depend on the start.
 ///
-/// With one direction the period that counts is the steady state. With two, a mean tangential force beside a vibration across it is
-/// shaken out over many periods: drift is the largest difference of the tangential force between the last period and the one
-/// before, over mu times the largest normal force; 0 with one direction, and for a contact that opens, because it forgets. With 1
-/// period before the one that counts, the drift contains the first loading. A drift is not an error.
+/// With one direction the returned period is the steady state. With two, a vibration across a mean tangential force reduces that force
+/// over many periods: drift is the largest difference of the tangential force between the last two periods, over mu times the largest
+/// normal force; 0 with one direction, and for a contact that opens, because that erases its memory. If the workspace has 1 period, the
+/// drift contains the first loading. A drift is not an error.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_WORKSPACE, MSLIP_BAD_DIRECTIONS for the workspace of another number of
 /// directions, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE if the normal force of a sample is negative, or

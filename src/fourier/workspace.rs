@@ -18,7 +18,7 @@ pub(crate) const HEADER: usize = 4;
 /// Doubles in blocks of four.
 pub(crate) type Blocks = [[f64; 4]];
 
-/// Number of harmonics H, of samples or nodes per period, and of periods walked before the one that counts, 0 for the default.
+/// Number of harmonics H, of samples or nodes per period, and of periods applied before the returned one, 0 for the default.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Size {
     pub harmonics: usize,
@@ -47,7 +47,7 @@ pub(crate) trait Layout<'a>: Sized {
     /// Kind of the tag, which distinguishes the rules.
     const KIND: Kind;
 
-    /// Default number of periods before the one that counts; 1 if the second period is the steady state.
+    /// Default number of periods before the returned one; 1 if the second period is the steady state.
     const PERIODS: usize = 1;
 
     /// Upper bound on the number of rows over all orders up to 2H.

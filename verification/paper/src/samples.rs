@@ -24,8 +24,8 @@ struct Motion {
 
 const MOTIONS: [Motion; 4] = [
     Motion { name: "microslip, constant load", displacement: 0.5, mean: 0.7, swing: 0.0, phase: 0.0 },
-    Motion { name: "microslip, load swings by 40 %", displacement: 0.5, mean: 0.7, swing: 0.28, phase: 0.25 },
-    Motion { name: "gross slip, load swings by 40 %", displacement: 2.0, mean: 0.7, swing: 0.28, phase: 0.25 },
+    Motion { name: "microslip, load varies by 40 %", displacement: 0.5, mean: 0.7, swing: 0.28, phase: 0.25 },
+    Motion { name: "gross slip, load varies by 40 %", displacement: 2.0, mean: 0.7, swing: 0.28, phase: 0.25 },
     Motion { name: "separation", displacement: 0.7, mean: 0.3, swing: 0.6, phase: 0.25 },
 ];
 
