@@ -14,7 +14,7 @@ module contact_point
   private
   public :: contact_variables, contact_step, increment_too_long
 
-  ! An element takes 0.25 ms to initialise and 1 to 30 microseconds to evaluate, so each thread keeps those of the last parameter sets.
+  ! The initialisation of an element takes much longer than a step, so each thread keeps the elements of the last parameter sets.
   ! That needs OpenMP's threadprivate memory. Compiled without OpenMP the table would be shared by all threads, so it is not used
   ! (the line with the sentinel !$ is a comment then), and each call initialises the element: always correct, but slow.
   integer, parameter :: places = 8                              ! parameter sets kept by each thread
