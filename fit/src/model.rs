@@ -3,18 +3,18 @@
 //! With the monotonic curve T(d) of the contact under a friction coefficient of 1, the total displacement under a force is
 //!
 //! ```text
-//! u = μ [κ z + C h(T₁)],   T = μ T₁(z),   up to gross slip, T = μN
+//! u = μ [f z + C h(T₁)],   T = μ T₁(z),   up to gross slip, T = μN
 //! h = (N₀/s) ln[(1 - s + s N/N₀)/(1 - s + s (N - T₁)/N₀)],   h = T₁ for s = 0
 //! ```
 //!
-//! κ the factor on the displacements of the law, C the series compliance under the normal force N₀ of the contact, z the
-//! displacement of the contact over μ: the law is `T = μ f(d/μ)`. The series stiffness is constant (s = 0), or a share s of it
+//! f the factor on the displacements of the law, C the series compliance under the normal force N₀ of the contact, z the
+//! displacement of the contact over μ: T/μ is a function of d/μ. The series stiffness is constant (s = 0), or a share s of it
 //! grows in proportion to N: the law of the library's layer with N_c = N₀ (1/s - 1). A spring in parallel adds a force in proportion
 //! to u. Derivatives at constant u follow from the differential of both equations, with k = dT₁/dz and h' = dh/dT₁:
 //!
 //! ```text
-//! (κ + C h' k) dT = [κ (T₁ - k z) + C k (h' T₁ - h)] dμ - k μ (h dC + z dκ + C dh(T₁; s)) + κ μ dT₁(z; shape)
-//! dT/du = k/(κ + C h' k)
+//! (f + C h' k) dT = [f (T₁ - k z) + C k (h' T₁ - h)] dμ - k μ (h dC + z df + C dh(T₁; s)) + f μ dT₁(z; shape)
+//! dT/du = k/(f + C h' k)
 //! ```
 
 use crate::cycles::{Loop, Sample};
@@ -242,7 +242,7 @@ impl Curve {
         }
     }
 
-    /// Solves `κ z + C h(T₁(z)) = u` by Newton's method, from 0; the left side grows, and is concave for s = 0.
+    /// Solves `f z + C h(T₁(z)) = u` by Newton's method, from 0; the left side grows, and is concave for s = 0.
     fn solve(&self, displacement: f64, [_, series, contact, _, share, _]: &[f64; PARAMETERS]) -> (f64, (f64, f64)) {
         let (mut z, mut response) = (0.0, (0.0, self.contact.initial_stiffness));
         let [mut low, mut high] = [0.0, self.contact.slip_displacement];

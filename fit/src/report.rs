@@ -226,7 +226,7 @@ pub(crate) fn stiffening_load(share: f64, normal_force: f64) -> f64 {
     normal_force * (1.0 / share - 1.0)
 }
 
-/// The fitted contact as a parameter file. A factor κ on the displacements of the law is a modulus E/κ, and a radius R/κ so that
+/// The fitted contact as a parameter file. A factor f on the displacements of the law is a modulus E/f, and a radius R/f so that
 /// the contact has the same width.
 pub(crate) fn contact_toml(contact: &Contact, geometry: &Geometry, parameters: &[f64; PARAMETERS]) -> String {
     let [friction, series, factor, _, share, _] = parameters;

@@ -397,7 +397,7 @@ fn widen_shape(shape: &mut Estimate, corrected: f64, error: f64, [low, high]: [f
     }
 }
 
-/// Places of the total compliance C + κ/k and of the parallel stiffness beside the three parameters.
+/// Places of the total compliance C + f/k and of the parallel stiffness beside the three parameters.
 const TOTAL: usize = 3;
 const SPRING: usize = 4;
 const COMBINATIONS: usize = 5;
