@@ -522,15 +522,11 @@ impl Element {
     #[inline(always)]
     pub(crate) fn four_normals<const SLOPES: bool>(&self, input: &[f64; 4]) -> [[f64; 4]; 4] {
         // A closed contact in place of each open one.
-        let (is_closed, substitute) = (input.map(|input| input > 0.0), self.of_input.smallest());
-        let mut closed = *input;
-        for (input, is_closed) in closed.iter_mut().zip(is_closed) {
-            *input = if is_closed { *input } else { substitute };
-        }
-        let mut states = self.closed::<SLOPES, 4>(&closed);
+        let substitute = self.of_input.smallest();
+        let mut states = self.closed::<SLOPES, 4>(&input.map(|input| if input > 0.0 { input } else { substitute }));
         for values in &mut states {
-            for (value, is_closed) in values.iter_mut().zip(is_closed) {
-                *value = if is_closed { *value } else { 0.0 };
+            for k in 0..4 {
+                values[k] = if input[k] > 0.0 { values[k] } else { 0.0 };
             }
         }
         states

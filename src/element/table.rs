@@ -93,14 +93,31 @@ impl Table {
         for (row, x) in rows.iter_mut().zip(x) {
             *row = self.quarters.0.get((x.to_bits() >> SHIFT).wrapping_sub(self.base) as usize)?;
         }
-        let (mut values, mut slopes) = ([0.0; L], [0.0; L]);
-        let (pairs, last) = (values.as_chunks_mut::<2>(), slopes.as_chunks_mut::<2>());
-        let inputs = x.as_chunks::<2>().0.iter().zip(rows.as_chunks::<2>().0);
-        for ((value, slope), (&x, &rows)) in pairs.0.iter_mut().zip(last.0).zip(inputs) {
-            (*value, *slope) = two::<SLOPES>(x, rows);
+        // With the blocks P0, P1 and P2 of four coefficients: the cubics P0 + t⁴ P1 + t⁸ P2, and P1 + 2 t⁴ P2.
+        let [mut cubics, mut by_blocks] = [[[0.0; 4]; L]; 2];
+        let (t, mut t2) = (x.map(position_in), [0.0; L]);
+        for k in 0..L {
+            t2[k] = t[k] * t[k];
+            let power = t2[k] * t2[k];
+            for c in 0..4 {
+                let last = power * rows[k][8 + c];
+                let high = rows[k][4 + c] + last;
+                cubics[k][c] = rows[k][c] + power * high;
+                by_blocks[k][c] = high + last;
+            }
         }
-        if let ([value], [slope], Some((&x, row))) = (pairs.1, last.1, x.last().zip(rows.last())) {
-            (*value, *slope) = one(x, row);
+        let (mut values, mut slopes) = ([0.0; L], [0.0; L]);
+        for k in 0..L {
+            let ([c0, c1, c2, c3], t, t2) = (cubics[k], t[k], t2[k]);
+            let q = (c0 + c1 * t) + t2 * (c2 + c3 * t);
+            values[k] = x[k] * q;
+            if SLOPES {
+                // d/dt is that of the cubic, plus 4t³ times the value of the other one.
+                let [d0, d1, d2, d3] = by_blocks[k];
+                let by_blocks = (d0 + d1 * t) + t2 * (d2 + d3 * t);
+                let by_cubic = (c1 + (c2 + c2) * t) + 3.0 * (c3 * t2);
+                slopes[k] = q + POSITION * mantissa(x[k], 52) * (by_cubic + 4.0 * (t * t2) * by_blocks);
+            }
         }
         Some((values, slopes))
     }
@@ -108,7 +125,7 @@ impl Table {
     /// y and dy/dx at an argument; `None` outside the table.
     #[inline(always)]
     pub fn one_at(&self, x: f64) -> Option<(f64, f64)> {
-        self.position(x).map(|at| one(x, self.coefficients(at)))
+        self.at::<true, 1>(&[x]).map(|([value], [slope])| (value, slope))
     }
 
     /// The smallest argument inside.
@@ -171,63 +188,6 @@ fn mantissa(x: f64, bits: u32) -> f64 {
 #[inline(always)]
 fn position_in(x: f64) -> f64 {
     POSITION * mantissa(x, SHIFT) - (POSITION + 1.0)
-}
-
-/// Value and slope at an argument from its row: the operations of [`two`], with the same bits.
-#[inline(always)]
-fn one(x: f64, row: &[f64; TERMS]) -> (f64, f64) {
-    let t = position_in(x);
-    let t2 = t * t;
-    let (low, high) = cubic::<true>(row, t2 * t2);
-    let ([[c0, c1], [d0, d1]], [[c2, c3], [d2, d3]]) = (low.map(f64x2::to_array), high.map(f64x2::to_array));
-    let q = (c0 + c1 * t) + t2 * (c2 + c3 * t);
-    let by_blocks = (d0 + d1 * t) + t2 * (d2 + d3 * t);
-    let by_cubic = (c1 + (c2 + c2) * t) + 3.0 * (c3 * t2);
-    (x * q, q + POSITION * mantissa(x, 52) * (by_cubic + 4.0 * (t * t2) * by_blocks))
-}
-
-/// Values and, if requested, slopes at two arguments from their rows.
-///
-/// The blocks of four coefficients are combined for each argument; the cubics that remain are transposed and evaluated together.
-#[inline(always)]
-fn two<const SLOPES: bool>(x: [f64; 2], rows: [&[f64; TERMS]; 2]) -> ([f64; 2], [f64; 2]) {
-    let fractions = f64x2::new([mantissa(x[0], SHIFT), mantissa(x[1], SHIFT)]);
-    let t = fractions * f64x2::splat(POSITION) - f64x2::splat(POSITION + 1.0);
-    let t2 = t * t;
-    let [power_a, power_b] = (t2 * t2).to_array();
-    let [(low_a, high_a), (low_b, high_b)] = [cubic::<SLOPES>(rows[0], power_a), cubic::<SLOPES>(rows[1], power_b)];
-    let ([c0, c1], [c2, c3]) = (transposed(low_a[0], low_b[0]), transposed(high_a[0], high_b[0]));
-    let q = (c0 + c1 * t) + t2 * (c2 + c3 * t);
-    let values = (f64x2::new(x) * q).to_array();
-    if !SLOPES {
-        return (values, [0.0; 2]);
-    }
-    // With P1 and P2 the blocks behind the first, d/dt of P0 + t⁴ P1 + t⁸ P2 is that of the cubic, plus 4t³ (P1 + 2 t⁴ P2).
-    let ([d0, d1], [d2, d3]) = (transposed(low_a[1], low_b[1]), transposed(high_a[1], high_b[1]));
-    let by_blocks = (d0 + d1 * t) + t2 * (d2 + d3 * t);
-    let by_cubic = (c1 + (c2 + c2) * t) + f64x2::splat(3.0) * (c3 * t2);
-    let scaled = f64x2::new([mantissa(x[0], 52), mantissa(x[1], 52)]) * f64x2::splat(POSITION);
-    let slopes = q + scaled * (by_cubic + f64x2::splat(4.0) * (t * t2) * by_blocks);
-    (values, slopes.to_array())
-}
-
-/// Lower and upper half of P0 + t⁴ P1 + t⁸ P2, and of P1 + 2 t⁴ P2, given t⁴.
-#[inline(always)]
-fn cubic<const SLOPES: bool>(coefficients: &[f64; TERMS], power: f64) -> ([f64x2; 2], [f64x2; 2]) {
-    let &[a0, a1, a2, a3, b0, b1, b2, b3, c0, c1, c2, c3] = coefficients;
-    let power = f64x2::splat(power);
-    let combined = |a: [f64; 2], b: [f64; 2], c: [f64; 2]| {
-        let last = power * f64x2::new(c);
-        let high = f64x2::new(b) + last;
-        [f64x2::new(a) + power * high, if SLOPES { high + last } else { high }]
-    };
-    (combined([a0, a1], [b0, b1], [c0, c1]), combined([a2, a3], [b2, b3], [c2, c3]))
-}
-
-#[inline(always)]
-fn transposed(a: f64x2, b: f64x2) -> [f64x2; 2] {
-    let ([a0, a1], [b0, b1]) = (a.to_array(), b.to_array());
-    [f64x2::new([a0, b0]), f64x2::new([a1, b1])]
 }
 
 /// Middle and half-length of the quarter with this exponent and leading bits.

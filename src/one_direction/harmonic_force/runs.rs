@@ -42,12 +42,12 @@ impl Place {
 
     /// The whole contact at a sample.
     fn end(sample: usize) -> Place {
-        Place { code: (2 * sample + 1) as f64 }
+        Place { code: (2 * sample as u32 + 1).into() }
     }
 
     /// The boundary of the slip zone at a sample.
     fn cut(sample: usize) -> Place {
-        Place { code: (2 * sample) as f64 }
+        Place { code: (2 * sample as u32).into() }
     }
 
     pub fn is_end(self) -> bool {

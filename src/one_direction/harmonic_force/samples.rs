@@ -137,14 +137,15 @@ impl Samples<'_> {
                 .zip(self.xi.as_chunks_mut::<4>().0)
                 .zip(self.eta.as_chunks_mut::<4>().0);
             for ((((displacement, shift), input), xi), eta) in blocks {
+                let (displacement, shift, input, [mut x, mut y]) = (*displacement, *shift, *input, [[0.0; 4]; 2]);
                 for k in 0..4 {
                     let limit = mu * shift[k];
-                    xi[k] = displacement[k] - limit;
-                    eta[k] = displacement[k] + limit;
-                    largest[k] = if xi[k] > largest[k] { xi[k] } else { largest[k] };
-                    smallest[k] = if eta[k] < smallest[k] { eta[k] } else { smallest[k] };
+                    (x[k], y[k]) = (displacement[k] - limit, displacement[k] + limit);
+                    largest[k] = if x[k] > largest[k] { x[k] } else { largest[k] };
+                    smallest[k] = if y[k] < smallest[k] { y[k] } else { smallest[k] };
                     least_input[k] = if input[k] < least_input[k] { input[k] } else { least_input[k] };
                 }
+                (*xi, *eta) = (x, y);
             }
             let largest = largest.into_iter().fold(f64::MIN, f64::max);
             let smallest = smallest.into_iter().fold(f64::MAX, f64::min);
