@@ -10,6 +10,7 @@ use super::angle;
 use super::workspace::{Blocks, Parts, padded};
 use crate::error::Error;
 use crate::simd::dispatch;
+use core::hint::black_box;
 
 /// Length of an array of samples: whole blocks of four, and at least one value beyond the period.
 pub(crate) fn sample_length(samples: usize) -> usize {
@@ -187,7 +188,8 @@ impl<'a> FoldedFourier<'a> {
         for ((first, weights), folded) in (0..).step_by(4).zip(self.weights.iter()).zip(self.folded.iter_mut()) {
             if samples.is_multiple_of(2) {
                 // Checked one by one only if there are few samples.
-                let [here, mirrored, opposite, mirrored_opposite] = match blocks.next() {
+                // In memory, so that the compiler combines the values in vectors.
+                let [here, mirrored, opposite, mirrored_opposite] = *black_box(&match blocks.next() {
                     Some((((a, b), c), d)) => [*a, reversed(*b), *c, reversed(*d)],
                     None => [
                         load(values, first),
@@ -195,7 +197,7 @@ impl<'a> FoldedFourier<'a> {
                         load(values, half + first),
                         load_reversed(values, half.checked_sub(first)),
                     ],
-                };
+                });
                 let (e, o) = (add(here, opposite), subtract(here, opposite));
                 let (em, om) = (add(mirrored, mirrored_opposite), subtract(mirrored, mirrored_opposite));
                 *folded = [
