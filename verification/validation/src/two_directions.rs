@@ -1,6 +1,6 @@
 //! The law for two tangential directions against Coulomb's law with vectors of traction and slip at 56 elements of a half-space
-//! line (`tests/golden/two_directions.csv`) and at squares of a sphere's contact (`two_directions_sphere.csv`, by the program `sphere`),
-//! against smaller steps, and with tables for a smaller load.
+//! line (`tests/golden/two_directions.csv`) and at squares of a sphere's contact (`two_directions_sphere.csv`), against smaller
+//! steps, and with tables for a smaller load.
 
 use crate::table::Table;
 use microslip::element::{Directions, Element, NormalInput};
