@@ -24,8 +24,8 @@ FLAT = {
 }
 
 
-def rows_of(path: Path) -> list[dict[str, Any]]:
-    """The rows of a file by the names of its columns; cells that are numbers as such."""
+def rows(name: str) -> list[dict[str, Any]]:
+    """The rows of a reference table by the names of its columns; cells that are numbers as such."""
 
     def cell(text: str) -> Any:
         try:
@@ -33,13 +33,8 @@ def rows_of(path: Path) -> list[dict[str, Any]]:
         except ValueError:
             return text.strip()
 
-    with open(path, newline="") as file:
+    with open(REPOSITORY / "tests" / "golden" / f"{name}.csv", newline="") as file:
         return [{key.strip(): cell(value) for key, value in row.items()} for row in csv.DictReader(file)]
-
-
-def rows(name: str) -> list[dict[str, Any]]:
-    """The rows of a reference table."""
-    return rows_of(REPOSITORY / "tests" / "golden" / f"{name}.csv")
 
 
 def groups(name: str, *columns: str) -> list[list[dict[str, Any]]]:
