@@ -316,93 +316,62 @@ fn histories_equal_those_of_the_library() {
     assert_eq!(column(&relative, 0), [0.5, -0.25].map(|part| part * contact.slip_displacement));
 }
 
-/// `[T, N]`, the stiffness and the dissipated energy of each step of a path.
-fn element_path(element: &Element, path: &[f64]) -> Vec<[f64; 4]> {
-    let mut state = vec![0.0; element_state::state_length(path.len() / 2)];
-    element_state::state_init(&mut state).unwrap();
-    let step = |displacement: &[f64; 2]| {
-        let step = element_state::advance(element, &mut state, *displacement, true).unwrap();
-        [step.force[0], step.force[1], step.tangent[0], step.dissipated]
-    };
-    path.as_chunks().0.iter().map(step).collect()
-}
-
+/// Elements with one and with two directions, by normal force, by approach and, with two, under the force of the parameters.
 #[test]
-fn histories_under_a_varying_load_equal_those_of_the_library() {
-    let shell = Shell::new("varying-load");
-    // Sticking, slip, separation and gross slip; as normal forces and as approaches.
-    let displacements = [0.0, 2e-7, -3e-7, 4e-7, 1e-6, 8e-7, -2e-7];
-    for (name, column, header, values) in [
-        ("normal_force [N]", "3", "displacement [m],normal_force [N]", [90.0, 200.0, 60.0, 0.0, 120.0, 30.0, 300.0]),
-        (
-            "approach [m]",
-            "approach",
-            "displacement [m],approach [m],normal_force [N]",
-            [5e-7, 9e-7, 2e-7, -3e-7, 6e-7, 2e-7, 1e-6],
-        ),
-    ] {
-        let by_approach = name.starts_with('a');
-        let input = if by_approach { NormalInput::Approach } else { NormalInput::Force };
-        let element = Element::rounded_flat(&flat_parameters(), Directions::One, input).unwrap();
-        let path: Vec<_> = displacements.iter().zip(&values).flat_map(|(u, w)| [*u, *w]).collect();
-        let row = |(i, [force, normal_force, stiffness, dissipated]): (usize, [f64; 4])| {
-            let given = [displacements[i], values[i]].into_iter().take(if by_approach { 2 } else { 1 });
-            given.chain([normal_force, force, stiffness, dissipated]).collect()
-        };
-        let expected = with_totals(element_path(&element, &path).into_iter().enumerate().map(row).collect());
-        assert!(expected.iter().any(|row| row[row.len() - 5] == 0.0) && expected.iter().all(|row| row[0].is_finite()));
-        let header = format!("{header},force [N],stiffness [N/m],dissipated [J],dissipated_total [J]");
-        let rows = |i: usize| format!("{i},{:e},{:e}\n", displacements[i], values[i]);
-        shell.write("given.csv", format!("t,displacement,{name}\n{}", (0..7).map(rows).collect::<String>()));
-        let of_column = if by_approach { "--approach-column" } else { "--normal-force-column" };
-        for options in [String::new(), format!("{of_column} {column}")] {
-            let command = format!("microslip history flat.toml --displacements given.csv {options}");
-            assert_table(&shell.stdout(&command), &header, &expected);
-        }
-        // A table of results is a valid input.
-        shell.write("table.csv", shell.stdout("microslip history flat.toml --displacements given.csv"));
-        assert_table(&shell.stdout("microslip history flat.toml --displacements table.csv"), &header, &expected);
-    }
-}
-
-#[test]
-fn histories_in_two_directions_equal_those_of_the_library() {
-    let shell = Shell::new("two-directions");
-    // Around a corner and back, with slip, separation and gross slip.
+fn histories_of_elements_equal_those_of_the_library() {
+    let shell = Shell::new("elements");
+    // Sticking, slip, separation and gross slip; around a corner and back.
     let x = [0.0, 2e-7, -3e-7, 4e-7, 1e-6, 8e-7, -2e-7];
     let y = [1e-7, 3e-7, 3e-7, -2e-7, -1e-6, -1e-6, 4e-7];
-    let (forces, approaches) =
-        ([90.0, 200.0, 60.0, 0.0, 120.0, 30.0, 300.0], [5e-7, 9e-7, 2e-7, -3e-7, 6e-7, 2e-7, 1e-6]);
-    for (name, values, input) in [
-        (Some("normal_force [N]"), forces, NormalInput::Force),
-        (Some("approach [m]"), approaches, NormalInput::Approach),
-        (None, [150.0; 7], NormalInput::Force),
-    ] {
+    let force = (Some("normal_force [N]"), [90.0, 200.0, 60.0, 0.0, 120.0, 30.0, 300.0], NormalInput::Force);
+    let approach = (Some("approach [m]"), [5e-7, 9e-7, 2e-7, -3e-7, 6e-7, 2e-7, 1e-6], NormalInput::Approach);
+    let constant = (None, [150.0; 7], NormalInput::Force);
+    let (one, two) = (Directions::One, Directions::Two);
+    for (directions, (name, values, input)) in
+        [(one, force), (one, approach), (two, force), (two, approach), (two, constant)]
+    {
         let by_approach = input == NormalInput::Approach;
-        let element = Element::rounded_flat(&flat_parameters(), Directions::Two, input).unwrap();
-        let mut state = vec![0.0; two_directions::state_length()];
-        two_directions::state_init(&mut state).unwrap();
-        let mut row = |i: usize| {
-            let step = two_directions::advance(&element, &mut state, [x[i], y[i], values[i]]).unwrap();
-            let [force_x, force_y, normal_force] = step.force;
-            assert!(force_x.hypot(force_y) <= 0.4 * normal_force * (1.0 + 1e-12) && step.dissipated >= 0.0);
-            let given = [x[i], y[i], values[i]].into_iter().take(if by_approach { 3 } else { 2 });
-            given.chain([normal_force, force_x, force_y, step.dissipated]).collect::<Vec<_>>()
+        let element = Element::rounded_flat(&flat_parameters(), directions, input).unwrap();
+        let mut memory = [vec![0.0; element_state::state_length(7)], vec![0.0; two_directions::state_length()]];
+        element_state::state_init(&mut memory[0]).unwrap();
+        two_directions::state_init(&mut memory[1]).unwrap();
+        let row = |i: usize| -> Vec<f64> {
+            let given = if by_approach { vec![values[i]] } else { vec![] };
+            if directions == one {
+                let step = element_state::advance(&element, &mut memory[0], [x[i], values[i]], true).unwrap();
+                let results = [step.force[1], step.force[0], step.tangent[0], step.dissipated];
+                [vec![x[i]], given, results.to_vec()].concat()
+            } else {
+                let step = two_directions::advance(&element, &mut memory[1], [x[i], y[i], values[i]]).unwrap();
+                let [force_x, force_y, normal] = step.force;
+                assert!(force_x.hypot(force_y) <= 0.4 * normal * (1.0 + 1e-12) && step.dissipated >= 0.0);
+                [vec![x[i], y[i]], given, vec![normal, force_x, force_y, step.dissipated]].concat()
+            }
         };
-        let expected = with_totals((0..7).map(&mut row).collect());
-        assert!(expected[2][if by_approach { 5 } else { 4 }] != 0.0);
-        let approach = if by_approach { "approach [m]," } else { "" };
-        let header = format!(
-            "displacement_x [m],displacement_y [m],{approach}normal_force [N],force_x [N],force_y [N],dissipated [J],\
-             dissipated_total [J]"
-        );
-        let rows = |normal: bool| -> String {
-            let normal = |i: usize| if normal { format!(",{:e}", values[i]) } else { String::new() };
-            (0..7).map(|i| format!("{i},{:e},{:e}{}\n", y[i], x[i], normal(i))).collect()
+        let expected = with_totals((0..7).map(row).collect());
+        assert!(name.is_none() || expected.iter().any(|row| row[row.len() - 5] == 0.0));
+        let given = if by_approach { "approach [m]," } else { "" };
+        let (columns, results) = if directions == one {
+            ("displacement [m]", "force [N],stiffness [N/m]")
+        } else {
+            ("displacement_x [m],displacement_y [m]", "force_x [N],force_y [N]")
         };
+        let header = format!("{columns},{given}normal_force [N],{results},dissipated [J],dissipated_total [J]");
+        // In another order of the columns, which are found by name or given.
+        let rows = (0..7).map(|i| {
+            let y = if directions == two { format!(",{:e}", y[i]) } else { String::new() };
+            let normal = name.map_or(String::new(), |_| format!(",{:e}", values[i]));
+            format!("{i}{y},{:e}{normal}\n", x[i])
+        });
+        let head = if directions == two { "t,displacement_y,displacement_x [m]" } else { "t,displacement" };
         let normal = name.map_or(String::new(), |name| format!(",{name}"));
-        shell.write("given.csv", format!("t,displacement_y,displacement_x [m]{normal}\n{}", rows(name.is_some())));
-        for options in ["", "--column 3 --column-y 2", "--column displacement_x --column-y displacement_y"] {
+        shell.write("given.csv", format!("{head}{normal}\n{}", rows.collect::<String>()));
+        let options = match (directions, by_approach) {
+            (Directions::Two, _) => ["--column 3 --column-y 2", "--column displacement_x --column-y displacement_y"],
+            (_, true) => ["--approach-column 3", "--approach-column approach"],
+            (_, false) => ["--normal-force-column 3", "--normal-force-column normal_force"],
+        };
+        for options in [""].into_iter().chain(options) {
             let command = format!("microslip history flat.toml --displacements given.csv {options}");
             assert_table(&shell.stdout(&command), &header, &expected);
         }
@@ -758,6 +727,9 @@ fn messages_name_the_error_and_what_is_allowed() {
         ("flat.toml --edge-radius 1e-5", "edge_radius = 1e-5 m is below flat_half_width", 1),
         ("flat.toml --length 2e-4", "length = 2e-4 m is below two widths", 1),
         ("flat.toml --length 0.1", "", 0),
+        ("flat.toml --length 10", "length = 10 m is implausible", 1),
+        ("flat.toml --length 0.1 --normal-force 1e7", "normal_force = 1e7 N is implausible: b - a > R/4", 1),
+        ("--semi-axis-x 0.01 ${ELLIPSE#--semi-axis-x 0.2}", "normal_force = 400 N is implausible: the semi-axes", 1),
         // Millimetres as metres, and pascals as megapascals.
         ("flat.toml --units mm", "young_modulus = 2e11,1.14e11 MPa is implausible", 3),
         ("--semi-axis-x 200 ${ELLIPSE#--semi-axis-x 0.2}", "semi_axis_x = 200 mm is implausible", 1),
