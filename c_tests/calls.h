@@ -11,21 +11,6 @@
 
 #define LENGTH(array) (sizeof(array) / sizeof *(array))
 
-static inline mslip_parameters flat_parameters(void)
-{
-    mslip_parameters p;
-    mslip_parameters_default(&p);
-    p.flat_half_width = 3e-4;
-    p.edge_radius = 2e-3;
-    p.length = 1.97e-2;
-    p.normal_force = 178.24;
-    p.friction_coefficient = 0.417;
-    p.displacement_reference = MSLIP_CENTRE_POINT;
-    p.material[0].young_modulus = p.material[1].young_modulus = 2e11;
-    p.material[0].poisson_ratio = p.material[1].poisson_ratio = 0.29;
-    return p;
-}
-
 /* Variants of elements: the normal inputs, with one direction and with two. */
 enum { VARIANTS = 4, TWO_DIRECTIONS = 2 };
 static inline int32_t normal_input_of(int variant)
@@ -36,16 +21,6 @@ static inline int32_t normal_input_of(int variant)
 static inline int32_t directions_of(int variant)
 {
     return 1 + variant / TWO_DIRECTIONS;
-}
-
-enum { FLAT, CYLINDER };
-static inline const mslip_element *element_of(int kind, int variant)
-{
-    static mslip_element element;
-    mslip_parameters p = flat_parameters();
-    p.flat_half_width *= kind != CYLINDER;
-    CHECK(mslip_element_init(&p, directions_of(variant), normal_input_of(variant), &element) == MSLIP_OK);
-    return &element;
 }
 
 enum { ITEMS = 5, HARMONICS = 2, SAMPLES = 16, PERIODS = 2 };

@@ -355,10 +355,9 @@ static void check_two_directions(void)
 /* --- Limits --- */
 
 /* Both ends of the monotonic curve, by force and by displacement: at the onset of gross slip the stick zone is the flat, beyond it has no
-   width; a force above mu N by a rounding error counts as mu N. Twelve spring-sliders have the reported error. */
+   width; a force above mu N by a rounding error counts as mu N. */
 static void check_ends_of_the_curve(void)
 {
-    enum { SLIDERS = 12, POINTS = 4001 };
     table t = { 0 };
     while (next_row(&t, "contacts")) {
         const reference_contact *r = contact_of(&t);
@@ -366,7 +365,7 @@ static void check_ends_of_the_curve(void)
         const double a = r->parameters.flat_half_width, slip = contact->slip_displacement, mu_n = contact->slip_force, zero = 0.0;
         const double forces[2] = { mu_n, -mu_n * (1.0 + 2.0 * DBL_EPSILON) };
         const double displacements[3] = { slip, -nextafter(slip, INFINITY), 2.0 * slip };
-        double u[2], c[3], force[3], stiffness[3], k[SLIDERS], limit[SLIDERS], error, worst = 0.0;
+        double u[2], c[3], force[3], stiffness[3];
         OK(mslip_monotonic_displacement(contact, 2, forces, u, NULL, c));
         CHECK(u[0] == slip && u[1] == -slip);
         CHECK_RELATIVE(c[0], a, 2.0 * DBL_EPSILON);
@@ -376,17 +375,6 @@ static void check_ends_of_the_curve(void)
         CHECK(is_near(c[0], a, 2.0 * DBL_EPSILON * a) && stiffness[1] == 0.0 && stiffness[2] == 0.0);
         OK(mslip_monotonic_force(contact, 1, &zero, force, stiffness, c));
         CHECK(force[0] == 0.0 && stiffness[0] == contact->initial_stiffness && c[0] == contact->half_width);
-        OK(mslip_iwan_equivalent(contact, SLIDERS, k, limit, &error));
-        for (int i = 0; i < POINTS; ++i) {
-            const double displacement = 1.2 * slip * i / (POINTS - 1);
-            double exact, sum = 0.0;
-            OK(mslip_monotonic_force(contact, 1, &displacement, &exact, NULL, NULL));
-            for (int j = 0; j < SLIDERS; ++j) {
-                sum += fmin(k[j] * displacement, limit[j]);
-            }
-            worst = fmax(worst, fabs(sum - exact) / mu_n);
-        }
-        CHECK(worst <= error * (1.0 + 1e-9) + 1e-14 && (worst >= 0.9 * error || error < 1e-12));
     }
 }
 

@@ -340,6 +340,3 @@ impl Workspace<'_> {
         }
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -9,21 +9,29 @@ use microslip::constant_load::harmonic_force::{HarmonicOutput, Rule, Workspace, 
 use microslip::constant_load::masing;
 use microslip::constant_load::state::{state_init, state_length};
 
-/// Harmonic force and its Jacobian, column-major, and dissipated energy.
-#[inline(never)]
-pub fn harmonic(contact: &Contact, rule: Rule, samples: usize, displacement: &[f64]) -> (Vec<f64>, Vec<f64>, f64) {
-    let n = displacement.len();
-    let mut memory = vec![0.0; rule.workspace_length(n / 2, samples)];
-    rule.workspace_init(n / 2, samples, &mut memory).unwrap();
-    let (mut force, mut jacobian, mut dissipated) = (vec![0.0; n], vec![0.0; n * n], 0.0);
-    let output = HarmonicOutput {
+/// Force and Jacobian, column-major, and dissipated energy of a motion of n coefficients.
+pub fn outputs<E>(
+    n: usize,
+    compute: impl FnOnce(HarmonicOutput) -> Result<(), E>,
+) -> Result<(Vec<f64>, Vec<f64>, f64), E> {
+    let (mut force, mut jacobian, mut dissipated) = (vec![f64::NAN; n], vec![f64::NAN; n * n], f64::NAN);
+    compute(HarmonicOutput {
         force: Some(&mut force),
         jacobian: Some(&mut jacobian),
         dissipated: Some(&mut dissipated),
         drift: None,
-    };
-    harmonic_force(contact, &mut Workspace::new(&mut memory).unwrap(), displacement, output).unwrap();
-    (force, jacobian, dissipated)
+    })?;
+    Ok((force, jacobian, dissipated))
+}
+
+/// Those of a contact.
+#[inline(never)]
+pub fn harmonic(contact: &Contact, rule: Rule, samples: usize, displacement: &[f64]) -> (Vec<f64>, Vec<f64>, f64) {
+    let harmonics = displacement.len() / 2;
+    let mut memory = vec![0.0; rule.workspace_length(harmonics, samples)];
+    rule.workspace_init(harmonics, samples, &mut memory).unwrap();
+    let mut workspace = Workspace::new(&mut memory).unwrap();
+    outputs(displacement.len(), |output| harmonic_force(contact, &mut workspace, displacement, output)).unwrap()
 }
 
 /// Uniform random numbers: a linear congruential generator of 64 bits.

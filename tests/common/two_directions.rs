@@ -23,4 +23,16 @@ impl Contact<'_> {
     pub fn trial(&self, displacement: [f64; 3]) -> Step {
         self.clone().to(displacement)
     }
+
+    /// Dissipated energy of a path that is straight in the displacement and in S, in a number of steps.
+    pub fn along(&mut self, from: [f64; 3], to: [f64; 3], steps: usize) -> f64 {
+        let shifts = [from, to].map(|[_, _, load]| self.element.shift_under(load));
+        let at = |step: usize| {
+            let part = step as f64 / steps as f64;
+            let load = self.element.load_under(shifts[0] + part * (shifts[1] - shifts[0]));
+            [from[0] + part * (to[0] - from[0]), from[1] + part * (to[1] - from[1]), load]
+        };
+        let path: Vec<[f64; 3]> = (1..steps).map(at).chain([to]).collect();
+        path.into_iter().map(|place| self.to(place).dissipated).sum()
+    }
 }
