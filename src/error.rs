@@ -121,17 +121,3 @@ impl core::fmt::Display for Error {
 }
 
 impl core::error::Error for Error {}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn codes_ascend_and_each_has_a_message() {
-        assert!(Error::ALL.windows(2).all(|pair| pair[0].code() < pair[1].code()));
-        for error in Error::ALL {
-            assert!(!error.message().is_empty() && error.constant().starts_with("MSLIP_"));
-            assert_eq!(std::format!("{error}").as_bytes(), error.message().to_bytes());
-        }
-    }
-}

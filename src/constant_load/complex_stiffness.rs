@@ -335,31 +335,13 @@ impl Contact {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::constant_load::contact::tests::{FLATS, contact, ellipse};
-    use crate::parameters::{Material, Parameters};
 
     #[test]
     fn zero_amplitude_gives_the_initial_stiffness_and_its_derivatives() {
-        let titanium = Material { young_modulus: 1.14e11, poisson_ratio: 0.29 };
-        let contact = Contact::rounded_flat(&Parameters {
-            flat_half_width: 0.0,
-            edge_radius: 5e-3,
-            length: 3.67e-2,
-            normal_force: 2.26849e3,
-            friction_coefficient: 0.647,
-            material: [titanium; 2],
-            displacement_reference: crate::parameters::CENTRE_POINT,
-            ..Parameters::default()
-        })
-        .unwrap();
-        let initial = contact.complex_stiffness(0.0).unwrap();
-        assert_eq!((initial.real, initial.imaginary), (contact.initial_stiffness, 0.0));
-        // The reference values are at 1e-6 of the displacement of gross slip; the derivatives change by as much up to there.
-        assert!((initial.d_real / -5.786_302_156_963_336e12 - 1.0).abs() < 1e-6);
-        assert!((initial.d_imag / 2.455_783_688_472_798e12 - 1.0).abs() < 1e-6);
         for contact in FLATS.map(self::contact).into_iter().chain([ellipse(1e-4, 2e-4)]) {
             let initial = contact.complex_stiffness(0.0).unwrap();
+            assert_eq!((initial.real, initial.imaginary), (contact.initial_stiffness, 0.0));
             let amplitude = 1e-5 * contact.slip_displacement;
             let small = contact.complex_stiffness(amplitude).unwrap();
             // The next terms are 1e-5 of the derivatives; the difference of K' has the rounding error of K' itself.

@@ -159,31 +159,3 @@ impl CurvePoint<'_> {
         self.stick_zone().map_or(0.0, |zone| self.contact.half_width * self.contact.stick_zones().size(&zone))
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use crate::constant_load::contact::tests::{FLATS, contact};
-
-    #[test]
-    fn curve_ends_at_mu_n_with_a_kink_for_a_flat() {
-        for flat in FLATS.into_iter().chain([1e-80, 1e-250]) {
-            let contact = contact(flat);
-            let end = contact.curve_at_force(contact.slip_force).unwrap();
-            assert_eq!(end.displacement(), contact.slip_displacement);
-            let same = contact.curve_at_displacement(contact.slip_displacement).unwrap();
-            assert_eq!(same.stick_half_width(), end.stick_half_width());
-            assert_eq!(end.stick_half_width() == 0.0, flat == 0.0);
-            // The rounding errors of a quotient, a square root and a product.
-            assert!((end.stick_half_width() - flat).abs() <= 4e-16 * flat, "{flat} {}", end.stick_half_width());
-            assert_eq!(end.compliance().is_infinite(), flat == 0.0);
-            let half = 0.5 * contact.slip_displacement;
-            assert_eq!(contact.curve_at_displacement(-half).unwrap().displacement(), -half);
-            let beyond = contact.curve_at_displacement(-2.0 * contact.slip_displacement).unwrap();
-            assert_eq!((beyond.force(), beyond.stiffness()), (-contact.slip_force, 0.0));
-            assert_eq!((beyond.displacement(), beyond.stick_half_width()), (-contact.slip_displacement, 0.0));
-            for point in [end, beyond, contact.curve_at_displacement(-half).unwrap()] {
-                assert_eq!(point.force_and_stiffness(), (point.force(), point.stiffness()));
-            }
-        }
-    }
-}

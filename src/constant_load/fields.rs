@@ -86,18 +86,4 @@ mod tests {
             }
         }
     }
-
-    /// Tractions and slip in gross slip are those at its onset, at a force as at a displacement.
-    #[test]
-    fn tractions_are_constant_in_gross_slip() {
-        for contact in FLATS.map(contact) {
-            let at_force = contact.curve_at_force(-contact.slip_force).unwrap();
-            let beyond = contact.curve_at_displacement(-1.5 * contact.slip_displacement).unwrap();
-            for x in [0.0, 0.5, 0.95, 1.0, 1.1].map(|ratio| ratio * contact.half_width) {
-                assert_eq!(beyond.shear(x), at_force.shear(x));
-                assert_eq!(beyond.slip(x), at_force.slip(x));
-            }
-            assert!(beyond.shear(0.0) < 0.0 && beyond.stick_half_width() == 0.0);
-        }
-    }
 }

@@ -274,33 +274,8 @@ static MONIC_CHEBYSHEV: [[f64; ORDER]; ORDER - TERMS] = monic_powers(0.0, 1.0);
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::constant_load::contact::tests::{FLATS, parameters};
+    use crate::constant_load::contact::tests::parameters;
     use crate::shape::{Layer, Layered, Quantity, RoundedFlat, Shape};
-
-    #[test]
-    fn tables_are_the_laws_of_the_shape_to_rounding() {
-        for flat in FLATS {
-            let shape = RoundedFlat::new(&parameters(flat)).unwrap();
-            let largest = shape.value(Quantity::Shift, shape.at_load(150.0));
-            let mut table = Table::default();
-            let at = |x: f64| shape.size_at(Quantity::Shift, x);
-            let series = |x: f64| shape.series(at(x), Quantity::Shift)[0];
-            Table::fill([&mut table], largest, &mut |x| [series(x)]);
-            assert!(table.position(largest).is_some() && table.position(2.0 * largest).is_none());
-            assert!(table.position(largest * 0.25_f64.powi(11)).is_none() && table.position(0.0).is_none());
-            let mut x = largest;
-            while let Some(([load], [slope])) = table.at::<true, 1>(&[x]) {
-                let [exact, first, second, ..] = series(x);
-                // The shape's own laws and their inverse have relative errors of up to 4e-15.
-                assert!((load / exact - 1.0).abs() < 1e-14, "{flat} {x}");
-                // Derivatives of polynomials with errors of a few units in each coefficient, 9 and 81 half-lengths per x.
-                assert!((slope * x / first - 1.0).abs() < 1e-13, "{flat} {x}");
-                let [curvature, ..] = table.four_curvatures(&[x; 4], &mut Curvature::new()).unwrap();
-                assert!((curvature * x * x / (2.0 * second) - 1.0).abs() < 1e-10, "{flat} {x}");
-                x *= 0.97;
-            }
-        }
-    }
 
     /// The largest errors are at the lower end of a quarter, for flats with short edges. They are those that the guide states.
     #[test]
@@ -331,24 +306,6 @@ mod tests {
             }
             std::println!("N_c = {ratio} N: the normal force within {worst:.1e}, stated {stated:.1e}");
             assert!(worst < stated && worst > 0.5 * stated, "{ratio} {worst:e}");
-        }
-    }
-
-    #[test]
-    fn the_integral_starts_at_the_middle() {
-        // y = x³/8, a polynomial of low degree.
-        let mut cube = |x: f64| {
-            let y = x * x * x / 8.0;
-            let mut series = [0.0; ORDER];
-            series[..4].copy_from_slice(&[y, 3.0 * y, 3.0 * y, y]);
-            [series]
-        };
-        let mut table = Table::default();
-        Table::fill([&mut table], 1.9, &mut cube);
-        for x in [1.75, 1.8, 1.875, 1.99] {
-            let integral = table.integral_from_middle(table.position(x).unwrap());
-            let exact = (x.powi(4) - 1.875_f64.powi(4)) / 32.0;
-            assert!((integral - exact).abs() < 1e-15, "{x}");
         }
     }
 }

@@ -314,39 +314,6 @@ fn store_reversed(values: &mut [f64], first: Option<usize>, block: [f64; 4]) {
 mod tests {
     use super::*;
     use std::vec;
-    use std::vec::Vec;
-
-    #[test]
-    fn series_and_sums_are_those_of_the_definition() {
-        for samples in (3..40).chain([63, 64, 66, 100]) {
-            for harmonics in [1, 2, 3, 5, 9].into_iter().filter(|h| 2 * h < samples) {
-                let orders = 2 * harmonics;
-                let length = Parts::count(|parts| FoldedFourier::take(parts, samples, orders));
-                let mut memory = vec![f64::NAN; length];
-                let mut fourier = FoldedFourier::take(&mut Parts::of(&mut memory), samples, orders).unwrap();
-                fourier.fill();
-                let function = |c: usize, n: usize| {
-                    let angle = angle(c.div_ceil(2), n, samples);
-                    if c > 0 && c.is_multiple_of(2) { angle.sin() } else { angle.cos() }
-                };
-                let coefficients: Vec<f64> = (0..=2 * harmonics).map(|c| 1.0 / (c as f64 - 3.7)).collect();
-                let mut values = vec![f64::NAN; sample_length(samples)];
-                fourier.synthesise(&coefficients, &mut values);
-                for (n, value) in values.iter().enumerate() {
-                    let exact: f64 = (0..).zip(&coefficients).map(|(c, a)| a * function(c, n % samples)).sum();
-                    assert!((value - exact).abs() < 1e-14, "{samples} {harmonics} {n}: {value} {exact}");
-                }
-                for last in [2 * harmonics, 2 * orders] {
-                    let mut sums = vec![f64::NAN; last + 1];
-                    fourier.sum(&mut values, &mut sums);
-                    for (c, sum) in sums.iter().enumerate() {
-                        let exact: f64 = (0..samples).map(|n| values[n] * function(c, n)).sum();
-                        assert!((sum - exact).abs() < 1e-13, "{samples} {harmonics} {c}: {sum} {exact}");
-                    }
-                }
-            }
-        }
-    }
 
     #[test]
     fn samples_of_odd_orders_are_exactly_half_wave_symmetric() {

@@ -107,15 +107,6 @@ mod tests {
     use super::*;
 
     #[test]
-    fn four_places_have_the_bits_of_one() {
-        let coefficients: Rows<5> = rows(&core::array::from_fn::<f64, 20, _>(|n| (1.0 + n as f64).recip() - 0.3));
-        let x = [-0.9, 0.1, 0.57, 1.0];
-        let (values, slopes) = four_values_and_slopes::<5, true>(&coefficients, &x);
-        assert_eq!(x.map(|x| value_and_slope(&coefficients, x)), core::array::from_fn(|k| (values[k], slopes[k])));
-        assert_eq!(four_values_and_slopes::<5, false>(&coefficients, &x), (values, [0.0; 4]));
-    }
-
-    #[test]
     fn the_rows_of_a_geometric_series_are_enough_up_to_each_bound() {
         for x in [1.0 / 16.0, 0.25, 1.0 / 3.0] {
             let used = rows_for(x, 20);

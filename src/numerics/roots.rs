@@ -26,27 +26,3 @@ pub(crate) fn bracketed_newton(low: f64, high: f64, start: f64, evaluate: impl F
     }
     at
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn simple_roots_are_found_from_any_start() {
-        for exact in [0.1, 0.5, 1.9] {
-            for start in [0.0, 0.3, 1.0, 2.0] {
-                // The slope of atan is small away from the root: pure Newton iteration diverges.
-                let f = |t: f64| ((50.0 * (t - exact)).atan(), 50.0 / (1.0 + (50.0 * (t - exact)).powi(2)));
-                let root = bracketed_newton(0.0, 2.0, start, f);
-                assert!((root - exact).abs() < 1e-15, "{exact} {start} {root}");
-            }
-        }
-    }
-
-    #[test]
-    fn a_triple_root_and_a_root_at_the_end_of_the_bracket_are_found() {
-        let triple = bracketed_newton(-1.0, 2.0, 1.5, |t| (t * t * t, 3.0 * t * t));
-        assert!(triple.abs() < 1e-8, "{triple}");
-        assert_eq!(bracketed_newton(0.0, 1.0, 0.2, |t| (t - 1.0, 1.0)), 1.0);
-    }
-}

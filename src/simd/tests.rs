@@ -1,7 +1,8 @@
 //! All calls that dispatch give the same bits on the vectors of this processor and on those of the baseline.
 
 use crate::constant_load::contact::tests::{FLATS, contact, ellipse};
-use crate::constant_load::harmonic_force::{HarmonicOutput, Rule, Workspace, harmonic_force, harmonic_sensitivity};
+use crate::constant_load::harmonic_force::tests::{compute, workspace};
+use crate::constant_load::harmonic_force::{HarmonicOutput, Rule, Workspace, harmonic_sensitivity};
 use crate::constant_load::masing;
 use crate::constant_load::state::{state_init, state_length};
 use crate::constant_load::stiffness_table::StiffnessTable;
@@ -110,20 +111,12 @@ fn the_harmonic_force() {
             }
             for rule in [Rule::UniformSampling, Rule::EventDriven] {
                 compare(&std::format!("{harmonics} {samples} {rule:?}"), || {
-                    let mut memory = vec![0.0; rule.workspace_length(harmonics, samples)];
-                    rule.workspace_init(harmonics, samples, &mut memory).unwrap();
-                    let mut workspace = Workspace::new(&mut memory).unwrap();
-                    let (mut force, mut jacobian, mut dissipated) = (vec![0.0; n], vec![0.0; n * n], [0.0]);
-                    let output = HarmonicOutput {
-                        force: Some(&mut force),
-                        jacobian: Some(&mut jacobian),
-                        dissipated: dissipated.first_mut(),
-                        drift: None,
-                    };
-                    harmonic_force(&contact, &mut workspace, &displacement, output).unwrap();
+                    let mut memory = workspace(rule, harmonics, samples);
+                    let (force, jacobian, dissipated) = compute(&contact, &mut memory, &displacement);
                     let mut sensitivity = vec![0.0; crate::PARAMETERS * n];
+                    let mut workspace = Workspace::new(&mut memory).unwrap();
                     harmonic_sensitivity(&contact, &mut workspace, &displacement, &mut sensitivity).unwrap();
-                    [force, jacobian, dissipated.to_vec(), sensitivity].concat()
+                    [force, jacobian, vec![dissipated], sensitivity].concat()
                 });
             }
         }

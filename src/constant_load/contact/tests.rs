@@ -1,5 +1,5 @@
 use super::*;
-use crate::parameters::{Layer, Material, Pair};
+use crate::parameters::{Layer, Material};
 
 pub(crate) const TITANIUM: Material = Material { young_modulus: 114e9, poisson_ratio: 0.32 };
 
@@ -44,19 +44,6 @@ pub(crate) fn layered(share: f64, ratio: f64) -> std::vec::Vec<Contact> {
     std::vec![flat(0.0), flat(50e-6), flat(5e-3), Contact::elliptic(&ellipse).unwrap()]
 }
 
-/// A cylinder with a ratio 2L/b of `slenderness`.
-pub(crate) fn cylinder(slenderness: f64, poisson_ratio: f64, reference: i32) -> Result<Contact, Error> {
-    let body = Material { young_modulus: 2e11, poisson_ratio };
-    let half_width = 2.0 * 0.01 / slenderness;
-    let modulus = Pair::new(&[body; 2]).composite_modulus;
-    Contact::rounded_flat(&Parameters {
-        normal_force: PI * modulus * 0.01 * half_width * half_width / (4.0 * 5e-3),
-        material: [body; 2],
-        displacement_reference: reference,
-        ..parameters(0.0)
-    })
-}
-
 pub(crate) fn ellipse(semi_axis_x: f64, semi_axis_y: f64) -> Contact {
     Contact::elliptic(&EllipticParameters {
         semi_axis_x,
@@ -78,17 +65,14 @@ fn negative_zero_is_zero() {
 /// Products in range whose factors are not: no intermediate overflow, and no contact of NaNs.
 #[test]
 fn factors_out_of_range_are_rejected() {
-    let body = Material { young_modulus: 5.5e85, poisson_ratio: 0.486 };
     let extreme = Parameters {
-        flat_half_width: 0.0,
         edge_radius: 2.78e236,
         length: 4.8e-95,
         normal_force: 1.03e-171,
         friction_coefficient: 5.3e116,
-        material: [body; 2],
+        material: [Material { young_modulus: 5.5e85, poisson_ratio: 0.486 }; 2],
         displacement_reference: 1,
-        layer: Layer::none(),
-        reserved: 0,
+        ..parameters(0.0)
     };
     assert_eq!(Contact::rounded_flat(&extreme).map(|_| ()), Err(Error::OutOfRange));
 }

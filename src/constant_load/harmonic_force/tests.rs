@@ -10,16 +10,16 @@ pub(super) fn scaled(contact: &Contact, shape: &[f64], size: f64) -> Vec<f64> {
     shape.iter().map(|c| c * size * contact.slip_displacement).collect()
 }
 
-pub(super) fn workspace(rule: Rule, harmonics: usize, samples: usize) -> Vec<f64> {
+pub(crate) fn workspace(rule: Rule, harmonics: usize, samples: usize) -> Vec<f64> {
     let mut memory = vec![0.0; rule.workspace_length(harmonics, samples)];
     rule.workspace_init(harmonics, samples, &mut memory).unwrap();
     memory
 }
 
 /// Force, Jacobian and energy.
-pub(super) type All = (Vec<f64>, Vec<f64>, f64);
+pub(crate) type All = (Vec<f64>, Vec<f64>, f64);
 
-pub(super) fn compute(contact: &Contact, memory: &mut [f64], displacement: &[f64]) -> All {
+pub(crate) fn compute(contact: &Contact, memory: &mut [f64], displacement: &[f64]) -> All {
     let n = displacement.len();
     let (mut force, mut jacobian, mut energy) = (vec![f64::NAN; n], vec![f64::NAN; n * n], f64::NAN);
     let output = HarmonicOutput {

@@ -1,45 +1,4 @@
 use super::*;
-use crate::constant_load::contact::tests::{FLATS, TITANIUM, parameters};
-use crate::parameters::EllipticParameters;
-use crate::shape::{HertzEllipse, RoundedFlat};
-use std::vec::Vec;
-
-/// Compliances in units of those of the contact, and N_c in units of the normal force: linear, hardly and strongly stiffening, and in
-/// one direction only.
-const LAYERS: [[f64; 3]; 5] =
-    [[0.3, 0.3, 0.0], [3.0, 2.0, f64::INFINITY], [1.0, 1.0, 0.3], [0.0, 3.0, 1e-3], [100.0, 30.0, 0.01]];
-
-/// A layer of the parameters with compliances in units of those of a shape under a load of 150 N.
-fn layer_of(shape: &dyn Shape, [normal, tangential, ratio]: [f64; 3]) -> parameters::Layer {
-    let w = shape.at_load(150.0);
-    parameters::Layer {
-        normal_compliance: normal * shape.compliance(Quantity::Approach, w),
-        tangential_compliance: tangential * shape.compliance(Quantity::Shift, w),
-        stiffening_load: ratio * 150.0,
-        reference_load: 0.0,
-    }
-}
-
-fn with_layers<S: Shape + Copy + 'static>(shape: S) -> impl Iterator<Item = std::boxed::Box<dyn Shape>> {
-    LAYERS.into_iter().chain([[0.0; 3]]).map(move |layer| {
-        let layer = Layer::new(&layer_of(&shape, layer), 150.0).unwrap().0;
-        std::boxed::Box::new(Layered { shape, layer }) as std::boxed::Box<dyn Shape>
-    })
-}
-
-/// The shapes of all kinds, each with all layers.
-fn shapes() -> Vec<std::boxed::Box<dyn Shape>> {
-    let ellipse = EllipticParameters {
-        semi_axis_x: 1e-4,
-        semi_axis_y: 2e-4,
-        normal_force: 150.0,
-        friction_coefficient: 0.4,
-        material: [TITANIUM; 2],
-        ..EllipticParameters::default()
-    };
-    let flats = FLATS.into_iter().map(|flat| RoundedFlat::new(&parameters(flat)).unwrap());
-    flats.flat_map(with_layers).chain(with_layers(HertzEllipse::new(&ellipse).unwrap())).collect()
-}
 
 /// The logarithms and their series for a small argument, on both sides of the place where one takes over.
 #[test]
@@ -51,25 +10,6 @@ fn logarithms_join_their_series() {
     };
     joins(&|load| layer.extent(load) / load);
     joins(&|extent| layer.load_of_extent(extent) / extent);
-}
-
-/// A ninth of the argument beside the middle, as in the tables.
-#[test]
-fn series_are_the_functions() {
-    for shape in shapes() {
-        for load in [1e-3, 0.1, 1.0, 30.0, 150.0] {
-            let sizes = [load, 1.05 * load].map(|load| shape.at_load(load));
-            for argument in Quantity::ALL {
-                let [x, other] = sizes.map(|w| shape.value(argument, w));
-                for (quantity, series) in Quantity::ALL.into_iter().zip(shape.series(sizes[0], argument)) {
-                    let sum = series.iter().rev().fold(0.0, |sum, term| sum * (other / x - 1.0) + term);
-                    let error = sum / shape.value(quantity, sizes[1]) - 1.0;
-                    // The argument has rounding errors, of which one enters with the power of a nearly flat contact.
-                    assert!(error.abs() < 1e-14, "{load} {quantity:?} of {argument:?}: {error}");
-                }
-            }
-        }
-    }
 }
 
 #[test]

@@ -143,28 +143,3 @@ impl History {
         sums
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Displacements, the direction of gross slip before them, and those that are not wiped out.
-    #[test]
-    fn return_point_memory() {
-        for (history, slip_direction, kept) in [
-            (&[0.0][..], 0.0, &[0.0][..]),
-            (&[0.0, 2.0, -1.0, 1.0], 0.0, &[2.0, -1.0, 1.0]),
-            (&[0.0, 2.0, -1.0, 1.0, -1.0], 0.0, &[2.0, -1.0]),
-            (&[0.0, 2.0, -1.0, 1.0, 2.0], 0.0, &[2.0]),
-            (&[0.0, 2.0, -1.0, -2.0], 0.0, &[-2.0]),
-            (&[0.0, 2.0, -2.5, 1.0, 3.0, 0.0], 0.0, &[3.0, 0.0]),
-            (&[0.0, 2.0, -1.5, 1.0, -1.0, 0.5, -0.75], 0.0, &[2.0, -1.5, 1.0, -1.0, 0.5, -0.75]),
-            (&[0.0, 2.0, -1.5, 1.0, -1.0, 0.5, -0.75, 1.0], 0.0, &[2.0, -1.5, 1.0]),
-            (&[1.0, -1.5, 0.5], 1.0, &[1.0, -1.5, 0.5]),
-            (&[-1.0, 1.5, 0.5], -1.0, &[-1.0, 1.5, 0.5]),
-        ] {
-            let found: Vec<f64> = reversals(history, slip_direction).iter().map(|i| history[*i]).collect();
-            assert_eq!(found, kept, "{history:?}");
-        }
-    }
-}
