@@ -18,3 +18,6 @@ pub(crate) mod sensitivity;
 pub mod state;
 pub(crate) mod steady_state;
 pub(crate) mod stiffness_table;
+
+/// The law of contacts under a constant normal force.
+pub(crate) struct ConstantLoad;

@@ -1,6 +1,6 @@
-//! What the laws of elements have in common: results of steps and of load histories, and the trait by which the interface calls them.
+//! What all laws have in common: results of steps and of load histories, and the traits by which the interface calls them.
 
-use crate::element::{Directions, Element};
+use crate::element::Element;
 use crate::error::Error;
 use crate::fourier::HarmonicOutput;
 use crate::fourier::workspace::Layout;
@@ -40,40 +40,44 @@ pub(crate) struct PathOutput<'a, V, T> {
 }
 
 /// Result of a step of a law.
-type StepOf<L> = StepResult<<L as ElementLaw>::Vector, <L as ElementLaw>::Tangent>;
+type StepOf<L> = StepResult<<L as Law>::Vector, <L as Law>::Tangent>;
 
-/// The law of elements with a number of tangential directions.
-pub(crate) trait ElementLaw: Sized {
+/// A law that advances the state of a contact, or of an element with a number of directions.
+pub(crate) trait Law: Sized {
+    /// A contact or an element.
+    type Item: Copy;
     /// A displacement; a force has as many components.
     type Vector: Copy;
     /// Derivative of the force by the displacement, column-major.
     type Tangent: Copy;
-    /// An opened workspace of the harmonic force.
-    type Workspace<'a>: Layout<'a>;
 
-    const DIRECTIONS: Directions;
-    /// Components of a displacement.
-    const COMPONENTS: usize;
     /// The least length of a state.
     const STATE_LENGTH: usize;
+    /// Tag of the state of a new contact, open or unloaded, whose other values are 0.
+    const NEW_STATE: f64;
     /// Kind of the tag of a state for the other number of directions.
-    const OTHER_STATE: Kind;
+    const OTHER_STATE: Option<Kind> = None;
 
-    fn state_init(state: &mut [f64]) -> Result<(), Error>;
-    fn state_check(state: &[f64]) -> Result<(), Error>;
+    /// Checks that a contact or an element is initialised, and belongs to this law.
+    fn check(item: &Self::Item) -> Result<(), Error>;
+    /// Rejects a tag that no state of that length has.
     fn check_tag(tag: f64, state_length: usize) -> Result<(), Error>;
+    fn check_step(item: &Self::Item, displacement: &Self::Vector) -> Result<(), Error>;
+
+    /// Validates a state in full: for states from outside the process.
+    fn state_check(state: &[f64]) -> Result<(), Error>;
+    /// A bound on the error of the force \[N\] in a state whose header was checked.
     fn force_error(state: &[f64]) -> f64;
     /// Copies what is in use of a state whose header was checked to one of the same length.
     fn copy_used(from: &[f64], to: &mut [f64]);
 
-    fn check_step(element: &Element, displacement: &Self::Vector) -> Result<(), Error>;
     /// A step with checked arguments whose new state is discarded.
-    fn trial(element: &Element, old: &[f64], displacement: Self::Vector, requested: Requested) -> StepOf<Self>;
+    fn trial(item: &Self::Item, old: &[f64], displacement: Self::Vector, requested: Requested) -> StepOf<Self>;
     /// The same in place.
-    fn advance(element: &Element, state: &mut [f64], displacement: Self::Vector, requested: Requested) -> StepOf<Self>;
+    fn advance(item: &Self::Item, state: &mut [f64], displacement: Self::Vector, requested: Requested) -> StepOf<Self>;
     /// Steps in place along a path, with a state and displacements that were checked.
     fn path(
-        element: &Element,
+        item: &Self::Item,
         state: &mut [f64],
         path: &[Self::Vector],
         output: PathOutput<Self::Vector, Self::Tangent>,
@@ -84,7 +88,7 @@ pub(crate) trait ElementLaw: Sized {
         let mut tangents = tangent.unwrap_or(&mut []).iter_mut();
         let mut energies = dissipated.unwrap_or(&mut []).iter_mut();
         for displacement in path {
-            let step = Self::advance(element, state, *displacement, requested);
+            let step = Self::advance(item, state, *displacement, requested);
             forces.next().into_iter().for_each(|force| *force = step.force);
             tangents.next().into_iter().for_each(|tangent| *tangent = step.tangent);
             energies.next().into_iter().for_each(|energy| *energy = step.dissipated);
@@ -92,19 +96,21 @@ pub(crate) trait ElementLaw: Sized {
     }
     /// Steps along a path, both checked, in a copy of the state.
     fn path_in_copy(
-        element: &Element,
+        item: &Self::Item,
         state: &[f64],
         path: &[Self::Vector],
         output: PathOutput<Self::Vector, Self::Tangent>,
     );
 
-    fn check_motion(workspace: &mut Self::Workspace<'_>, element: &Element, motion: &[f64]) -> Result<(), Error>;
-    fn harmonic_force(
-        element: &Element,
-        workspace: &mut Self::Workspace<'_>,
-        motion: &[f64],
-        output: HarmonicOutput,
-    ) -> Result<(), Error>;
+    /// Errors: `StateTooShort` for fewer than [`Law::STATE_LENGTH`] doubles.
+    fn state_init(state: &mut [f64]) -> Result<(), Error> {
+        if state.len() < Self::STATE_LENGTH {
+            return Err(Error::StateTooShort);
+        }
+        state.fill(0.0);
+        state.first_mut().into_iter().for_each(|tag| *tag = Self::NEW_STATE);
+        Ok(())
+    }
 
     /// Checks length and tag of a state; that of the other number of directions is distinguished.
     #[inline(always)]
@@ -113,7 +119,9 @@ pub(crate) trait ElementLaw: Sized {
         let checked = if is_short { Err(Error::StateTooShort) } else { Self::check_tag(tag, state_length) };
         checked.map_err(
             #[cold]
-            |error| if Self::OTHER_STATE.count(tag).is_some() { Error::BadDirections } else { error },
+            |error| {
+                if Self::OTHER_STATE.is_some_and(|o| o.count(tag).is_some()) { Error::BadDirections } else { error }
+            },
         )
     }
 
@@ -121,4 +129,21 @@ pub(crate) trait ElementLaw: Sized {
     fn check_header(state: &[f64]) -> Result<(), Error> {
         Self::check_state(state.first().copied().unwrap_or(0.0), state.len())
     }
+}
+
+/// The law of elements with a number of tangential directions.
+pub(crate) trait ElementLaw: Law<Item = Element> {
+    /// An opened workspace of the harmonic force.
+    type Workspace<'a>: Layout<'a>;
+
+    /// Components of a displacement.
+    const COMPONENTS: usize;
+
+    fn check_motion(workspace: &mut Self::Workspace<'_>, element: &Element, motion: &[f64]) -> Result<(), Error>;
+    fn harmonic_force(
+        element: &Element,
+        workspace: &mut Self::Workspace<'_>,
+        motion: &[f64],
+        output: HarmonicOutput,
+    ) -> Result<(), Error>;
 }

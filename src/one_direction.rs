@@ -20,72 +20,22 @@ mod energy;
 pub(crate) mod state;
 mod step;
 
-use crate::element::{Directions, Element};
+use crate::element::Element;
 use crate::error::Error;
-use crate::law::{self, ElementLaw, PathOutput, Requested};
-use crate::limits::check_displacement;
-use crate::tag::Kind;
+use crate::law::{ElementLaw, Law, Requested, StepResult};
 
-pub use state::{force_error, state_check, state_init, state_length};
+pub use state::state_length;
 
 /// Result of a step: forces `[T, N]`, tangent `[∂T/∂u, ∂N/∂u, ∂T/∂w, ∂N/∂w]` (column-major) and dissipated energy.
-pub type Step = law::StepResult<[f64; 2], [f64; 4]>;
+pub type Step = StepResult<[f64; 2], [f64; 4]>;
 
 /// The law of elements with one tangential direction.
 pub(crate) struct OneDirection;
 
 impl ElementLaw for OneDirection {
-    type Vector = [f64; 2];
-    type Tangent = [f64; 4];
     type Workspace<'a> = harmonic_force::Workspace<'a>;
 
-    const DIRECTIONS: Directions = Directions::One;
     const COMPONENTS: usize = 2;
-    const STATE_LENGTH: usize = state::state_length(0);
-    const OTHER_STATE: Kind = Kind::TwoDirectionsState;
-
-    fn state_init(state: &mut [f64]) -> Result<(), Error> {
-        state::state_init(state)
-    }
-
-    fn state_check(state: &[f64]) -> Result<(), Error> {
-        state::state_check(state)
-    }
-
-    #[inline(always)]
-    fn check_tag(tag: f64, state_length: usize) -> Result<(), Error> {
-        state::check_tag(tag, state_length)
-    }
-
-    fn force_error(state: &[f64]) -> f64 {
-        state::force_error(state)
-    }
-
-    #[inline(always)]
-    fn copy_used(from: &[f64], to: &mut [f64]) {
-        state::copy_used(from, to);
-    }
-
-    #[inline(always)]
-    fn check_step(element: &Element, &[displacement, input]: &[f64; 2]) -> Result<(), Error> {
-        check_displacement(displacement)?;
-        element.check_input(input)
-    }
-
-    #[inline(always)]
-    fn trial(element: &Element, old: &[f64], displacement: [f64; 2], requested: Requested) -> Step {
-        state::trial(element, old, displacement, requested.energy)
-    }
-
-    #[inline(always)]
-    fn advance(element: &Element, state: &mut [f64], displacement: [f64; 2], requested: Requested) -> Step {
-        state::advance_checked(element, state, displacement, requested.energy)
-    }
-
-    fn path_in_copy(element: &Element, state: &[f64], path: &[[f64; 2]], output: PathOutput<[f64; 2], [f64; 4]>) {
-        let mut buffer = [0.0; state::COPY_LENGTH];
-        Self::path(element, state::copy_of(element, state, &mut buffer), path, output);
-    }
 
     fn check_motion(workspace: &mut Self::Workspace<'_>, element: &Element, motion: &[f64]) -> Result<(), Error> {
         workspace.check(element, motion)
@@ -99,6 +49,24 @@ impl ElementLaw for OneDirection {
     ) -> Result<(), Error> {
         harmonic_force::harmonic_force(element, workspace, motion, output)
     }
+}
+
+/// Initialises a state: open, at displacement 0 and normal component 0.
+/// Errors: `StateTooShort` for fewer than [`state_length`]`(0)` doubles.
+pub fn state_init(state: &mut [f64]) -> Result<(), Error> {
+    OneDirection::state_init(state)
+}
+
+/// Validates a state in full: finite values, a monotone polygon from the centre to the present point. For states from outside the
+/// process.
+/// Errors: `StateTooShort`; `BadState` for an array that was not initialised, or whose values no history leads to.
+pub fn state_check(state: &[f64]) -> Result<(), Error> {
+    OneDirection::state_check(state)
+}
+
+/// A bound on the error of the force \[N\] from merging pieces; 0 while nothing was merged.
+pub fn force_error(state: &[f64]) -> f64 {
+    OneDirection::force_error(state)
 }
 
 /// A step in place.

@@ -26,7 +26,7 @@ mod trial;
 
 use crate::element::{Directions, Element};
 use crate::error::Error;
-use crate::law::{self, ElementLaw, PathOutput, Requested};
+use crate::law::{self, ElementLaw, Law, PathOutput, Requested};
 use crate::limits::check_displacement;
 use crate::tag::Kind;
 
@@ -38,27 +38,34 @@ pub type Step = law::StepResult<[f64; 3], [f64; 9]>;
 /// The law of elements with two tangential directions.
 pub(crate) struct TwoDirections;
 
-impl ElementLaw for TwoDirections {
+impl Law for TwoDirections {
+    type Item = Element;
     type Vector = [f64; 3];
     type Tangent = [f64; 9];
-    type Workspace<'a> = harmonic_force::Workspace<'a>;
 
-    const DIRECTIONS: Directions = Directions::Two;
-    const COMPONENTS: usize = 3;
     const STATE_LENGTH: usize = state_length();
-    const OTHER_STATE: Kind = Kind::ElementState;
+    const NEW_STATE: f64 = Kind::TwoDirectionsState.tag(0);
+    const OTHER_STATE: Option<Kind> = Some(Kind::ElementState);
 
-    fn state_init(state: &mut [f64]) -> Result<(), Error> {
-        state_init(state)
-    }
-
-    fn state_check(state: &[f64]) -> Result<(), Error> {
-        state_check(state)
+    #[inline(always)]
+    fn check(element: &Element) -> Result<(), Error> {
+        element.check_directions(Directions::Two)
     }
 
     #[inline(always)]
     fn check_tag(tag: f64, _state_length: usize) -> Result<(), Error> {
         state::check_tag(tag)
+    }
+
+    #[inline(always)]
+    fn check_step(element: &Element, &[u, v, input]: &[f64; 3]) -> Result<(), Error> {
+        check_displacement(u)?;
+        check_displacement(v)?;
+        element.check_input(input)
+    }
+
+    fn state_check(state: &[f64]) -> Result<(), Error> {
+        state_check(state)
     }
 
     fn force_error(_: &[f64]) -> f64 {
@@ -68,13 +75,6 @@ impl ElementLaw for TwoDirections {
     #[inline(always)]
     fn copy_used(from: &[f64], to: &mut [f64]) {
         state::copy_used(from, to);
-    }
-
-    #[inline(always)]
-    fn check_step(element: &Element, &[u, v, input]: &[f64; 3]) -> Result<(), Error> {
-        check_displacement(u)?;
-        check_displacement(v)?;
-        element.check_input(input)
     }
 
     #[inline(always)]
@@ -93,6 +93,12 @@ impl ElementLaw for TwoDirections {
         state::copy_used(state, &mut copy);
         Self::path(element, &mut copy, path, output);
     }
+}
+
+impl ElementLaw for TwoDirections {
+    type Workspace<'a> = harmonic_force::Workspace<'a>;
+
+    const COMPONENTS: usize = 3;
 
     fn check_motion(workspace: &mut Self::Workspace<'_>, element: &Element, motion: &[f64]) -> Result<(), Error> {
         workspace.check(element, motion)

@@ -9,7 +9,7 @@ use crate::table::{ColumnSpec, InputTable, Table, read_columns};
 use crate::units::Quantity::{self, Energy, Force, Length, Number, Pressure, Stiffness, StiffnessSlope};
 use crate::varying_load;
 use microslip::constant_load::equivalents::{SpringSlider, iwan, jenkins};
-use microslip::constant_load::masing::{check_step, dissipated, step};
+use microslip::constant_load::masing::advance;
 use microslip::constant_load::state::{state_init, state_length};
 use microslip::element::NormalInput;
 use microslip::{Contact, CurvePoint, Error};
@@ -387,17 +387,16 @@ fn constant_load_history(options: &History, spec: &ContactSpec, table: &InputTab
     let mut total = 0.0;
     for row in &table.rows {
         let displacement = row.values[0] * if options.relative { contact.slip_displacement } else { 1.0 };
-        check_step(&state, displacement)
+        let mut divided = state.clone();
+        let step = advance(contact, &mut state, displacement)
             .map_err(|error| CliError::in_file(path, format!("{}: {error}", table.place(row, 0))))?;
-        points.extend((1..parts).map(|part| {
+        points.extend((1..parts).filter_map(|part| {
             let between = from + (displacement - from) * f64::from(part) / f64::from(parts);
-            (between, step(contact, &state, between).force())
+            Some((between, advance(contact, &mut divided, between).ok()?.force))
         }));
-        let (step, dissipated) = (step(contact, &state, displacement), dissipated(contact, &state, displacement));
-        points.push((displacement, step.force()));
-        total += dissipated;
-        rows.push(vec![displacement, step.force(), step.stiffness(), dissipated, total]);
-        step.write(&mut state);
+        points.push((displacement, step.force));
+        total += step.dissipated;
+        rows.push(vec![displacement, step.force, step.tangent, step.dissipated, total]);
         from = displacement;
     }
     let columns = [("displacement", Length), ("force", Force), ("stiffness", Stiffness)];

@@ -176,10 +176,10 @@ impl Contact {
         Ok(())
     }
 
-    /// Whether this memory was initialised by a library of this version.
+    /// Errors: `BadContact` unless this memory was initialised by a library of this version.
     #[inline(always)]
-    pub(crate) fn is_initialised(&self) -> bool {
-        self.tag == TAG
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        if self.tag == TAG { Ok(()) } else { Err(Error::BadContact) }
     }
 
     pub(crate) fn is_ellipse(&self) -> bool {

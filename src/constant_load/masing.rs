@@ -2,14 +2,17 @@
 //!
 //! A branch that leaves a reversal is the monotonic curve twice as large, `|δ-δ_r| = 2 M(|T-T_r|/2)`, measured from its reversal.
 
+use crate::constant_load::ConstantLoad;
 use crate::constant_load::contact::Contact;
 use crate::constant_load::energy::Dissipation;
 use crate::constant_load::evaluator::{BEYOND, CurveEvaluator, Response};
-use crate::constant_load::memory::{Branch, InitialCurve, Merge, Point, Transition};
+use crate::constant_load::memory::{Branch, InitialCurve, Merge, Point, Transition, force_error};
 use crate::constant_load::state;
 use crate::error::Error;
+use crate::law::{Law, PathOutput, Requested, StepResult};
 use crate::limits::check_displacement;
 use crate::simd::dispatch;
+use crate::tag::Kind;
 
 /// Evaluates force and stiffness on a branch without gross slip.
 #[derive(Debug, Clone, Copy)]
@@ -100,9 +103,17 @@ impl BranchEvaluator<'_> {
     }
 }
 
-/// A step from a state to a displacement: what it leads to, before anything is written.
-#[derive(Debug, Clone, Copy)]
-pub struct StepRecord {
+/// A step in place to a displacement \[m\]: force \[N\], tangent stiffness \[N/m\] on the branch on which it ends, 0 in gross slip, and
+/// dissipated energy \[J\], not negative.
+/// Errors: `BadState`, `StateTooShort`, `BadDisplacement`.
+pub fn advance(contact: &Contact, state: &mut [f64], displacement: f64) -> Result<Step, Error> {
+    ConstantLoad::check_header(state)?;
+    check_displacement(displacement)?;
+    Ok(ConstantLoad::advance(contact, state, displacement, Requested { tangent: true, energy: true }))
+}
+
+/// A step that does not continue its branch, before anything is written.
+struct StepRecord {
     /// Number of reversals on the stack after it.
     depth: usize,
     /// Whether the newest of them is the point at which it starts.
@@ -115,14 +126,6 @@ pub struct StepRecord {
     stiffness: f64,
 }
 
-/// Checks the inputs of a step.
-/// Errors: `BadState`, `StateTooShort`, `BadDisplacement`.
-#[inline(always)]
-pub fn check_step(state: &[f64], displacement: f64) -> Result<(), Error> {
-    state::check_header(state)?;
-    check_displacement(displacement)
-}
-
 /// Force and stiffness after a step that only advances the present point: it continues the branch, does not reach its end, and needs
 /// no iteration. `None` for every other step. State and displacement are checked.
 #[inline(always)]
@@ -133,8 +136,8 @@ pub(crate) fn continued(contact: &Contact, state: &[f64], displacement: f64) -> 
 }
 
 /// Finds the step of a contact from a state to a displacement \[m\], both checked.
-#[inline(always)]
-pub fn step(contact: &Contact, state: &[f64], displacement: f64) -> StepRecord {
+#[inline(never)]
+fn step(contact: &Contact, state: &[f64], displacement: f64) -> StepRecord {
     let memory = state::memory(state);
     let Transition { branch, reversed } = memory.locate(contact, displacement, |_| {});
     let Response { force, stiffness } = branch.response(contact, displacement);
@@ -149,9 +152,9 @@ pub fn step(contact: &Contact, state: &[f64], displacement: f64) -> StepRecord {
     StepRecord { depth: branch.depth, reversed, merge, initial, start, end, stiffness }
 }
 
-/// The energy \[J\] that a step dissipates, not negative.
+/// The energy \[J\] that a step dissipates.
 #[inline(never)]
-pub fn dissipated(contact: &Contact, state: &[f64], displacement: f64) -> f64 {
+fn dissipated(contact: &Contact, state: &[f64], displacement: f64) -> f64 {
     let memory = state::memory(state);
     if displacement == memory.now.displacement {
         return 0.0;
@@ -162,21 +165,14 @@ pub fn dissipated(contact: &Contact, state: &[f64], displacement: f64) -> f64 {
 }
 
 impl StepRecord {
-    /// Tangential force \[N\] after the step.
     #[inline(always)]
-    pub fn force(&self) -> f64 {
-        self.end.force
-    }
-
-    /// dT/d(displacement) \[N/m\] on the branch on which the step ends; 0 in gross slip.
-    #[inline(always)]
-    pub fn stiffness(&self) -> f64 {
-        self.stiffness
+    fn result(&self, dissipated: f64) -> Step {
+        Step { force: self.end.force, tangent: self.stiffness, dissipated }
     }
 
     /// Writes the step into the state from which it was found, or into a copy of that.
     #[inline(always)]
-    pub fn write(&self, state: &mut [f64]) {
+    fn write(&self, state: &mut [f64]) {
         let mut depth = self.depth;
         if self.reversed {
             let reversals = state::reversals_mut(state);
@@ -191,34 +187,86 @@ impl StepRecord {
     }
 }
 
-/// Force \[N\], tangent stiffness \[N/m\] and dissipated energy \[J\] of each step of a path; `None` is not computed.
-pub type PathOutput<'a> = [Option<&'a mut [f64]>; 3];
+impl Law for ConstantLoad {
+    type Item = Contact;
+    type Vector = f64;
+    type Tangent = f64;
 
-/// Advances a state along a path of displacements \[m\], both checked.
-#[inline(never)]
-pub fn path(contact: &Contact, state: &mut [f64], path: &[f64], output: PathOutput) {
-    let [mut forces, mut stiffnesses, mut energies] = output.map(|output| output.unwrap_or(&mut []).iter_mut());
-    for &displacement in path {
-        energies.next().into_iter().for_each(|energy| *energy = dissipated(contact, state, displacement));
+    const STATE_LENGTH: usize = state::state_length(0);
+    const NEW_STATE: f64 = Kind::State.tag(0);
+
+    #[inline(always)]
+    fn check(contact: &Contact) -> Result<(), Error> {
+        contact.check()
+    }
+
+    #[inline(always)]
+    fn check_tag(tag: f64, state_length: usize) -> Result<(), Error> {
+        state::check_tag(tag, state_length)
+    }
+
+    #[inline(always)]
+    fn check_step(_: &Contact, displacement: &f64) -> Result<(), Error> {
+        check_displacement(*displacement)
+    }
+
+    fn state_check(state: &[f64]) -> Result<(), Error> {
+        state::state_check(state)
+    }
+
+    fn force_error(state: &[f64]) -> f64 {
+        force_error(state::memory(state).reversals)
+    }
+
+    #[inline(always)]
+    fn copy_used(from: &[f64], to: &mut [f64]) {
+        if let Some(to) = to.get_mut(..from.len()) {
+            to.copy_from_slice(from);
+        }
+    }
+
+    #[inline(always)]
+    fn trial(contact: &Contact, state: &[f64], displacement: f64, requested: Requested) -> Step {
+        let energy = energy_if(requested, contact, state, displacement);
+        match continued(contact, state, displacement) {
+            Some(Response { force, stiffness }) => Step { force, tangent: stiffness, dissipated: energy },
+            None => step(contact, state, displacement).result(energy),
+        }
+    }
+
+    #[inline(always)]
+    fn advance(contact: &Contact, state: &mut [f64], displacement: f64, requested: Requested) -> Step {
+        let energy = energy_if(requested, contact, state, displacement);
+        if let Some(Response { force, stiffness }) = continued(contact, state, displacement) {
+            state::set_point(state, Point { displacement, force });
+            return Step { force, tangent: stiffness, dissipated: energy };
+        }
         let step = step(contact, state, displacement);
         step.write(state);
-        forces.next().into_iter().for_each(|force| *force = step.force());
-        stiffnesses.next().into_iter().for_each(|stiffness| *stiffness = step.stiffness());
+        step.result(energy)
     }
+
+    /// The copy holds at most [`REVERSALS_OF_COPY`] reversals.
+    #[inline(never)]
+    fn path_in_copy(contact: &Contact, state: &[f64], path: &[f64], output: PathOutput<f64, f64>) {
+        let mut copy = [0.0; state::state_length(REVERSALS_OF_COPY)];
+        let length = state.len().min(copy.len());
+        let copy = copy.get_mut(..length).unwrap_or(&mut []);
+        state::copy(contact, state, copy);
+        Self::path(contact, copy, path, output);
+    }
+}
+
+/// Result of a step: force, tangent stiffness and dissipated energy.
+pub type Step = StepResult<f64, f64>;
+
+#[inline(always)]
+fn energy_if(requested: Requested, contact: &Contact, state: &[f64], displacement: f64) -> f64 {
+    if requested.energy { dissipated(contact, state, displacement) } else { 0.0 }
 }
 
 /// Nested reversals of the copy in which a path runs whose last state is discarded.
 const REVERSALS_OF_COPY: usize = 128;
-
-/// Advances along a path, both checked, in a copy of the state, on the stack.
-#[inline(never)]
-pub fn path_in_copy(contact: &Contact, state: &[f64], displacement: &[f64], output: PathOutput) {
-    let mut copy = [0.0; state::state_length(REVERSALS_OF_COPY)];
-    let length = state.len().min(copy.len());
-    let copy = copy.get_mut(..length).unwrap_or(&mut []);
-    state::copy(contact, state, copy);
-    path(contact, copy, displacement, output);
-}
 
 /// Shear traction \[Pa\] at x \[m\] after any history: the traction of the initial loading, and twice that of half of each
 /// reversal's change of force (Eq. 21 with Masing's rule).

@@ -187,11 +187,14 @@ impl Memory<'_> {
     /// `None` without friction. What [`Memory::locate`] finds then.
     #[inline(always)]
     pub fn branch_ahead(&self, contact: &Contact, target: f64) -> Option<Branch> {
+        let is_gross_slip = self.reversals.is_empty() && self.initial.slip_direction != 0.0;
+        if is_gross_slip || contact.is_frictionless() {
+            return None;
+        }
         let heading = self.heading();
         let branch = self.branch(contact, self.depth(), if heading < 0.0 { -1.0 } else { 1.0 });
         let advance = target - self.now.displacement;
-        let continues = heading * advance > 0.0 && (branch.end - target) * advance > 0.0;
-        (continues && !branch.gross_slip && !contact.is_frictionless()).then_some(branch)
+        (heading * advance > 0.0 && (branch.end - target) * advance > 0.0).then_some(branch)
     }
 
     /// Locates the branch on which a displacement lies, closing loops on the way; `on_segment` is called for each segment.

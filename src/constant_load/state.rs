@@ -8,10 +8,12 @@
 //! Values that are written one by one and read as one vector would make the processor wait: displacement and force of the present
 //! point are not adjacent.
 
+use crate::constant_load::ConstantLoad;
 use crate::constant_load::contact::Contact;
 use crate::constant_load::memory::{InitialCurve, Memory, force_error, push};
 use crate::constant_load::memory::{Point, Reversal};
 use crate::error::Error;
+use crate::law::Law;
 use crate::numerics::fp_class::is_finite;
 use crate::tag::Kind;
 
@@ -29,14 +31,7 @@ pub const fn state_length(reversals: usize) -> usize {
 /// Initialises a state: unloaded, at displacement 0.
 /// Errors: `StateTooShort` for fewer than [`state_length`]`(0)` doubles.
 pub fn state_init(state: &mut [f64]) -> Result<(), Error> {
-    if state.len() < state_length(0) {
-        return Err(Error::StateTooShort);
-    }
-    state.fill(0.0);
-    if let Some(tag) = state.first_mut() {
-        *tag = Kind::State.tag(0);
-    }
-    Ok(())
+    ConstantLoad::state_init(state)
 }
 
 /// Whether a state whose header was checked holds as many reversals as fit.
@@ -44,17 +39,6 @@ pub fn state_init(state: &mut [f64]) -> Result<(), Error> {
 pub(crate) fn is_full(state: &[f64]) -> bool {
     let depth = Kind::State.count(state.first().copied().unwrap_or(0.0)).unwrap_or(0);
     HEADER + PER_REVERSAL * (depth + 1) > state.len()
-}
-
-/// Checks what every call checks of a state: its length, its tag, and the number of reversals.
-/// Errors: `StateTooShort` for fewer than [`state_length`]`(0)` doubles; `BadState` for an array that was not initialised, or
-/// belongs to another version.
-#[inline(always)]
-pub(crate) fn check_header(state: &[f64]) -> Result<(), Error> {
-    if state.len() < state_length(0) {
-        return Err(Error::StateTooShort);
-    }
-    check_tag(state.first().copied().unwrap_or(0.0), state.len())
 }
 
 /// Rejects a tag that no state of that length has.
@@ -79,7 +63,7 @@ pub(crate) fn memory(state: &[f64]) -> Memory<'_> {
 
 /// Reads a state.
 pub(crate) fn read(state: &[f64]) -> Result<Memory<'_>, Error> {
-    check_header(state)?;
+    ConstantLoad::check_header(state)?;
     Ok(memory(state))
 }
 

@@ -1,172 +1,51 @@
 //! Batches of contacts and of elements: all items are checked before the first output is written.
 
 use super::pointers::{
-    self, call, check_alignment, check_length, input, item, optional_input, output, outputs, state_input, with_law,
-    write,
+    self, call, check_alignment, check_length, input, item, new_state, optional_input, output, outputs, state_input,
+    with_law, write,
 };
 use super::{mslip_contact, mslip_element};
+use crate::constant_load::ConstantLoad;
 use crate::constant_load::complex_stiffness::check_amplitude;
 use crate::constant_load::contact::Contact;
-use crate::constant_load::evaluator::Response;
 use crate::constant_load::harmonic_force::{HarmonicOutput, harmonic_force};
-use crate::constant_load::masing;
-use crate::constant_load::memory::Point;
-use crate::constant_load::state;
 use crate::element::{Directions, Element};
 use crate::error::Error;
 use crate::fourier::workspace::Layout;
-use crate::law::{ElementLaw, Requested};
-use crate::limits::{check_coefficients, check_displacement};
+use crate::law::{ElementLaw, Law, PathOutput, Requested};
+use crate::limits::check_coefficients;
 use core::{ptr, slice};
 use libc::size_t;
 
-/// The law of contacts, or of elements with a number of directions.
-pub(super) trait StepLaw {
-    /// A contact or an element.
-    type Item: Copy;
-    /// A displacement; a force has as many components.
-    type Vector;
-    /// Derivative of the force by the displacement.
-    type Tangent;
-    /// The least length of a state.
-    const STATE_LENGTH: usize;
-
-    fn check(item: &Self::Item) -> Result<(), Error>;
-
-    /// Checks the tag of a state, and a displacement.
-    fn check_step(item: &Self::Item, tag: f64, state_length: usize, displacement: &Self::Vector) -> Result<(), Error>;
-
-    /// Evaluates and writes one step.
-    unsafe fn update(
-        item: &Self::Item,
-        state_length: usize,
-        state_old: *const f64,
-        displacement: &Self::Vector,
-        state_new: *mut f64,
-        outputs: [*mut f64; 3],
-    );
-}
-
-impl StepLaw for Contact {
-    type Item = Contact;
-    type Vector = f64;
-    type Tangent = f64;
-    const STATE_LENGTH: usize = state::state_length(0);
-
-    #[inline(always)]
-    fn check(contact: &Contact) -> Result<(), Error> {
-        if contact.is_initialised() { Ok(()) } else { Err(Error::BadContact) }
-    }
-
-    #[inline(always)]
-    fn check_step(_: &Contact, tag: f64, state_length: usize, displacement: &f64) -> Result<(), Error> {
-        if state_length < Self::STATE_LENGTH {
-            return Err(Error::StateTooShort);
-        }
-        state::check_tag(tag, state_length)?;
-        check_displacement(*displacement)
-    }
-
-    #[inline(always)]
-    unsafe fn update(
-        contact: &Contact,
-        state_length: usize,
-        state_old: *const f64,
-        displacement: &f64,
-        state_new: *mut f64,
-        [force, stiffness, dissipated]: [*mut f64; 3],
-    ) {
-        let state_old = ptr::slice_from_raw_parts(state_old, state_length);
-        let energy = (!dissipated.is_null()).then(|| masing::dissipated(contact, &*state_old, *displacement));
-        if let Some(Response { force: value, stiffness: slope }) =
-            masing::continued(contact, &*state_old, *displacement)
-        {
-            write(force, value);
-            write(stiffness, slope);
-            if !state_new.is_null() {
-                copy(state_old, state_new);
-                let now = Point { displacement: *displacement, force: value };
-                state::set_point(slice::from_raw_parts_mut(state_new, state_length), now);
-            }
-        } else {
-            general_update(contact, state_old, *displacement, state_new, [force, stiffness]);
-        }
-        energy.into_iter().for_each(|energy| write(dissipated, energy));
-    }
-}
-
-impl<L: ElementLaw> StepLaw for L {
-    type Item = Element;
-    type Vector = L::Vector;
-    type Tangent = L::Tangent;
-    const STATE_LENGTH: usize = L::STATE_LENGTH;
-
-    #[inline(always)]
-    fn check(element: &Element) -> Result<(), Error> {
-        element.check_directions(L::DIRECTIONS)
-    }
-
-    #[inline(always)]
-    fn check_step(element: &Element, tag: f64, state_length: usize, displacement: &L::Vector) -> Result<(), Error> {
-        L::check_state(tag, state_length)?;
-        <L as ElementLaw>::check_step(element, displacement)
-    }
-
-    #[inline(never)]
-    unsafe fn update(
-        element: &Element,
-        state_length: usize,
-        state_old: *const f64,
-        displacement: &L::Vector,
-        state_new: *mut f64,
-        [force, tangent, dissipated]: [*mut f64; 3],
-    ) {
-        let requested = Requested { tangent: !tangent.is_null(), energy: !dissipated.is_null() };
-        // No reference to the old state is left when the new one, which may be the same memory, is written.
-        let step = if state_new.is_null() {
-            L::trial(element, slice::from_raw_parts(state_old, state_length), *displacement, requested)
-        } else {
-            let state = slice::from_raw_parts_mut(state_new, state_length);
-            if !ptr::eq(state_old, state_new) {
-                L::copy_used(slice::from_raw_parts(state_old, state_length), state);
-            }
-            L::advance(element, state, *displacement, requested)
-        };
-        write(force.cast(), step.force);
-        write(tangent.cast(), step.tangent);
-        write(dissipated, step.dissipated);
-    }
-}
-
-/// A step of a contact that does not continue its branch: it may call other functions before its results are written.
+/// Evaluates and writes one step with checked arguments.
 #[inline(never)]
-unsafe fn general_update(
-    contact: &Contact,
-    state_old: *const [f64],
-    displacement: f64,
+unsafe fn step<L: Law>(
+    item: &L::Item,
+    state_length: usize,
+    state_old: *const f64,
+    displacement: &L::Vector,
     state_new: *mut f64,
-    [force, stiffness]: [*mut f64; 2],
+    [force, tangent, dissipated]: [*mut f64; 3],
 ) {
-    let step = masing::step(contact, &*state_old, displacement);
-    if !state_new.is_null() {
-        copy(state_old, state_new);
-        step.write(slice::from_raw_parts_mut(state_new, state_old.len()));
-    }
-    write(force, step.force());
-    write(stiffness, step.stiffness());
-}
-
-/// Copies a state unless the new one is the same memory.
-#[inline(always)]
-unsafe fn copy(state_old: *const [f64], state_new: *mut f64) {
-    if !ptr::eq(state_old.cast(), state_new) {
-        ptr::copy_nonoverlapping(state_old.cast(), state_new, state_old.len());
-    }
+    let requested = Requested { tangent: !tangent.is_null(), energy: !dissipated.is_null() };
+    // No reference to the old state is left when the new one, which may be the same memory, is written.
+    let step = if state_new.is_null() {
+        L::trial(item, slice::from_raw_parts(state_old, state_length), *displacement, requested)
+    } else {
+        let state = slice::from_raw_parts_mut(state_new, state_length);
+        if !ptr::eq(state_old, state_new) {
+            L::copy_used(slice::from_raw_parts(state_old, state_length), state);
+        }
+        L::advance(item, state, *displacement, requested)
+    };
+    write(force.cast(), step.force);
+    write(tangent.cast(), step.tangent);
+    write(dissipated, step.dissipated);
 }
 
 /// Advances the state of one contact or element, which is checked.
 #[inline(always)]
-pub(super) unsafe fn update_one<L: StepLaw>(
+pub(super) unsafe fn update_one<L: Law>(
     law: &L::Item,
     state_length: usize,
     state_old: *const f64,
@@ -177,9 +56,40 @@ pub(super) unsafe fn update_one<L: StepLaw>(
     let displacement = item(displacement.cast::<L::Vector>())?;
     check_alignment(state_new)?;
     outputs.iter().try_for_each(|output| check_alignment(*output))?;
-    let tag = state_input(state_length, state_old)?.first().copied().unwrap_or(0.0);
-    L::check_step(law, tag, state_length, displacement)?;
-    L::update(law, state_length, state_old, displacement, state_new, outputs);
+    L::check_header(state_input(state_length, state_old)?)?;
+    L::check_step(law, displacement)?;
+    step::<L>(law, state_length, state_old, displacement, state_new, outputs);
+    Ok(())
+}
+
+/// Advances the state of a contact or element, which is checked, along a path.
+pub(super) unsafe fn path<L: Law>(
+    law: &L::Item,
+    state_length: usize,
+    state_old: *const f64,
+    n: usize,
+    displacement: *const f64,
+    state_new: *mut f64,
+    [force, tangent, dissipated]: [*mut f64; 3],
+) -> Result<(), Error> {
+    let path = input(displacement.cast::<L::Vector>(), n)?;
+    let output = PathOutput {
+        force: output(force.cast::<L::Vector>(), n)?,
+        tangent: output(tangent.cast::<L::Tangent>(), n)?,
+        dissipated: output(dissipated, n)?,
+    };
+    check_alignment(state_new)?;
+    {
+        // The reference ends before the new state, which may be the same memory, is written.
+        let start = state_input(state_length, state_old)?;
+        L::check_header(start)?;
+        path.iter().try_for_each(|displacement| L::check_step(law, displacement))?;
+        if state_new.is_null() {
+            L::path_in_copy(law, start, path, output);
+            return Ok(());
+        }
+    }
+    L::path(law, new_state(state_length, state_old, state_new)?, path, output);
     Ok(())
 }
 
@@ -209,7 +119,7 @@ impl<'a, T: Copy> Items<'a, T> {
 
     /// Checks the contacts or elements of all active items, and with each what else belongs to the item.
     #[inline(always)]
-    fn check<L: StepLaw<Item = T>>(self, mut item: impl FnMut(usize, &T) -> Result<(), Error>) -> Result<(), Error> {
+    fn check<L: Law<Item = T>>(self, mut item: impl FnMut(usize, &T) -> Result<(), Error>) -> Result<(), Error> {
         self.active().try_for_each(|i| {
             let law = self.law(i).ok_or(Error::BadIndex)?;
             L::check(law)?;
@@ -248,7 +158,7 @@ impl Items<'_, Element> {
 
 /// Advances the states of all active items.
 #[inline(never)]
-unsafe fn update<L: StepLaw>(
+unsafe fn update<L: Law>(
     items: Items<L::Item>,
     state_length: usize,
     states_old: *const f64,
@@ -272,7 +182,8 @@ unsafe fn update<L: StepLaw>(
             let displacement = displacement.get(i).ok_or(Error::BadArraySize)?;
             // A state of no length has no tag.
             let tag = states.get(i * state_length).copied().unwrap_or(0.0);
-            L::check_step(law, tag, state_length, displacement)
+            L::check_state(tag, state_length)?;
+            L::check_step(law, displacement)
         })?;
     }
     let [force, tangent, dissipated] = outputs;
@@ -284,7 +195,7 @@ unsafe fn update<L: StepLaw>(
             item_of(dissipated, i),
         ];
         let (state_old, state_new) = (states_old.wrapping_add(i * state_length), item_of(states_new, i * state_length));
-        L::update(law, state_length, state_old, displacement, state_new, outputs);
+        step::<L>(law, state_length, state_old, displacement, state_new, outputs);
     }
     Ok(())
 }
@@ -314,7 +225,7 @@ fn prefetch<const LINES: usize>(state: *const f64) {
 }
 
 /// Harmonic forces of all active items, with displacements of `one` coefficients.
-unsafe fn harmonic_forces<L: StepLaw, W>(
+unsafe fn harmonic_forces<L: Law, W>(
     items: Items<L::Item>,
     workspace: &mut W,
     one: usize,
@@ -384,7 +295,7 @@ pub unsafe extern "C" fn mslip_batch_complex_stiffness(
             input(amplitude, n)?,
             outputs([k_real, k_imag, dk_real, dk_imag], n)?,
         );
-        items.check::<Contact>(|i, _| amplitude.get(i).map_or(Ok(()), |amplitude| check_amplitude(*amplitude)))?;
+        items.check::<ConstantLoad>(|i, _| amplitude.get(i).map_or(Ok(()), |amplitude| check_amplitude(*amplitude)))?;
         let active = items.with(|i| amplitude.get(i));
         active.for_each(|(i, contact, amplitude)| contact.write_complex_stiffness(*amplitude, i, &mut outputs));
         Ok(())
@@ -413,7 +324,14 @@ pub unsafe extern "C" fn mslip_batch_masing_update(
 ) -> i32 {
     call(|| {
         let items = Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?;
-        update::<Contact>(items, state_length, states_old, displacement, states_new, [force, stiffness, dissipated])
+        update::<ConstantLoad>(
+            items,
+            state_length,
+            states_old,
+            displacement,
+            states_new,
+            [force, stiffness, dissipated],
+        )
     })
 }
 
@@ -440,7 +358,7 @@ pub unsafe extern "C" fn mslip_batch_harmonic_force(
         let (mut workspace, outputs) =
             (pointers::workspace(workspace)?, [force, jacobian, dissipated, ptr::null_mut()]);
         let (one, check) = (workspace.coefficients(), |_: &mut _, _: &_, u: &[f64]| check_coefficients(u));
-        harmonic_forces::<Contact, _>(items, &mut workspace, one, displacement, outputs, check, harmonic_force)
+        harmonic_forces::<ConstantLoad, _>(items, &mut workspace, one, displacement, outputs, check, harmonic_force)
     })
 }
 

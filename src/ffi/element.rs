@@ -1,13 +1,13 @@
 //! Friction contact elements: initialisation, the normal law, load histories and tractions under a normal force that varies.
 
-use super::batch::update_one;
+use super::batch::{path, update_one};
 use super::pointers::{
-    self, call, check_alignment, input, item, memory, new_state, output, outputs, set, state_input, status, with_law,
+    self, call, check_alignment, input, item, memory, output, outputs, set, state_input, status, with_law,
 };
 use super::{MSLIP_INPUT_APPROACH, MSLIP_INPUT_NORMAL_FORCE, mslip_element};
 use crate::element::{Directions, Element, NormalInput, NormalPoint};
 use crate::error::Error;
-use crate::law::{ElementLaw, PathOutput};
+use crate::law::Law;
 use crate::one_direction::tractions::tractions;
 use crate::one_direction::{self, OneDirection};
 use crate::parameters::{EllipticParameters, Parameters};
@@ -242,10 +242,7 @@ pub unsafe extern "C" fn mslip_element_state_check(directions: i32, state_length
     call(|| {
         let directions = directions_of(directions)?;
         let state = state_input(state_length, state)?;
-        with_law!(directions, L => {
-            L::check_header(state)?;
-            L::state_check(state)
-        })
+        with_law!(directions, L => L::state_check(state))
     })
 }
 
@@ -325,36 +322,6 @@ pub unsafe extern "C" fn mslip_element_path(
             path::<L>(element, state_length, state_old, n, displacement, state_new, outputs)
         })
     })
-}
-
-unsafe fn path<L: ElementLaw>(
-    element: &Element,
-    state_length: usize,
-    state_old: *const f64,
-    n: usize,
-    displacement: *const f64,
-    state_new: *mut f64,
-    [force, tangent, dissipated]: [*mut f64; 3],
-) -> Result<(), Error> {
-    let path = input(displacement.cast::<L::Vector>(), n)?;
-    let output = PathOutput {
-        force: output(force.cast::<L::Vector>(), n)?,
-        tangent: output(tangent.cast::<L::Tangent>(), n)?,
-        dissipated: output(dissipated, n)?,
-    };
-    check_alignment(state_new)?;
-    {
-        // The reference ends before the new state, which may be the same memory, is written.
-        let start = state_input(state_length, state_old)?;
-        L::check_header(start)?;
-        path.iter().try_for_each(|displacement| L::check_step(element, displacement))?;
-        if state_new.is_null() {
-            L::path_in_copy(element, start, path, output);
-            return Ok(());
-        }
-    }
-    L::path(element, new_state(state_length, state_old, state_new)?, path, output);
-    Ok(())
 }
 
 /// Pressure and shear traction \[Pa\] at x\[n\] \[m\] along the width after a load history; 0 outside the contact. Elliptical: on

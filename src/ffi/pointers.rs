@@ -126,7 +126,7 @@ pub unsafe fn requested<'a, T>(pointer: *mut T, n: usize) -> Option<&'a mut [T]>
 #[inline(always)]
 pub unsafe fn contact<'a>(pointer: *const mslip_contact) -> Result<&'a Contact, Error> {
     let contact = item(pointer.cast::<Contact>())?;
-    if contact.is_initialised() { Ok(contact) } else { Err(Error::BadContact) }
+    contact.check().map(|()| contact)
 }
 
 /// Rejects a contact that was modified after its initialisation.

@@ -5,9 +5,10 @@
 //!      ξ, η, N and T of each knot, from the centre outwards]
 //! ```
 
-use crate::element::{Element, Normal};
+use crate::element::{Directions, Element, Normal};
 use crate::error::Error;
-use crate::law::ElementLaw;
+use crate::law::{Law, PathOutput, Requested};
+use crate::limits::check_displacement;
 use crate::numerics::fp_class::is_finite;
 use crate::one_direction::diagram::Polygon;
 use crate::one_direction::step::{Header, step};
@@ -24,33 +25,6 @@ pub const fn state_length(pieces: usize) -> usize {
     let pieces = if pieces < MIN_PIECES { MIN_PIECES } else { pieces };
     // One knot more than pieces.
     pieces.saturating_add(1).saturating_mul(PER_KNOT).saturating_add(HEADER)
-}
-
-/// Initialises a state: open, at displacement 0 and normal component 0.
-/// Errors: `StateTooShort` for fewer than [`state_length`]`(0)` doubles.
-pub fn state_init(state: &mut [f64]) -> Result<(), Error> {
-    if state.len() < state_length(0) {
-        return Err(Error::StateTooShort);
-    }
-    state.fill(0.0);
-    if let Some(tag) = state.first_mut() {
-        *tag = Kind::ElementState.tag(1);
-    }
-    Ok(())
-}
-
-/// Rejects a tag that no state of that length has.
-#[inline(always)]
-pub(crate) fn check_tag(tag: f64, state_length: usize) -> Result<(), Error> {
-    match Kind::ElementState.count(tag) {
-        Some(knots) if knots > 0 && HEADER + PER_KNOT * knots <= state_length => Ok(()),
-        _ => Err(Error::BadState),
-    }
-}
-
-/// A bound on the error of the force \[N\] from merging pieces; 0 while nothing was merged.
-pub fn force_error(state: &[f64]) -> f64 {
-    state.get(ERROR).copied().unwrap_or(0.0)
 }
 
 const ERROR: usize = 7;
@@ -91,36 +65,109 @@ fn parts(state: &[f64]) -> (&[f64; HEADER], &[[f64; PER_KNOT]]) {
     (header, knots.get(..used).unwrap_or(knots))
 }
 
-/// A step in place, with a state and a displacement that were checked.
-#[inline(never)]
-pub(crate) fn advance_checked(element: &Element, state: &mut [f64], displacement: [f64; 2], with_energy: bool) -> Step {
-    let Some((header, knots)) = state.split_first_chunk_mut::<HEADER>() else { return Step::NONE };
-    let used = Kind::ElementState.count(header[0]).unwrap_or(0);
-    let mut polygon = Polygon::new(element.friction_coefficient, knots, used);
-    let (step, mut to) = step(element, &Header::read(header), &mut polygon, displacement, with_energy);
-    to.error = if polygon.anew { polygon.error } else { to.error + polygon.error };
-    to.write(polygon.used, header);
-    step
-}
+impl Law for OneDirection {
+    type Item = Element;
+    type Vector = [f64; 2];
+    type Tangent = [f64; 4];
 
-/// A step whose new state is discarded, with a state and a displacement that were checked.
-#[inline(always)]
-pub(crate) fn trial(element: &Element, state: &[f64], displacement: [f64; 2], with_energy: bool) -> Step {
-    let (header, mut knots) = parts(state);
-    step(element, &Header::read(header), &mut knots, displacement, with_energy).0
-}
+    const STATE_LENGTH: usize = state_length(0);
+    const NEW_STATE: f64 = Kind::ElementState.tag(1);
+    const OTHER_STATE: Option<Kind> = Some(Kind::TwoDirectionsState);
 
-/// Copies what is in use of a state whose header was checked to one of the same length.
-#[inline(always)]
-pub(crate) fn copy_used(from: &[f64], to: &mut [f64]) {
-    let used = HEADER + PER_KNOT * parts(from).1.len();
-    if let (Some(from), Some(to)) = (from.get(..used), to.get_mut(..used)) {
-        to.copy_from_slice(from);
+    #[inline(always)]
+    fn check(element: &Element) -> Result<(), Error> {
+        element.check_directions(Directions::One)
+    }
+
+    #[inline(always)]
+    fn check_tag(tag: f64, state_length: usize) -> Result<(), Error> {
+        match Kind::ElementState.count(tag) {
+            Some(knots) if knots > 0 && HEADER + PER_KNOT * knots <= state_length => Ok(()),
+            _ => Err(Error::BadState),
+        }
+    }
+
+    #[inline(always)]
+    fn check_step(element: &Element, &[displacement, input]: &[f64; 2]) -> Result<(), Error> {
+        check_displacement(displacement)?;
+        element.check_input(input)
+    }
+
+    fn state_check(state: &[f64]) -> Result<(), Error> {
+        OneDirection::check_header(state)?;
+        let (header, knots) = parts(state);
+        let Header { displacement, normal, error, .. } = Header::read(header);
+        let Normal { load, shift, load_slope, shift_slope } = normal;
+        let finite =
+            header.iter().all(|value| is_finite(*value)) && knots.as_flattened().iter().all(|value| is_finite(*value));
+        if !finite || error < 0.0 || [load, shift, load_slope, shift_slope].iter().any(|value| *value < 0.0) {
+            return Err(Error::BadState);
+        }
+        let (Some([xi, eta, first, _]), Some([last_xi, last_eta, last, _])) = (knots.first(), knots.last()) else {
+            return Err(Error::BadState);
+        };
+        // A knot is located by ξ and η, each within two roundings of the larger one: S is within four of them over twice the size. N is of
+        // an exponent of at most 9 in S, with a layer of ln(1+x) (1+1/x) at x = N/N_c, at most 2^40 times 1000: 35. So N is within 70
+        // roundings at both ends of a piece. The tables of N(S) and S(N) are within 1e-13 in every rounding mode; with a layer of the
+        // smallest N_c within 2.5e-10.
+        let size = 0.5 * (last_eta - last_xi);
+        let rounding = (140.0 * f64::EPSILON * last_xi.abs().max(last_eta.abs()) + 5e-10 * size) * load;
+        let allowed = rounding.min(f64::MAX);
+        let monotone = |pair: &[[f64; PER_KNOT]]| match pair {
+            [[xi, eta, inner, _], [next_xi, next_eta, outer, _]] => {
+                next_xi <= xi && next_eta >= eta && (inner - outer).max(0.0) * size <= allowed
+            }
+            _ => true,
+        };
+        let centred = xi == eta && *first == 0.0 && *last <= load;
+        // A frictionless or an open contact is its centre.
+        let complete = knots.len() == 1 || (*last == load && *last_xi <= displacement && *last_eta >= displacement);
+        if centred && complete && knots.windows(2).all(monotone) { Ok(()) } else { Err(Error::BadState) }
+    }
+
+    fn force_error(state: &[f64]) -> f64 {
+        state.get(ERROR).copied().unwrap_or(0.0)
+    }
+
+    #[inline(always)]
+    fn copy_used(from: &[f64], to: &mut [f64]) {
+        let used = HEADER + PER_KNOT * parts(from).1.len();
+        if let (Some(from), Some(to)) = (from.get(..used), to.get_mut(..used)) {
+            to.copy_from_slice(from);
+        }
+    }
+
+    #[inline(always)]
+    fn trial(element: &Element, state: &[f64], displacement: [f64; 2], requested: Requested) -> Step {
+        let (header, mut knots) = parts(state);
+        step(element, &Header::read(header), &mut knots, displacement, requested.energy).0
+    }
+
+    #[inline(never)]
+    fn advance(element: &Element, state: &mut [f64], displacement: [f64; 2], requested: Requested) -> Step {
+        let Some((header, knots)) = state.split_first_chunk_mut::<HEADER>() else { return Step::NONE };
+        let used = Kind::ElementState.count(header[0]).unwrap_or(0);
+        let mut polygon = Polygon::new(element.friction_coefficient, knots, used);
+        let (step, mut to) = step(element, &Header::read(header), &mut polygon, displacement, requested.energy);
+        to.error = if polygon.anew { polygon.error } else { to.error + polygon.error };
+        to.write(polygon.used, header);
+        step
+    }
+
+    /// The copy is as long, but for at most 256 pieces.
+    fn path_in_copy(element: &Element, state: &[f64], path: &[[f64; 2]], output: PathOutput<[f64; 2], [f64; 4]>) {
+        let mut buffer = [0.0; COPY_LENGTH];
+        let copied = buffer.get_mut(..state.len().min(COPY_LENGTH)).unwrap_or(&mut []);
+        copy(element, state, copied);
+        Self::path(element, copied, path, output);
     }
 }
 
+/// Length of a state for a path whose new state is discarded.
+const COPY_LENGTH: usize = state_length(256);
+
 /// Copies a state whose header was checked into one that may hold fewer pieces.
-pub(crate) fn copy(element: &Element, from: &[f64], to: &mut [f64]) {
+fn copy(element: &Element, from: &[f64], to: &mut [f64]) {
     let (Some((header, target)), Some(source)) = (to.split_first_chunk_mut::<HEADER>(), from.first_chunk::<HEADER>())
     else {
         return;
@@ -130,49 +177,4 @@ pub(crate) fn copy(element: &Element, from: &[f64], to: &mut [f64]) {
     *header = *source;
     header[0] = Kind::ElementState.tag(polygon.used);
     header[ERROR] += polygon.error;
-}
-
-/// Validates a state in full: finite values, a monotone polygon from the centre to the present point. For states from outside the
-/// process.
-/// Errors: `StateTooShort`; `BadState` for an array that was not initialised, or whose values no history leads to.
-pub fn state_check(state: &[f64]) -> Result<(), Error> {
-    OneDirection::check_header(state)?;
-    let (header, knots) = parts(state);
-    let Header { displacement, normal, error, .. } = Header::read(header);
-    let Normal { load, shift, load_slope, shift_slope } = normal;
-    let finite =
-        header.iter().all(|value| is_finite(*value)) && knots.as_flattened().iter().all(|value| is_finite(*value));
-    if !finite || error < 0.0 || [load, shift, load_slope, shift_slope].iter().any(|value| *value < 0.0) {
-        return Err(Error::BadState);
-    }
-    let (Some([xi, eta, first, _]), Some([last_xi, last_eta, last, _])) = (knots.first(), knots.last()) else {
-        return Err(Error::BadState);
-    };
-    // A knot is located by ξ and η, each within two roundings of the larger one: S is within four of them over twice the size. N is of
-    // an exponent of at most 9 in S, with a layer of ln(1+x) (1+1/x) at x = N/N_c, at most 2^40 times 1000: 35. So N is within 70
-    // roundings at both ends of a piece. The tables of N(S) and S(N) are within 1e-13 in every rounding mode; with a layer of the
-    // smallest N_c within 2.5e-10.
-    let size = 0.5 * (last_eta - last_xi);
-    let rounding = (140.0 * f64::EPSILON * last_xi.abs().max(last_eta.abs()) + 5e-10 * size) * load;
-    let allowed = rounding.min(f64::MAX);
-    let monotone = |pair: &[[f64; PER_KNOT]]| match pair {
-        [[xi, eta, inner, _], [next_xi, next_eta, outer, _]] => {
-            next_xi <= xi && next_eta >= eta && (inner - outer).max(0.0) * size <= allowed
-        }
-        _ => true,
-    };
-    let centred = xi == eta && *first == 0.0 && *last <= load;
-    // A frictionless or an open contact is its centre.
-    let complete = knots.len() == 1 || (*last == load && *last_xi <= displacement && *last_eta >= displacement);
-    if centred && complete && knots.windows(2).all(monotone) { Ok(()) } else { Err(Error::BadState) }
-}
-
-/// Length of a state for a path whose new state is discarded.
-pub(crate) const COPY_LENGTH: usize = state_length(256);
-
-/// Copies a state whose header was checked to a buffer for a path: of the same length, but for at most [`COPY_LENGTH`].
-pub(crate) fn copy_of<'b>(element: &Element, state: &[f64], buffer: &'b mut [f64; COPY_LENGTH]) -> &'b mut [f64] {
-    let copied = buffer.get_mut(..state.len().min(COPY_LENGTH)).unwrap_or(&mut []);
-    copy(element, state, copied);
-    copied
 }

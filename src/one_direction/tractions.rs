@@ -2,7 +2,7 @@
 
 use crate::element::Element;
 use crate::error::Error;
-use crate::law::ElementLaw;
+use crate::law::Law;
 use crate::limits::check_positions;
 use crate::one_direction::OneDirection;
 use crate::one_direction::diagram::Knot;

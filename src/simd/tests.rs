@@ -1,12 +1,13 @@
 //! All calls that dispatch give the same bits on the vectors of this processor and on those of the baseline.
 
+use crate::constant_load::ConstantLoad;
 use crate::constant_load::contact::tests::{FLATS, contact, ellipse};
 use crate::constant_load::harmonic_force::tests::{compute, workspace};
 use crate::constant_load::harmonic_force::{HarmonicOutput, Rule, Workspace, harmonic_sensitivity};
-use crate::constant_load::masing;
 use crate::constant_load::state::{state_init, state_length};
 use crate::constant_load::stiffness_table::StiffnessTable;
 use crate::element::{Directions, Element, NormalInput};
+use crate::law::{Law, PathOutput};
 use crate::one_direction::harmonic_force as line;
 use crate::{Contact, Material, Parameters};
 use crate::{one_direction, two_directions};
@@ -62,8 +63,8 @@ fn the_curve_and_a_path() {
             state_init(&mut state).unwrap();
             let [mut force, mut stiffness, mut dissipated] = [(); 3].map(|()| vec![0.0; 1000]);
             let [one, two, three] = [&mut force, &mut stiffness, &mut dissipated].map(|v| Some(v.as_mut_slice()));
-            let output = [one, two, three];
-            masing::path(&contact, &mut state, &displacement, output);
+            let output = PathOutput { force: one, tangent: two, dissipated: three };
+            ConstantLoad::path(&contact, &mut state, &displacement, output);
             [force, stiffness, dissipated, state].concat()
         });
     }

@@ -21,7 +21,7 @@ use super::trial::{FINE_SPRING, Motion, SPRINGS, Values, trial};
 use super::{Requested, Step, TwoDirections};
 use crate::element::{Element, Normal};
 use crate::error::Error;
-use crate::law::ElementLaw;
+use crate::law::Law;
 use crate::numerics::fp_class::is_finite;
 use crate::shape::TINY;
 use crate::simd::dispatch;
@@ -48,10 +48,7 @@ pub const fn state_length() -> usize {
 /// Initialises a state: open, at displacement 0 and normal component 0.
 /// Errors: `StateTooShort` for fewer than [`state_length`] doubles.
 pub fn state_init(state: &mut [f64]) -> Result<(), Error> {
-    let state = state.get_mut(..LENGTH).ok_or(Error::StateTooShort)?;
-    state.fill(0.0);
-    state.first_mut().into_iter().for_each(|tag| *tag = Kind::TwoDirectionsState.tag(0));
-    Ok(())
+    TwoDirections::state_init(state)
 }
 
 /// Rejects the tag of what is no state.

@@ -65,17 +65,9 @@ pub fn unloaded(reversals: usize) -> Vec<f64> {
     state
 }
 
-/// Force and stiffness at a displacement, with the new state.
-#[inline(never)]
-pub fn step(contact: &Contact, state: &[f64], displacement: f64) -> masing::StepRecord {
-    masing::step(contact, state, displacement)
-}
-
 /// Advances a state; force, stiffness and dissipated energy.
 #[inline(never)]
 pub fn advance(contact: &Contact, state: &mut [f64], displacement: f64) -> (f64, f64, f64) {
-    let (step, dissipated) =
-        (masing::step(contact, state, displacement), masing::dissipated(contact, state, displacement));
-    step.write(state);
-    (step.force(), step.stiffness(), dissipated)
+    let step = masing::advance(contact, state, displacement).unwrap();
+    (step.force, step.tangent, step.dissipated)
 }

@@ -1,6 +1,6 @@
 //! Computed measurements: loops of the library, in series with a spring, with offset, drift and noise.
 
-use microslip::constant_load::masing::step;
+use microslip::constant_load::masing::advance;
 use microslip::constant_load::state::{state_init, state_length};
 use microslip::{Layer, Parameters};
 use microslip_fit::{Contact, DisplacementReference, Estimate, Geometry, Material, Measurement, NormalForce, Report};
@@ -181,9 +181,7 @@ pub fn measured(contact: &Contact, rig: &Rig, random: &mut Random) -> Measuremen
         // The reversals are between samples.
         let phase = TAU * (i as f64 + 0.3) / rig.samples as f64;
         let at = amplitude * phase.sin();
-        let point = step(law, &state, at);
-        let tangential = point.force();
-        point.write(&mut state);
+        let tangential = advance(law, &mut state, at).unwrap().force;
         let scatter = (1.0 - rig.correlation * rig.correlation).sqrt();
         noise = noise.map(|last| rig.correlation * last + scatter * random.normal());
         let part = i as f64 / total as f64;

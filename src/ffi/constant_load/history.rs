@@ -1,14 +1,10 @@
 //! Load histories: states, and Masing's rule with return-point memory.
 
-use crate::constant_load::contact::Contact;
-use crate::constant_load::masing;
-use crate::constant_load::state;
-use crate::ffi::batch::update_one;
+use crate::constant_load::{ConstantLoad, masing, state};
+use crate::ffi::batch::{path, update_one};
 use crate::ffi::mslip_contact;
-use crate::ffi::pointers::{
-    self, call, check_alignment, input, memory, new_state, output, outputs, set, state_input, status,
-};
-use crate::limits::{check_displacement, check_positions};
+use crate::ffi::pointers::{self, call, input, memory, output, outputs, set, state_input, status};
+use crate::limits::check_positions;
 use libc::size_t;
 
 /// Number of doubles in a state with a capacity of `reversals` nested reversals, at least 2. A state is never full: if the capacity
@@ -65,7 +61,7 @@ pub unsafe extern "C" fn mslip_masing_update(
 ) -> i32 {
     call(|| {
         let (contact, outputs) = (pointers::contact(contact)?, [force, stiffness, dissipated]);
-        update_one::<Contact>(contact, state_length, state_old, &raw const displacement, state_new, outputs)
+        update_one::<ConstantLoad>(contact, state_length, state_old, &raw const displacement, state_new, outputs)
     })
 }
 
@@ -87,19 +83,8 @@ pub unsafe extern "C" fn mslip_masing_path(
     dissipated: *mut f64,
 ) -> i32 {
     call(|| {
-        let (contact, path) = (pointers::contact(contact)?, input(displacement, n)?);
-        let output = outputs([force, stiffness, dissipated], n)?;
-        check_alignment(state_new)?;
-        let start = state_input(state_length, state_old)?;
-        state::check_header(start)?;
-        path.iter().try_for_each(|&displacement| check_displacement(displacement))?;
-        if state_new.is_null() {
-            masing::path_in_copy(contact, start, path, output);
-            return Ok(());
-        }
-        // The reference to the old state, which may be the same memory, is not used any more.
-        masing::path(contact, new_state(state_length, state_old, state_new)?, path, output);
-        Ok(())
+        let (contact, outputs) = (pointers::contact(contact)?, [force, stiffness, dissipated]);
+        path::<ConstantLoad>(contact, state_length, state_old, n, displacement, state_new, outputs)
     })
 }
 

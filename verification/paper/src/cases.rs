@@ -203,8 +203,7 @@ impl Case {
         state::state_init(&mut state).expect("a state");
         for displacement in displacements {
             let displacement = displacement * self.displacement_unit();
-            let step = masing::step(&self.contact, &state, displacement);
-            step.write(&mut state);
+            masing::advance(&self.contact, &mut state, displacement).expect("a step");
         }
         state
     }

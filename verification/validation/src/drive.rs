@@ -79,15 +79,13 @@ pub fn constant(history: &History) -> Vec<Point> {
     let mut now = Point { tangential_force: 0.0, displacement: 0.0, dissipated: 0.0 };
     let to_row = |row: &Row| {
         let trial = |u: f64| {
-            let step = masing::step(&contact, &memory, u);
-            (step.force(), step.stiffness())
+            let step = masing::advance(&contact, &mut memory.clone(), u).expect("a step");
+            (step.force, step.tangent)
         };
         let (start, low, high) = (now.displacement, now.displacement - reach, now.displacement + reach);
         let displacement = displacement_at(row.tangential_force, start, low, high, trial);
-        let (step, dissipated) =
-            (masing::step(&contact, &memory, displacement), masing::dissipated(&contact, &memory, displacement));
-        step.write(&mut memory);
-        now = Point { tangential_force: step.force(), displacement, dissipated: now.dissipated + dissipated };
+        let step = masing::advance(&contact, &mut memory, displacement).expect("a step");
+        now = Point { tangential_force: step.force, displacement, dissipated: now.dissipated + step.dissipated };
         now
     };
     history.rows.iter().map(to_row).collect()

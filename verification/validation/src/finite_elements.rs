@@ -57,10 +57,11 @@ fn differences(unloaded: bool) -> Differences {
     let (top, half) = (at(LOADED), at(0.5 * LOADED));
     let mut memory = vec![0.0; state::state_length(4)];
     state::state_init(&mut memory).expect("a state");
-    masing::step(&contact, &memory.clone(), top.displacement()).write(&mut memory);
+    let mut advance = |to: f64| masing::advance(&contact, &mut memory, to).expect("a step");
+    advance(top.displacement());
     let mut edges = vec![contact.half_width, top.stick_half_width()];
     if unloaded {
-        masing::step(&contact, &memory.clone(), top.displacement() - 2.0 * half.displacement()).write(&mut memory);
+        advance(top.displacement() - 2.0 * half.displacement());
         edges.push(half.stick_half_width());
     }
     let nodes: Vec<Node> =
