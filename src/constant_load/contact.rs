@@ -152,7 +152,7 @@ impl Contact {
         let [by_size, by_radius, by_length, by_modulus] = parameters.map(|parameter| slip_force / parameter);
         let displacement_scale = slip_force / self.stiffness_scale;
         let zones = self.stick_zones();
-        let energy = zones.dissipation_beyond_half(&zones.at_load_remaining(0.0));
+        let (energy, _) = zones.dissipation_beyond_half(0.0, zones.at_load_remaining(0.0).compliance_increase);
         let slip_energy = slip_force * displacement_scale * energy;
         if !slip_energy.is_normal() {
             return Err(Error::OutOfRange);

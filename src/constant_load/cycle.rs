@@ -3,7 +3,7 @@
 use crate::constant_load::contact::Contact;
 use crate::error::Error;
 use crate::numerics::fp_class::in_0_to;
-use crate::shape::stick_zone::Complement;
+use crate::shape::stick_zone::{Complement, StickZone};
 
 impl Contact {
     /// Energy \[J\] dissipated per cycle between ± a force amplitude \[N\], at most mu N (Eq. 13-16).
@@ -11,7 +11,8 @@ impl Contact {
     pub fn dissipated_energy(&self, force_amplitude: f64) -> Result<f64, Error> {
         self.check_force_amplitude(force_amplitude)?;
         let point = self.curve_at_force(force_amplitude)?;
-        Ok(point.stick_zone().map_or(0.0, |zone| self.energy_scale() * self.stick_zones().dissipation(&zone)))
+        let dissipation = |zone: StickZone| self.stick_zones().dissipation(zone.load, zone.compliance_increase).0;
+        Ok(point.stick_zone().map_or(0.0, |zone| self.energy_scale() * dissipation(zone)))
     }
 
     pub(crate) fn check_force_amplitude(&self, force_amplitude: f64) -> Result<(), Error> {
@@ -31,12 +32,8 @@ impl Contact {
             let zone = self.stick_zone_before_slip(amplitude);
             (zone.load, self.stiffness_of(&zone))
         });
-        let (dissipation, slope) = if load.consumed <= 0.5 {
-            zones.small_load().dissipation_with_derivative(load.consumed)
-        } else {
-            let compliance = self.stiffness_scale / stiffness.max(f64::MIN_POSITIVE);
-            zones.cycle(load.remaining, compliance - zones.small_load().compliance)
-        };
+        let compliance = self.stiffness_scale / stiffness.max(f64::MIN_POSITIVE);
+        let (dissipation, slope) = zones.dissipation(load, compliance - zones.small_load().compliance);
         (self.energy_scale() * dissipation, self.displacement_scale * slope * stiffness)
     }
 

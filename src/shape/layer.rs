@@ -291,7 +291,7 @@ impl LayeredZones {
         if self.is_elliptic() { &EllipseZones } else { &self.flat }
     }
 
-    /// The stick zone of the contact without the layer, but for its shift. A zone of known size needs λ for the energy of a flat only.
+    /// The stick zone of the contact without the layer, but for its shift.
     fn in_contact(&self, zone: &StickZone) -> StickZone {
         let compliance_increase = match zone.size_parameter {
             Some(_) => zone.compliance_increase - self.layer.increase(zone.load),
@@ -394,14 +394,10 @@ impl StickZones for LayeredZones {
         StickZone { shift: Complement { consumed: self.slip_shift - remaining, remaining }, ..zone }
     }
 
-    fn dissipation_beyond_half(&self, zone: &StickZone) -> f64 {
-        self.contact().dissipation_beyond_half(&self.in_contact(zone)) + self.layer.dissipation(zone.load)
-    }
-
-    fn cycle(&self, remaining: f64, compliance_increase: f64) -> (f64, f64) {
+    fn dissipation_beyond_half(&self, remaining: f64, compliance_increase: f64) -> (f64, f64) {
         let load = Complement { consumed: 1.0 - remaining, remaining };
         let increase = compliance_increase - self.layer.increase(load);
-        let (energy, slope) = self.contact().cycle(remaining, increase);
+        let (energy, slope) = self.contact().dissipation_beyond_half(remaining, increase);
         (energy + self.layer.dissipation(load), slope + 4.0 * self.layer.first_moment(load))
     }
 

@@ -201,7 +201,7 @@ impl RoundedPunch {
         }
         // The square of such a step is below rounding.
         let c = half_width.max(TINY);
-        RoundedPunch { w: w + step, psi: psi + step * (flat / c / c), half_width: half_width + step * (w / c), flat }
+        RoundedPunch { w: w + step, psi: psi + step * (flat / c) / c, half_width: half_width + step * (w / c), flat }
     }
 
     /// w of the contact that carries a load, with an error of at most 3 %: the limits `sqrt(g/π)` of the cylinder and `(3ag/4)^(1/3)` of

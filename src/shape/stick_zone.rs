@@ -89,11 +89,8 @@ pub(crate) trait StickZones {
     /// The stick zone at `x_s - x = remaining`, for τ >= 1/2.
     fn at_shift_remaining(&self, remaining: f64) -> StickZone;
 
-    /// Energy dissipated per cycle between ±τ, τ >= 1/2, in units of force times shift (Eq. 13-16).
-    fn dissipation_beyond_half(&self, zone: &StickZone) -> f64;
-
-    /// The same and its derivative with respect to τ at the stick zone with `1 - τ = remaining`, λ given to the rounding of Λ + λ.
-    fn cycle(&self, remaining: f64, compliance_increase: f64) -> (f64, f64);
+    /// [`StickZones::dissipation`] for τ >= 1/2, at the stick zone with `1 - τ = remaining`.
+    fn dissipation_beyond_half(&self, remaining: f64, compliance_increase: f64) -> (f64, f64);
 
     /// c/b.
     fn size(&self, zone: &StickZone) -> f64;
@@ -127,10 +124,14 @@ pub(crate) trait StickZones {
         }
     }
 
-    /// Energy dissipated per cycle between ±τ, in units of force times shift (Eq. 13-16).
-    fn dissipation(&self, zone: &StickZone) -> f64 {
-        let tau = zone.load.consumed;
-        if tau <= 0.5 { self.small_load().dissipation(tau) } else { self.dissipation_beyond_half(zone) }
+    /// Energy dissipated per cycle between ±τ, in units of force times shift (Eq. 13-16), and its derivative with respect to τ; λ is
+    /// given to the rounding of Λ + λ.
+    fn dissipation(&self, load: Complement, compliance_increase: f64) -> (f64, f64) {
+        if load.consumed <= 0.5 {
+            self.small_load().dissipation(load.consumed)
+        } else {
+            self.dissipation_beyond_half(load.remaining, compliance_increase)
+        }
     }
 
     /// dx/dτ = Λ + λ.

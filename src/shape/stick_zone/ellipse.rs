@@ -63,19 +63,13 @@ impl StickZones for EllipseZones {
         zone(size, size * size * size, remaining)
     }
 
-    /// `(4/3) ∫ (1-u) (u-s) u^(-4/3) du` from s to 1.
-    fn dissipation_beyond_half(&self, zone: &StickZone) -> f64 {
-        let s = zone.load.remaining;
-        let size = self.size(zone);
-        let square = size * size;
-        (4.0 / 3.0) * (1.5 * (1.0 + s) * (1.0 - square) - 0.6 * (1.0 - s * square) + 3.0 * (s - square))
-    }
-
-    /// With σ the derivative is `4 (τ λ - h) = 2 (1-σ)² (2+σ)/σ`.
-    fn cycle(&self, remaining: f64, _: f64) -> (f64, f64) {
-        let zone = self.at_load_remaining(remaining);
+    /// `(4/3) ∫ (1-u) (u-s) u^(-4/3) du` from s to 1; with σ the derivative is `4 (τ λ - h) = 2 (1-σ)² (2+σ)/σ`.
+    fn dissipation_beyond_half(&self, s: f64, _: f64) -> (f64, f64) {
+        let zone = self.at_load_remaining(s);
         let (size, consumed) = (self.size(&zone), consumed_size(&zone));
-        (self.dissipation_beyond_half(&zone), 2.0 * consumed * consumed * (2.0 + size) / size.max(TINY))
+        let square = size * size;
+        let energy = (4.0 / 3.0) * (1.5 * (1.0 + s) * (1.0 - square) - 0.6 * (1.0 - s * square) + 3.0 * (s - square));
+        (energy, 2.0 * consumed * consumed * (2.0 + size) / size.max(TINY))
     }
 
     fn size(&self, zone: &StickZone) -> f64 {

@@ -201,14 +201,6 @@ impl RoundedFlatZones {
         (RoundedPunch::newton_step_from(RoundedPunch::new(self.flat, w), load), load)
     }
 
-    /// Eq. 13-16.
-    fn dissipation_of(&self, punch: &RoundedPunch, remaining: f64, load: f64, compliance_increase: f64) -> f64 {
-        // At gross slip s vanishes faster than the logarithm of the cylinder grows.
-        let work = remaining * compliance_increase.min(1e3);
-        let (beta, gamma) = (punch.beta(load), punch.gamma(load));
-        4.0 * ((1.0 + remaining) * (self.beta - remaining * beta) - work - (self.gamma - remaining * remaining * gamma))
-    }
-
     /// Size parameter σ, from 0 for the smallest zone to 1 for b.
     fn size_parameter(&self, zone: &StickZone) -> f64 {
         zone.size_parameter.unwrap_or_else(|| {
@@ -245,16 +237,15 @@ impl StickZones for RoundedFlatZones {
         }
     }
 
-    fn dissipation_beyond_half(&self, zone: &StickZone) -> f64 {
-        let punch = self.punch(zone);
-        self.dissipation_of(&punch, zone.load.remaining, punch.load(), zone.compliance_increase)
-    }
-
-    /// With `h = β_b - s (λ + β_c)` the derivative is `4 (τ λ - h)`.
-    fn cycle(&self, remaining: f64, compliance_increase: f64) -> (f64, f64) {
+    /// Eq. 13-16; with `h = β_b - s (λ + β_c)` the derivative is `4 (τ λ - h)`.
+    fn dissipation_beyond_half(&self, remaining: f64, compliance_increase: f64) -> (f64, f64) {
         let (punch, load) = self.punch_near(remaining, compliance_increase);
-        let (beta, increase) = (punch.beta(load), self.compliance_increase(&punch));
-        (self.dissipation_of(&punch, remaining, load, increase), 4.0 * (increase - self.beta + remaining * beta))
+        let (beta, gamma, increase) = (punch.beta(load), punch.gamma(load), self.compliance_increase(&punch));
+        // At gross slip s vanishes faster than the logarithm of the cylinder grows.
+        let work = remaining * increase.min(1e3);
+        let squares = self.gamma - remaining * remaining * gamma;
+        let energy = 4.0 * ((1.0 + remaining) * (self.beta - remaining * beta) - work - squares);
+        (energy, 4.0 * (increase - self.beta + remaining * beta))
     }
 
     fn size(&self, zone: &StickZone) -> f64 {

@@ -136,14 +136,9 @@ impl SmallLoadSeries {
         [self.sum(&COMPLIANCE, tau) * tau, 0.25 * self.sum(&D_DISSIPATION, tau) * tau * tau]
     }
 
-    /// e at τ.
-    pub fn dissipation(&self, tau: f64) -> f64 {
-        self.sum(&DISSIPATION, tau) * tau * tau * tau
-    }
-
     /// e and de/dτ at τ.
     #[inline(always)]
-    pub fn dissipation_with_derivative(&self, tau: f64) -> (f64, f64) {
+    pub fn dissipation(&self, tau: f64) -> (f64, f64) {
         let (sum, slope) = polynomial::value_and_slope(&self.terms(&DISSIPATION), tau);
         let square = tau * tau;
         (sum * tau * square, (3.0 * sum + slope * tau) * square)
