@@ -143,7 +143,7 @@ impl Contact {
         let (slip_shift, full_stick) = (alone.slip_shift(), alone.small_load().compliance);
         let y = (slip_shift - remaining) / (INNER_FRACTION * slip_shift);
         if y <= 1.0 {
-            let (secant, tangent) = self.interpolant().secant_and_tangent(y);
+            let ([secant], [tangent]) = self.interpolant().secants_and_tangents::<1, true>(&[y]);
             return [1.0 - (slip_shift - remaining) / full_stick * secant, full_stick / tangent];
         }
         let outer = (1.0 - INNER_FRACTION) * slip_shift;
@@ -207,16 +207,17 @@ impl CurveEvaluator<'_> {
         if !self.interpolant.is_converged() {
             return None;
         }
-        let y = displacement * self.inner_scale;
-        if y <= 1.0 {
-            let (secant, tangent) = self.interpolant.secant_and_tangent(y);
-            let initial = self.initial_stiffness;
-            Some(Response { force: initial * displacement * secant, stiffness: initial * tangent })
+        let ([force], [stiffness]) = if displacement * self.inner_scale <= 1.0 {
+            self.inner::<1, true>(&[displacement])
         } else {
-            let (complement, slope) = self.interpolant.complement_and_slope(remaining * self.outer_scale)?;
-            let force = self.slip_force - self.slip_force * complement;
-            Some(Response { force, stiffness: self.outer_stiffness * slope })
-        }
+            let v = root_of(remaining * self.outer_scale);
+            let interval = Interval::of(v);
+            if !interval.is_covered() {
+                return None;
+            }
+            self.outer::<1, true>(interval, &[v])
+        };
+        Some(Response { force, stiffness })
     }
 
     /// Forces, and stiffnesses if requested, at rising displacements up to that of gross slip, with the same bits as at one. Four are
@@ -237,7 +238,7 @@ impl CurveEvaluator<'_> {
                 && let Some(x) = block(displacement, next)
                 && x[0] * self.inner_scale <= 1.0
             {
-                let (force, stiffness) = self.four_inner::<STIFFNESS>(x);
+                let (force, stiffness) = self.inner::<4, STIFFNESS>(x);
                 store::<STIFFNESS>(forces, stiffnesses, next, force, stiffness);
                 next += leading(x, |x| x * self.inner_scale <= 1.0);
             }
@@ -258,7 +259,7 @@ impl CurveEvaluator<'_> {
                 if !interval.is_covered() {
                     break;
                 }
-                let (force, stiffness) = self.four_outer::<STIFFNESS>(interval, v);
+                let (force, stiffness) = self.outer::<4, STIFFNESS>(interval, v);
                 store::<STIFFNESS>(forces, stiffnesses, next, force, stiffness);
                 next += leading(v, |v| Interval::of(v) == interval);
             }
@@ -283,7 +284,7 @@ impl CurveEvaluator<'_> {
             return Some(values);
         }
         if displacement[3] * self.inner_scale <= 1.0 {
-            return Some(self.four_inner::<true>(displacement).1);
+            return Some(self.inner::<4, true>(displacement).1);
         }
         let mut roots = [0.0; 4];
         for k in 0..4 {
@@ -291,27 +292,29 @@ impl CurveEvaluator<'_> {
         }
         let interval = Interval::of(roots[0]);
         let is_one = displacement[0] * self.inner_scale > 1.0 && Interval::of(roots[3]) == interval;
-        (is_one && interval.is_covered()).then(|| self.four_outer::<true>(interval, &roots).1)
+        (is_one && interval.is_covered()).then(|| self.outer::<4, true>(interval, &roots).1)
     }
 
+    /// Forces and, if requested, stiffnesses at displacements in the range of the first polynomial.
     #[inline(always)]
-    fn four_inner<const STIFFNESS: bool>(&self, displacement: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
-        let mut y = [0.0; 4];
-        for k in 0..4 {
+    fn inner<const L: usize, const STIFFNESS: bool>(&self, displacement: &[f64; L]) -> ([f64; L], [f64; L]) {
+        let mut y = [0.0; L];
+        for k in 0..L {
             y[k] = displacement[k] * self.inner_scale;
         }
-        let (mut forces, mut stiffnesses) = self.interpolant.four_secants_and_tangents::<STIFFNESS>(&y);
-        for k in 0..4 {
+        let (mut forces, mut stiffnesses) = self.interpolant.secants_and_tangents::<L, STIFFNESS>(&y);
+        for k in 0..L {
             forces[k] *= self.initial_stiffness * displacement[k];
             stiffnesses[k] *= self.initial_stiffness;
         }
         (forces, stiffnesses)
     }
 
+    /// The same at places v of one interval.
     #[inline(always)]
-    fn four_outer<const STIFFNESS: bool>(&self, interval: Interval, v: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
-        let (mut forces, mut stiffnesses) = self.interpolant.four_complements_and_slopes::<STIFFNESS>(interval, v);
-        for k in 0..4 {
+    fn outer<const L: usize, const STIFFNESS: bool>(&self, interval: Interval, v: &[f64; L]) -> ([f64; L], [f64; L]) {
+        let (mut forces, mut stiffnesses) = self.interpolant.complements_and_slopes::<L, STIFFNESS>(interval, v);
+        for k in 0..L {
             forces[k] = self.slip_force - self.slip_force * forces[k];
             stiffnesses[k] *= self.outer_stiffness;
         }
@@ -339,17 +342,13 @@ impl CurveEvaluator<'_> {
         if !self.interpolant.is_converged() {
             return None;
         }
-        let y = displacement.consumed * self.inner_scale;
-        if y <= 1.0 {
-            let (secant, tangent) = self.interpolant.secant_and_tangent(y);
-            let consumed =
-                self.initial_stiffness * displacement.consumed / self.slip_force.max(f64::MIN_POSITIVE) * secant;
-            Some((Complement { consumed, remaining: 1.0 - consumed }, self.initial_stiffness * tangent))
-        } else {
-            let (remaining, slope) =
-                self.interpolant.complement_and_slope(displacement.remaining * self.outer_scale)?;
-            Some((Complement { consumed: 1.0 - remaining, remaining }, self.outer_stiffness * slope))
+        if displacement.consumed * self.inner_scale <= 1.0 {
+            let ([force], [stiffness]) = self.inner::<1, true>(&[displacement.consumed]);
+            let consumed = force / self.slip_force.max(f64::MIN_POSITIVE);
+            return Some((Complement { consumed, remaining: 1.0 - consumed }, stiffness));
         }
+        let (remaining, slope) = self.interpolant.complement_and_slope(displacement.remaining * self.outer_scale)?;
+        Some((Complement { consumed: 1.0 - remaining, remaining }, self.outer_stiffness * slope))
     }
 }
 

@@ -17,7 +17,7 @@
 
 use crate::numerics::chebyshev::{Interpolant, Polynomial, TERMS, Tangent, powers};
 use crate::numerics::const_math::tabulate;
-use crate::numerics::polynomial::{four_values_and_slopes, rows, sum, value_and_slope};
+use crate::numerics::polynomial::{rows, sum, value_and_slope, values_and_slopes};
 use crate::shape::rounded_punch::TINY;
 use crate::shape::stick_zone::LoadPoint;
 
@@ -147,11 +147,14 @@ impl ForceInterpolant {
         &self.inner
     }
 
-    /// Secant and tangent stiffness over the initial one at y = x/(2/5 x_s), at most 1, if converged.
+    /// Secant and, if requested, tangent stiffness over the initial one at places y = x/(2/5 x_s), at most 1, if converged.
     #[inline(always)]
-    pub fn secant_and_tangent(&self, y: f64) -> (f64, f64) {
-        let (secant, slope) = value_and_slope(&self.inner, y);
-        (secant, secant + slope * y)
+    pub fn secants_and_tangents<const L: usize, const TANGENTS: bool>(&self, y: &[f64; L]) -> ([f64; L], [f64; L]) {
+        let (secants, mut tangents) = values_and_slopes::<_, L, TANGENTS>(&self.inner, y);
+        for k in 0..L {
+            tangents[k] = if TANGENTS { secants[k] + tangents[k] * y[k] } else { 0.0 };
+        }
+        (secants, tangents)
     }
 
     /// K' over the initial stiffness and its derivative with respect to y, for cycles up to y = 1: `8/π ∫ sqrt(t (1-t)) tⁿ dt` of each
@@ -166,15 +169,34 @@ impl ForceInterpolant {
         self.is_converged().then(|| sum(weighted(&self.inner, &ENERGY_WEIGHTS).into_iter(), y))
     }
 
+    /// 1 - τ and, if requested, its derivative with respect to ρ at places v of one interval, if converged; any value at other v and
+    /// intervals.
+    #[inline(always)]
+    pub fn complements_and_slopes<const L: usize, const SLOPES: bool>(
+        &self,
+        Interval(exponent): Interval,
+        v: &[f64; L],
+    ) -> ([f64; L], [f64; L]) {
+        let scale = power_of(exponent);
+        let mut z = [0.0; L];
+        for k in 0..L {
+            z[k] = 4.0 * (scale * v[k]) - 3.0;
+        }
+        let piece = self.pieces.get((1022 - exponent) as usize).unwrap_or(&self.inner);
+        let (remaining, mut slopes) = values_and_slopes::<_, L, SLOPES>(piece, &z);
+        for k in 0..L {
+            slopes[k] = if SLOPES { 2.0 * scale * slopes[k] / v[k] } else { 0.0 };
+        }
+        (remaining, slopes)
+    }
+
     /// 1 - τ and its derivative with respect to ρ, if converged; `None` if ρ is below the last interval of v.
     #[inline(always)]
     pub fn complement_and_slope(&self, rho: f64) -> Option<(f64, f64)> {
         let v = root_of(rho);
-        let Interval(exponent) = Interval::of(v);
-        let piece = self.pieces.get((1022 - exponent) as usize)?;
-        let scale = power_of(exponent);
-        let (remaining, slope) = value_and_slope(piece, 4.0 * (scale * v) - 3.0);
-        Some((remaining, 2.0 * scale * slope / v))
+        let interval = Interval::of(v);
+        let ([remaining], [slope]) = self.complements_and_slopes::<1, true>(interval, &[v]);
+        interval.is_covered().then_some((remaining, slope))
     }
 
     /// The derivatives at places below the last interval of v, for integrals, if converged.
@@ -192,36 +214,6 @@ impl ForceInterpolant {
             slopes[k] = place.product_slope(value_and_slope(piece, place.z));
         }
         slopes
-    }
-
-    /// [`ForceInterpolant::secant_and_tangent`] at four places, if converged.
-    #[inline(always)]
-    pub fn four_secants_and_tangents<const TANGENTS: bool>(&self, y: &[f64; 4]) -> ([f64; 4], [f64; 4]) {
-        let (secants, mut tangents) = four_values_and_slopes::<_, TANGENTS>(&self.inner, y);
-        for k in 0..4 {
-            tangents[k] = if TANGENTS { secants[k] + tangents[k] * y[k] } else { 0.0 };
-        }
-        (secants, tangents)
-    }
-
-    /// [`ForceInterpolant::complement_and_slope`] at four v of one interval, if converged; any value at other v and intervals.
-    #[inline(always)]
-    pub fn four_complements_and_slopes<const SLOPES: bool>(
-        &self,
-        Interval(exponent): Interval,
-        v: &[f64; 4],
-    ) -> ([f64; 4], [f64; 4]) {
-        let scale = power_of(exponent);
-        let mut z = [0.0; 4];
-        for k in 0..4 {
-            z[k] = 4.0 * (scale * v[k]) - 3.0;
-        }
-        let piece = self.pieces.get((1022 - exponent) as usize).unwrap_or(&self.inner);
-        let (remaining, mut slopes) = four_values_and_slopes::<_, SLOPES>(piece, &z);
-        for k in 0..4 {
-            slopes[k] = if SLOPES { 2.0 * scale * slopes[k] / v[k] } else { 0.0 };
-        }
-        (remaining, slopes)
     }
 }
 

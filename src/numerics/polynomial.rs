@@ -49,22 +49,26 @@ pub(crate) fn value_and_slope<const R: usize>(rows: &Rows<R>, x: f64) -> (f64, f
     (even + odd * x, odd + (even_rate + odd_rate * x))
 }
 
-/// [`value_and_slope`] at four places, with the same bits. Without slopes these are 0.
+/// [`value_and_slope`] at L places, with the same bits. Without slopes these are 0.
 #[inline(always)]
-pub(crate) fn four_values_and_slopes<const R: usize, const SLOPES: bool>(
+pub(crate) fn values_and_slopes<const R: usize, const L: usize, const SLOPES: bool>(
     rows: &Rows<R>,
-    x: &[f64; 4],
-) -> ([f64; 4], [f64; 4]) {
-    let (mut square, mut step) = ([0.0; 4], [0.0; 4]);
-    for k in 0..4 {
+    x: &[f64; L],
+) -> ([f64; L], [f64; L]) {
+    if L == 1 {
+        let (value, slope) = value_and_slope(rows, x[0]);
+        return ([value; L], [slope; L]);
+    }
+    let (mut square, mut step) = ([0.0; L], [0.0; L]);
+    for k in 0..L {
         square[k] = x[k] * x[k];
         step[k] = square[k] * square[k];
     }
-    // Sums of every fourth power, and their derivatives by x⁴, at the four places.
-    let (mut sums, mut slopes) = ([[0.0; 4]; 4], [[0.0; 4]; 4]);
+    // Sums of every fourth power, and their derivatives by x⁴, at the places.
+    let (mut sums, mut slopes) = ([[0.0; L]; 4], [[0.0; L]; 4]);
     for (n, row) in rows.iter().rev().enumerate() {
         for c in 0..4 {
-            for k in 0..4 {
+            for k in 0..L {
                 if SLOPES && n > 0 {
                     slopes[c][k] = if n > 1 { slopes[c][k] * step[k] + sums[c][k] } else { sums[c][k] };
                 }
@@ -72,8 +76,8 @@ pub(crate) fn four_values_and_slopes<const R: usize, const SLOPES: bool>(
             }
         }
     }
-    let (mut values, mut derivatives) = ([0.0; 4], [0.0; 4]);
-    for k in 0..4 {
+    let (mut values, mut derivatives) = ([0.0; L], [0.0; L]);
+    for k in 0..L {
         let (even, odd) = (sums[0][k] + sums[2][k] * square[k], sums[1][k] + sums[3][k] * square[k]);
         values[k] = even + odd * x[k];
         if SLOPES {
