@@ -230,7 +230,7 @@ impl Contact {
         for k in 0..4 {
             (values[k], remaining[k]) = (x[k] * slip, rho[k] * slip);
         }
-        match self.evaluator().four_stiffnesses(&values, &remaining) {
+        match self.four_stiffnesses(&values, &remaining) {
             Some(stiffnesses) => values = stiffnesses,
             None => (0..4).for_each(|k| values[k] = self.stiffness_in_integral(x[k], rho[k])),
         }

@@ -46,13 +46,4 @@ impl Contact {
         }
         Some(self.initial_stiffness * amplitude * amplitude * self.interpolant().cycle_energy(y)?)
     }
-
-    /// The load at a displacement up to that of gross slip and the stiffness, if there is an interpolant.
-    #[inline(always)]
-    pub(crate) fn load_at(&self, displacement: Complement) -> Option<(Complement, f64)> {
-        match self.evaluator().load_at(displacement) {
-            None if self.is_layered() => self.load_with_knee(displacement.remaining),
-            load => load,
-        }
-    }
 }

@@ -4,8 +4,7 @@
 //! that bends the curve strongly, the stick zone is found by iteration.
 
 use crate::constant_load::contact::Contact;
-use crate::constant_load::interpolant::{END_OF_PIECES, ForceInterpolant, INNER_FRACTION, Interval, root_of};
-use crate::shape::layer::inverse_of_sum;
+use crate::constant_load::interpolant::{END_OF_PIECES, INNER_FRACTION, Interval, root_of};
 use crate::shape::stick_zone::{Complement, StickZones};
 
 /// Force \[N\] and tangent stiffness \[N/m\] at a displacement.
@@ -22,39 +21,11 @@ pub(super) fn sign_of(value: f64) -> f64 {
 /// Values behind those that are evaluated, so that whole blocks of four can be read and written from any value on.
 pub(crate) const BEYOND: usize = 6;
 
-/// Evaluates force and stiffness on the monotonic curve.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct CurveEvaluator<'a> {
-    contact: &'a Contact,
-    interpolant: &'a ForceInterpolant,
-    slip_force: f64,
-    pub slip_displacement: f64,
-    initial_stiffness: f64,
-    inner_scale: f64,
-    outer_scale: f64,
-    outer_stiffness: f64,
-}
-
 impl Contact {
     /// Force and stiffness at a displacement >= 0; beyond that of gross slip mu N and 0, and 0 and 0 without friction.
     #[inline(always)]
     pub(crate) fn response(&self, displacement: f64) -> Response {
-        self.evaluator().at(displacement)
-    }
-
-    /// The evaluator of the curve: the fields of the contact that it needs, loaded once for many displacements.
-    #[inline(always)]
-    pub(crate) fn evaluator(&self) -> CurveEvaluator<'_> {
-        CurveEvaluator {
-            contact: self,
-            interpolant: self.interpolant(),
-            slip_force: self.slip_force,
-            slip_displacement: self.slip_displacement,
-            initial_stiffness: self.initial_stiffness,
-            inner_scale: self.inner_scale,
-            outer_scale: self.outer_scale,
-            outer_stiffness: self.slip_force * self.outer_scale,
-        }
+        self.interpolated(displacement).unwrap_or_else(|| self.solved_response(displacement))
     }
 
     /// Force and stiffness at displacements of either sign.
@@ -62,11 +33,10 @@ impl Contact {
         if force.is_none() && stiffness.is_none() {
             return;
         }
-        let evaluator = self.evaluator();
         let mut forces = force.unwrap_or(&mut []).iter_mut();
         let mut stiffnesses = stiffness.unwrap_or(&mut []).iter_mut();
         for &displacement in displacement {
-            let Response { force, stiffness } = evaluator.at(displacement.abs());
+            let Response { force, stiffness } = self.response(displacement.abs());
             forces.next().into_iter().for_each(|place| *place = sign_of(displacement) * force);
             stiffnesses.next().into_iter().for_each(|place| *place = stiffness);
         }
@@ -85,9 +55,7 @@ impl Contact {
         let zone = self.stick_zone_at_displacement(displacement);
         Response { force: self.force_of(&zone), stiffness: self.stiffness_of(&zone) }
     }
-}
 
-impl Contact {
     /// The tangent stiffness at x and the remaining ρ = 1 - x over the displacement of gross slip. Beyond the polynomials of the force it
     /// follows from the last ones; without an interpolant the stick zone is found.
     #[inline(never)]
@@ -109,32 +77,18 @@ impl Contact {
     }
 
     /// The load at a distance from the displacement of gross slip and the stiffness, of a contact whose layer bends the curve strongly,
-    /// beyond half of mu N: Newton's method in the logarithm of the remaining shift of the contact without its layer, which has an
-    /// interpolant.
+    /// beyond half of mu N: from the contact without its layer, which has an interpolant.
     pub(crate) fn load_with_knee(&self, distance: f64) -> Option<(Complement, f64)> {
-        let (zones, alone) = (self.layered_zones(), self.layered_zones().contact());
+        let zones = self.layered_zones();
         let remaining = distance * self.per_displacement_scale;
-        if !self.interpolant().is_without_layer()
-            || remaining <= 0.0
-            || remaining > zones.slip_shift() - zones.small_load().half_shift
-        {
+        let beyond_half = remaining > 0.0 && remaining <= zones.slip_shift() - zones.small_load().half_shift;
+        if !self.interpolant().is_without_layer() || !beyond_half {
             return None;
         }
-        let layer = zones.layer();
-        // The layer alone would have more load at this displacement; a shift grows at most like the power 2/3 of the load.
-        let of_layer = alone.slip_shift() * layer.load_of_shift(remaining).cbrt().powi(2);
-        let start = remaining.min(of_layer).max(f64::MIN_POSITIVE);
-        let at = |own: f64| {
-            let [left, compliance] = self.without_layer(own);
-            let load = Complement { consumed: 1.0 - left, remaining: left };
-            (load, compliance, layer.compliance(left))
-        };
-        let (load, of_contact, of_layer) = at(inverse_of_sum(remaining, start, alone.slip_shift(), |own| {
-            let (load, of_contact, of_layer) = at(own);
-            let sum = own + layer.shift(load.remaining);
-            [sum, own / sum * (1.0 + of_layer / of_contact)]
-        }));
-        Some((load, self.stiffness_scale / (of_contact + of_layer)))
+        let own = zones.own_shift(remaining, zones.start(remaining), |own| self.without_layer(own));
+        let [load, compliance] = self.without_layer(own);
+        let stiffness = self.stiffness_scale / (compliance + zones.layer().compliance(load));
+        Some((Complement { consumed: 1.0 - load, remaining: load }, stiffness))
     }
 
     /// 1 - τ and Λ + λ of the contact without its layer at a remaining shift.
@@ -190,21 +144,15 @@ fn store<const STIFFNESS: bool>(
     }
 }
 
-impl CurveEvaluator<'_> {
-    /// At a displacement >= 0.
+impl Contact {
+    /// [`Contact::response`]; `None` if there is no interpolant at this displacement.
     #[inline(always)]
-    pub fn at(&self, displacement: f64) -> Response {
-        self.interpolated(displacement).unwrap_or_else(|| self.contact.solved_response(displacement))
-    }
-
-    /// The same; `None` if there is no interpolant at this displacement.
-    #[inline(always)]
-    pub fn interpolated(&self, displacement: f64) -> Option<Response> {
+    pub(crate) fn interpolated(&self, displacement: f64) -> Option<Response> {
         let remaining = self.slip_displacement - displacement;
         if remaining < 0.0 {
             return Some(Response { force: self.slip_force, stiffness: 0.0 });
         }
-        if !self.interpolant.is_converged() {
+        if !self.interpolant().is_converged() {
             return None;
         }
         let ([force], [stiffness]) = if displacement * self.inner_scale <= 1.0 {
@@ -224,7 +172,7 @@ impl CurveEvaluator<'_> {
     /// evaluated at once: the arrays have at least [`BEYOND`] more values than the `count` displacements, those of displacements not
     /// below the last; `roots` is scratch memory.
     #[inline(always)]
-    pub fn along<const STIFFNESS: bool>(
+    pub(crate) fn along<const STIFFNESS: bool>(
         &self,
         count: usize,
         displacement: &[f64],
@@ -233,7 +181,7 @@ impl CurveEvaluator<'_> {
         stiffnesses: &mut [f64],
     ) {
         let mut next = 0;
-        if self.interpolant.is_converged() {
+        if self.interpolant().is_converged() {
             while next < count
                 && let Some(x) = block(displacement, next)
                 && x[0] * self.inner_scale <= 1.0
@@ -272,14 +220,14 @@ impl CurveEvaluator<'_> {
     /// Stiffnesses in an integral at four rising displacements up to that of gross slip and the remaining ones, if all are on one
     /// polynomial of the force or beyond all of them.
     #[inline(always)]
-    pub fn four_stiffnesses(&self, displacement: &[f64; 4], remaining: &[f64; 4]) -> Option<[f64; 4]> {
-        if !self.interpolant.is_converged() {
+    pub(crate) fn four_stiffnesses(&self, displacement: &[f64; 4], remaining: &[f64; 4]) -> Option<[f64; 4]> {
+        if !self.interpolant().is_converged() {
             return None;
         }
         if remaining[0] * self.outer_scale < END_OF_PIECES {
-            let mut values = self.interpolant.last_slopes(&remaining.map(|remaining| remaining * self.outer_scale));
+            let mut values = self.interpolant().last_slopes(&remaining.map(|remaining| remaining * self.outer_scale));
             for value in &mut values {
-                *value *= self.outer_stiffness;
+                *value *= self.outer_stiffness();
             }
             return Some(values);
         }
@@ -302,7 +250,7 @@ impl CurveEvaluator<'_> {
         for k in 0..L {
             y[k] = displacement[k] * self.inner_scale;
         }
-        let (mut forces, mut stiffnesses) = self.interpolant.secants_and_tangents::<L, STIFFNESS>(&y);
+        let (mut forces, mut stiffnesses) = self.interpolant().secants_and_tangents::<L, STIFFNESS>(&y);
         for k in 0..L {
             forces[k] *= self.initial_stiffness * displacement[k];
             stiffnesses[k] *= self.initial_stiffness;
@@ -313,10 +261,10 @@ impl CurveEvaluator<'_> {
     /// The same at places v of one interval.
     #[inline(always)]
     fn outer<const L: usize, const STIFFNESS: bool>(&self, interval: Interval, v: &[f64; L]) -> ([f64; L], [f64; L]) {
-        let (mut forces, mut stiffnesses) = self.interpolant.complements_and_slopes::<L, STIFFNESS>(interval, v);
+        let (mut forces, mut stiffnesses) = self.interpolant().complements_and_slopes::<L, STIFFNESS>(interval, v);
         for k in 0..L {
             forces[k] = self.slip_force - self.slip_force * forces[k];
-            stiffnesses[k] *= self.outer_stiffness;
+            stiffnesses[k] *= self.outer_stiffness();
         }
         (forces, stiffnesses)
     }
@@ -331,24 +279,30 @@ impl CurveEvaluator<'_> {
     ) {
         let values = forces.iter_mut().zip(stiffnesses).zip(displacement).take(range.end).skip(range.start);
         for ((force, stiffness), &x) in values {
-            Response { force: *force, stiffness: *stiffness } = self.at(x);
+            Response { force: *force, stiffness: *stiffness } = self.response(x);
         }
     }
 
     /// The load at a displacement up to that of gross slip, with an accurate complement, and the stiffness; `None` if there is no
     /// interpolant at this displacement.
     #[inline(always)]
-    pub fn load_at(&self, displacement: Complement) -> Option<(Complement, f64)> {
-        if !self.interpolant.is_converged() {
-            return None;
+    pub(crate) fn load_at(&self, displacement: Complement) -> Option<(Complement, f64)> {
+        if !self.interpolant().is_converged() {
+            return self.load_with_knee(displacement.remaining);
         }
         if displacement.consumed * self.inner_scale <= 1.0 {
             let ([force], [stiffness]) = self.inner::<1, true>(&[displacement.consumed]);
             let consumed = force / self.slip_force.max(f64::MIN_POSITIVE);
             return Some((Complement { consumed, remaining: 1.0 - consumed }, stiffness));
         }
-        let (remaining, slope) = self.interpolant.complement_and_slope(displacement.remaining * self.outer_scale)?;
-        Some((Complement { consumed: 1.0 - remaining, remaining }, self.outer_stiffness * slope))
+        let (remaining, slope) = self.interpolant().complement_and_slope(displacement.remaining * self.outer_scale)?;
+        Some((Complement { consumed: 1.0 - remaining, remaining }, self.outer_stiffness() * slope))
+    }
+
+    /// Stiffness for a derivative by ρ of 1.
+    #[inline(always)]
+    fn outer_stiffness(&self) -> f64 {
+        self.slip_force * self.outer_scale
     }
 }
 
@@ -362,7 +316,6 @@ mod tests {
     #[test]
     fn many_displacements_have_the_bits_of_one() {
         for contact in FLATS.map(contact).into_iter().chain([ellipse(1e-4, 2e-4)]) {
-            let evaluator = contact.evaluator();
             let fractions = (0..200).map(|k| f64::from(k) / 200.0).chain([0.9991, 0.9999, 1.0]);
             let displacements: Vec<f64> = fractions.map(|x| x * contact.slip_displacement).collect();
             for (first, stride) in [(0, 1), (3, 1), (0, 7), (0, 60), (100, 40), (199, 1), (80, 200)] {
@@ -370,13 +323,13 @@ mod tests {
                 let n = along.len();
                 along.extend([contact.slip_displacement; BEYOND]);
                 let [mut roots, mut forces, mut stiffnesses] = [(); 3].map(|()| vec![0.0; n + BEYOND]);
-                evaluator.along::<true>(n, &along, &mut roots, &mut forces, &mut stiffnesses);
+                contact.along::<true>(n, &along, &mut roots, &mut forces, &mut stiffnesses);
                 for ((&x, &force), &stiffness) in along.iter().zip(&forces).zip(&stiffnesses).take(n) {
-                    let response = evaluator.at(x);
+                    let response = contact.response(x);
                     assert_eq!([response.force, response.stiffness], [force, stiffness], "{x}");
                 }
                 let with_stiffness = forces.clone();
-                evaluator.along::<false>(n, &along, &mut roots, &mut forces, &mut stiffnesses);
+                contact.along::<false>(n, &along, &mut roots, &mut forces, &mut stiffnesses);
                 assert_eq!(forces[..n], with_stiffness[..n]);
             }
         }

@@ -5,7 +5,7 @@
 use crate::constant_load::ConstantLoad;
 use crate::constant_load::contact::Contact;
 use crate::constant_load::energy::Dissipation;
-use crate::constant_load::evaluator::{BEYOND, CurveEvaluator, Response};
+use crate::constant_load::evaluator::{BEYOND, Response};
 use crate::constant_load::memory::{Branch, InitialCurve, Merge, Point, Transition, force_error};
 use crate::constant_load::state;
 use crate::error::Error;
@@ -20,15 +20,13 @@ pub(crate) struct BranchEvaluator<'c> {
     branch: Branch,
     /// Direction times Masing scale.
     factor: f64,
-    limit: f64,
-    curve: CurveEvaluator<'c>,
+    contact: &'c Contact,
 }
 
 impl Branch {
     #[inline(always)]
     pub fn evaluator<'c>(&self, contact: &'c Contact) -> BranchEvaluator<'c> {
-        let factor = self.direction * self.scale;
-        BranchEvaluator { branch: *self, factor, limit: contact.slip_force, curve: contact.evaluator() }
+        BranchEvaluator { branch: *self, factor: self.direction * self.scale, contact }
     }
 
     /// Force and stiffness at a displacement on the branch.
@@ -45,22 +43,21 @@ impl BranchEvaluator<'_> {
     /// The displacement on the monotonic curve.
     #[inline(always)]
     fn distance(&self, displacement: f64) -> f64 {
-        self.branch.distance(self.curve.slip_displacement, displacement)
+        self.branch.distance(self.contact.slip_displacement, displacement)
     }
 
     /// The response on the branch, from that of the monotonic curve.
     #[inline(always)]
     fn on_branch(&self, Response { force, stiffness }: Response) -> Response {
-        let BranchEvaluator { branch, factor, limit, .. } = self;
-        let force = branch.start.force + factor * force;
-        let force = if force > *limit { *limit } else { force };
+        let (force, limit) = (self.branch.start.force + self.factor * force, self.contact.slip_force);
+        let force = if force > limit { limit } else { force };
         Response { force: if force < -limit { -limit } else { force }, stiffness }
     }
 
     /// At a displacement on the branch.
     #[inline(always)]
     pub fn at(&self, displacement: f64) -> Response {
-        self.on_branch(self.curve.at(self.distance(displacement)))
+        self.on_branch(self.contact.response(self.distance(displacement)))
     }
 
     /// Forces, and stiffnesses if requested, at `count` displacements in the order of the branch, with the same bits. All arrays, of
@@ -75,13 +72,14 @@ impl BranchEvaluator<'_> {
         stiffnesses: &mut [f64],
     ) {
         dispatch!({
-            let BranchEvaluator { branch, factor, limit, curve } = self;
+            let BranchEvaluator { branch, factor, contact } = self;
+            let limit = contact.slip_force;
             let blocks = distances.as_chunks_mut::<4>().0.iter_mut().zip(displacement.as_chunks::<4>().0);
             for (block, &x) in blocks.take(count.div_ceil(4)) {
                 // Stored together: otherwise they could overlap the next displacement.
                 let mut distances = [0.0; 4];
                 for k in 0..4 {
-                    distances[k] = branch.distance(curve.slip_displacement, x[k]);
+                    distances[k] = branch.distance(contact.slip_displacement, x[k]);
                 }
                 *block = distances;
             }
@@ -89,12 +87,12 @@ impl BranchEvaluator<'_> {
             if let Some(beyond) = distances.get_mut(count..count + BEYOND).and_then(|beyond| beyond.first_chunk_mut()) {
                 *beyond = [last; BEYOND];
             }
-            curve.along::<STIFFNESS>(count, distances, roots, forces, stiffnesses);
+            contact.along::<STIFFNESS>(count, distances, roots, forces, stiffnesses);
             for force in forces.as_chunks_mut::<4>().0.iter_mut().take(count.div_ceil(4)) {
                 let mut sums = *force;
                 for sum in &mut sums {
                     *sum = branch.start.force + factor * *sum;
-                    *sum = if *sum > *limit { *limit } else { *sum };
+                    *sum = if *sum > limit { limit } else { *sum };
                     *sum = if *sum < -limit { -limit } else { *sum };
                 }
                 *force = sums;
@@ -131,12 +129,12 @@ struct StepRecord {
 #[inline(always)]
 pub(crate) fn continued(contact: &Contact, state: &[f64], displacement: f64) -> Option<Response> {
     let evaluator = state::memory(state).branch_ahead(contact, displacement)?.evaluator(contact);
-    let response = evaluator.curve.interpolated(evaluator.distance(displacement))?;
+    let response = contact.interpolated(evaluator.distance(displacement))?;
     Some(evaluator.on_branch(response))
 }
 
 /// Finds the step of a contact from a state to a displacement \[m\], both checked.
-#[inline(never)]
+#[inline(always)]
 fn step(contact: &Contact, state: &[f64], displacement: f64) -> StepRecord {
     let memory = state::memory(state);
     let Transition { branch, reversed } = memory.locate(contact, displacement, |_| {});
@@ -150,6 +148,14 @@ fn step(contact: &Contact, state: &[f64], displacement: f64) -> StepRecord {
         merge = Some(pair);
     }
     StepRecord { depth: branch.depth, reversed, merge, initial, start, end, stiffness }
+}
+
+/// A step in place that does not continue its branch, with its energy.
+#[inline(never)]
+fn general_advance(contact: &Contact, state: &mut [f64], displacement: f64, energy: f64) -> Step {
+    let step = step(contact, state, displacement);
+    step.write(state);
+    step.result(energy)
 }
 
 /// The energy \[J\] that a step dissipates.
@@ -241,9 +247,7 @@ impl Law for ConstantLoad {
             state::set_point(state, Point { displacement, force });
             return Step { force, tangent: stiffness, dissipated: energy };
         }
-        let step = step(contact, state, displacement);
-        step.write(state);
-        step.result(energy)
+        general_advance(contact, state, displacement, energy)
     }
 
     /// The copy holds at most [`REVERSALS_OF_COPY`] reversals.

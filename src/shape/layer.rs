@@ -99,11 +99,6 @@ impl Layer {
         if x < 1e-8 { extent * (1.0 + 0.5 * x) } else { x.min(345.0).exp_m1() / self.stiffening.max(TINY) }
     }
 
-    /// The load at which a layer that is compliant in the tangential direction has a shift.
-    pub fn load_of_shift(&self, shift: f64) -> f64 {
-        self.load_of_extent(shift / self.tangential)
-    }
-
     /// dU2/dN and dS2/dN over the compliance without load.
     fn softness(&self, load: f64) -> f64 {
         1.0 / (1.0 + self.stiffening * load)
@@ -303,8 +298,39 @@ impl LayeredZones {
         StickZone { compliance_increase, ..*zone }
     }
 
-    /// Finds the points of the curve at a sequence of decreasing remaining shifts, the first of which is close to x_s: Newton's method
-    /// in the logarithm of the remaining shift of the contact, from its tangent at the point before.
+    /// The remaining shift of the contact alone where that of contact and layer has a value: Newton's method in the logarithms of both,
+    /// given 1 - τ and Λ + λ of the contact alone at a remaining shift of its own.
+    pub fn own_shift(&self, remaining: f64, start: f64, mut in_contact: impl FnMut(f64) -> [f64; 2]) -> f64 {
+        // Beyond the shift of the contact are no stick zones.
+        inverse_of_sum(remaining, start, self.contact().slip_shift(), |own| {
+            let [load, compliance] = in_contact(own);
+            let sum = own + self.layer.shift(load);
+            [sum, own / sum * (1.0 + self.layer.compliance(load) / compliance)]
+        })
+    }
+
+    /// A start of [`LayeredZones::own_shift`]. The layer alone would have more load at this displacement; a shift grows at most like the
+    /// power 2/3 of the load.
+    pub fn start(&self, remaining: f64) -> f64 {
+        let of_layer = self.layer.load_of_extent(remaining / self.layer.tangential);
+        remaining.min(self.contact().slip_shift() * of_layer.cbrt().powi(2)).max(f64::MIN_POSITIVE)
+    }
+
+    /// A stick zone of the contact alone with the layer.
+    fn with_layer(&self, zone: StickZone) -> StickZone {
+        let Complement { consumed, remaining } = zone.shift;
+        StickZone {
+            shift: Complement {
+                consumed: consumed + self.layer.shift(self.layer.lost(zone.load)),
+                remaining: remaining + self.layer.shift(zone.load.remaining),
+            },
+            compliance_increase: zone.compliance_increase + self.layer.increase(zone.load),
+            ..zone
+        }
+    }
+
+    /// Finds the points of the curve at a sequence of decreasing remaining shifts, the first of which is close to x_s, each from its
+    /// tangent at the point before.
     pub fn sequence(&self) -> impl FnMut(f64) -> LoadPoint {
         let mut in_contact = self.sequence_of_contact();
         let contact = self.contact();
@@ -323,20 +349,14 @@ impl LayeredZones {
                 };
             }
             let [of_contact, of_both, power] = last;
-            let mut found = LoadPoint { remaining: 0.0, compliance_increase: 0.0, curvature: 0.0 };
-            let mut sum = |own: f64| {
-                found = in_contact(own);
-                let load = found.load();
-                let sum = own + self.layer.shift(load.remaining);
-                let compliance = full_stick + found.compliance_increase;
-                last = [own, sum, own / sum * (1.0 + self.layer.compliance(load.remaining) / compliance)];
-                [sum, last[2]]
-            };
             let start = of_contact * ((remaining / of_both).ln() / power).exp();
-            // Beyond the shift of the contact are no stick zones.
-            let own = inverse_of_sum(remaining, start, shift, &mut sum);
-            sum(own);
-            let load = found.load();
+            let own = self.own_shift(remaining, start, |own| {
+                let LoadPoint { remaining, compliance_increase, .. } = in_contact(own);
+                [remaining, full_stick + compliance_increase]
+            });
+            let found = in_contact(own);
+            let (load, compliance) = (found.load(), full_stick + found.compliance_increase);
+            last = [own, remaining, own / remaining * (1.0 + self.layer.compliance(load.remaining) / compliance)];
             LoadPoint {
                 compliance_increase: found.compliance_increase + self.layer.increase(load),
                 curvature: found.curvature + self.layer.curvature(load),
@@ -363,34 +383,19 @@ impl StickZones for LayeredZones {
     }
 
     fn at_load_remaining(&self, remaining: f64) -> StickZone {
-        let zone = self.contact().at_load_remaining(remaining);
-        let Complement { consumed, remaining } = zone.shift;
-        StickZone {
-            shift: Complement {
-                consumed: consumed + self.layer.shift(self.layer.lost(zone.load)),
-                remaining: remaining + self.layer.shift(zone.load.remaining),
-            },
-            compliance_increase: zone.compliance_increase + self.layer.increase(zone.load),
-            ..zone
-        }
+        self.with_layer(self.contact().at_load_remaining(remaining))
     }
 
-    /// Newton's method in the logarithms of load and shift, from the smaller one of the loads at which contact and layer alone have the
-    /// shift.
     fn at_shift_remaining(&self, remaining: f64) -> StickZone {
         if remaining <= 0.0 {
             return self.at_load_remaining(0.0);
         }
         let contact = self.contact();
-        let half = contact.slip_shift() - contact.small_load().half_shift;
-        let alone = if remaining < half { contact.at_shift_remaining(remaining).load.remaining } else { 0.5 };
-        let start = alone.min(self.layer.load_of_shift(remaining)).max(TINY);
-        let load = inverse_of_sum(remaining, start, 1.0, |load| {
-            let zone = self.at_load_remaining(load);
-            let sum = zone.shift.remaining.max(TINY);
-            [sum, load * self.compliance(&zone) / sum]
+        let own = self.own_shift(remaining, self.start(remaining), |own| {
+            let zone = contact.at_shift_remaining(own);
+            [zone.load.remaining, contact.compliance(&zone)]
         });
-        let zone = self.at_load_remaining(load);
+        let zone = self.with_layer(contact.at_shift_remaining(own));
         StickZone { shift: Complement { consumed: self.slip_shift - remaining, remaining }, ..zone }
     }
 
@@ -546,7 +551,7 @@ impl<S: Shape> Shape for Layered<S> {
 
 /// The argument, at most the largest one, at which a growing sum has a value > 0: Newton's method in the logarithms of argument and sum,
 /// given the sum and the derivative of its logarithm by that of the argument.
-pub(crate) fn inverse_of_sum(value: f64, start: f64, largest: f64, mut sum: impl FnMut(f64) -> [f64; 2]) -> f64 {
+fn inverse_of_sum(value: f64, start: f64, largest: f64, mut sum: impl FnMut(f64) -> [f64; 2]) -> f64 {
     let mut argument = start.min(largest);
     for _ in 0..30 {
         let [found, power] = sum(argument);
