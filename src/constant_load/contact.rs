@@ -237,14 +237,14 @@ fn set_interpolant_of_curve(all: &LayeredZones, curve: &mut ForceInterpolant) ->
         let (slip_shift, compliance) = of(all);
         let fractions = [INNER_FRACTION, KNEE_FRACTION];
         for fraction in fractions.into_iter().take(if all.has_knee() { 2 } else { 1 }) {
-            *curve = ForceInterpolant::of(true, fraction, slip_shift, compliance, &mut all.sequence());
+            *curve = ForceInterpolant::of(fraction, slip_shift, compliance, &mut all.sequence());
             if curve.is_converged() {
                 return fraction;
             }
         }
     }
     let (slip_shift, compliance) = of(all.contact());
-    *curve = ForceInterpolant::of(false, INNER_FRACTION, slip_shift, compliance, &mut all.sequence_of_contact());
+    *curve = ForceInterpolant::of(INNER_FRACTION, slip_shift, compliance, &mut all.sequence_of_contact());
     if is_layered {
         curve.mark_without_layer();
     }

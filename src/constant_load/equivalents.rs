@@ -6,6 +6,7 @@
 use crate::constant_load::complex_stiffness::check_amplitude;
 use crate::constant_load::contact::Contact;
 use crate::error::Error;
+use crate::numerics::roots::logarithmic_newton;
 use crate::shape::stick_zone::{Complement, StickZones};
 use core::f64::consts::PI;
 
@@ -33,44 +34,24 @@ pub fn jenkins(contact: &Contact, amplitude: f64) -> Result<SpringSlider, Error>
     let amplitude = amplitude.min(1e100 * contact.slip_displacement);
     let (real, imaginary) = (contact.real_stiffness(amplitude).0, contact.imaginary_stiffness(amplitude).0);
     let ratio = imaginary / real.max(f64::MIN_POSITIVE);
-    if amplitude <= 0.0 || ratio < f64::MIN_POSITIVE {
+    if amplitude <= 0.0 || ratio < 1e-300 {
         let slip_force = if amplitude > 0.0 { real * amplitude } else { contact.slip_force };
         return Ok(SpringSlider { stiffness: real, slip_force });
     }
-    let (sine, half) = if ratio > 1.0 { large_cycle(ratio) } else { small_cycle(ratio) };
+    // With t = tan Θ/2 the inverse of the quotient grows as 4t/3 for small t, as π t²/4 for large ones.
+    let start = if ratio > 1.0 { 0.75 / ratio } else { (4.0 / (PI * ratio)).sqrt() };
+    let sine_and_cosine = |t: f64| (2.0 * t / (1.0 + t * t), (1.0 - t * t) / (1.0 + t * t));
+    let t = logarithmic_newton(1.0 / ratio, start, f64::INFINITY, |t| {
+        let (sine, cosine) = sine_and_cosine(t);
+        let quotient = minus_sine(4.0 * t.atan2(1.0)) / (2.0 * sine * sine);
+        [quotient, 2.0 * (sine / quotient - cosine)]
+    });
+    let (sine, half) = (sine_and_cosine(t).0, t / (1.0 + t * t).sqrt());
     let stiffness = PI * imaginary / sine / sine;
     Ok(SpringSlider { stiffness, slip_force: (stiffness * half) * (amplitude * half) })
 }
 
-/// sin Θ and sin Θ/2 for a ratio up to 1, for which η = π - Θ is small: Newton's iteration on
-/// `sin η/sqrt(π - η + sin η cos η) = sqrt(ratio)`, whose left side is nearly η/√π.
-fn small_cycle(ratio: f64) -> (f64, f64) {
-    let target = ratio.sqrt();
-    let mut eta = PI.sqrt() * target;
-    for _ in 0..6 {
-        let (sine, cosine) = eta.sin_cos();
-        let denominator = (PI - eta + sine * cosine).max(f64::MIN_POSITIVE);
-        let slope = (cosine + sine * sine * sine / denominator) / denominator.sqrt();
-        eta -= (sine / denominator.sqrt() - target) / slope;
-    }
-    (eta.sin(), (0.5 * eta).cos())
-}
-
-/// The same for a ratio above 1, for which Θ is small: Newton's iteration on `(Θ - sin Θ cos Θ)/sin² Θ = 1/ratio`, whose left side
-/// is nearly 2Θ/3.
-fn large_cycle(ratio: f64) -> (f64, f64) {
-    let target = 1.0 / ratio;
-    let mut angle = 1.5 * target;
-    for _ in 0..6 {
-        let (sine, cosine) = angle.sin_cos();
-        let quotient = minus_sine(2.0 * angle) / (2.0 * sine * sine).max(f64::MIN_POSITIVE);
-        let slope = 2.0 - 2.0 * quotient * cosine / sine.max(f64::MIN_POSITIVE);
-        angle -= (quotient - target) / slope;
-    }
-    (angle.sin(), (0.5 * angle).sin())
-}
-
-/// `s - sin s` for s up to 3, free of cancellation.
+/// `s - sin s` for s up to 2π, free of cancellation.
 fn minus_sine(s: f64) -> f64 {
     if s > 1.2 {
         return s - s.sin();

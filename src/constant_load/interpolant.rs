@@ -88,10 +88,9 @@ impl ForceInterpolant {
     }
 
     /// The interpolant of a curve from the fraction of its first polynomial, the shift of gross slip, the compliance Λ and points at decreasing
-    /// remaining shifts. With a layer the later intervals need all terms.
+    /// remaining shifts.
     #[inline(never)]
     pub fn of(
-        is_layered: bool,
         inner_fraction: f64,
         slip_shift: f64,
         compliance: f64,
@@ -116,19 +115,15 @@ impl ForceInterpolant {
         }
         let mut pieces = [[[0.0; 4]; _]; PIECES];
         let mut scale = 0.25;
-        for (j, piece) in pieces.iter_mut().enumerate() {
+        for piece in &mut pieces {
             let mut at = |z: f64| {
                 let v = scale * (3.0 + z);
                 at_remaining(remaining * v * v)
             };
             let unit = 2.0 * remaining * scale * scale;
-            // The rounding error of the stiffness grows by 4 from interval to interval: the later ones need fewer points.
+            // The rounding error of the stiffness grows by 4 from interval to interval.
             let tolerance = accuracy * (1.0 / (16.0 * scale * scale));
-            let (polynomial, piece_converged) = if j < 2 || is_layered {
-                interpolate::<TERMS, { TERMS / 2 }>(compliance, unit, &mut at, tolerance)
-            } else {
-                interpolate::<16, 8>(compliance, unit, &mut at, tolerance)
-            };
+            let (polynomial, piece_converged) = interpolate(compliance, unit, &mut at, tolerance);
             *piece = polynomial;
             converged &= piece_converged;
             scale *= 0.5;
@@ -315,14 +310,9 @@ fn last_pieces(
 /// 1 - τ over a dyadic interval, and whether it has converged: the integral of `unit (3+z)/(Λ + λ)`, with a constant that fits the
 /// values of 1 - τ. The compliance at the first point gives a parabola; the difference from it is interpolated.
 #[inline(never)]
-fn interpolate<const N: usize, const M: usize>(
-    compliance: f64,
-    unit: f64,
-    at: &mut dyn FnMut(f64) -> LoadPoint,
-    tolerance: f64,
-) -> (Polynomial, bool) {
+fn interpolate(compliance: f64, unit: f64, at: &mut dyn FnMut(f64) -> LoadPoint, tolerance: f64) -> (Polynomial, bool) {
     let (mut sum, mut first) = (0.0, None);
-    let tangents = Interpolant::<M>::at_points(|z| {
+    let tangents = Interpolant::<{ TERMS / 2 }>::at_points(|z| {
         let LoadPoint { remaining, compliance_increase: increase, curvature } = at(z);
         sum += remaining;
         let first = *first.get_or_insert(increase);
@@ -331,12 +321,12 @@ fn interpolate<const N: usize, const M: usize>(
         let slope = (compliance + first) * curvature * stiffness * stiffness * stiffness;
         Tangent { value: r * ratio, slope: ratio - r * r * unit * slope }
     });
-    let decrease = Interpolant::<N>::osculating(&tangents);
+    let decrease = Interpolant::<TERMS>::osculating(&tangents);
     let stiffness = unit / (compliance + first.unwrap_or(0.0));
     let mut integral = rows(&decrease.integral().powers_from_middle().map(|coefficient| -stiffness * coefficient));
     if let Some([constant, linear, square, _]) = integral.first_mut() {
         // The mean of z²/2 over the points is 1/4.
-        *constant += sum * (1.0 / M as f64) - 0.25 * stiffness;
+        *constant += sum * (2.0 / TERMS as f64) - 0.25 * stiffness;
         *linear += 3.0 * stiffness;
         *square += 0.5 * stiffness;
     }

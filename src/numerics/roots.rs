@@ -1,4 +1,4 @@
-//! Root finding: Newton's method safeguarded by bisection.
+//! Root finding: Newton's method safeguarded by bisection, and in logarithms.
 
 /// Root of a function that is negative at `low` and not negative at `high`. `evaluate` returns value and derivative. A Newton step
 /// that leaves the bracket is replaced by bisection; the iteration ends after a Newton step below 1e-9, whose successor would be
@@ -25,4 +25,25 @@ pub(crate) fn bracketed_newton(low: f64, high: f64, start: f64, evaluate: impl F
         }
     }
     at
+}
+
+/// The argument, at most the largest one, at which a growing function has a value > 0: Newton's method in the logarithms of argument and
+/// function, given the function and the derivative of its logarithm by that of the argument.
+pub(crate) fn logarithmic_newton(
+    value: f64,
+    start: f64,
+    largest: f64,
+    mut function: impl FnMut(f64) -> [f64; 2],
+) -> f64 {
+    let mut argument = start.min(largest);
+    for _ in 0..30 {
+        let [found, power] = function(argument);
+        let step = (value / found).ln() / power;
+        argument = largest.min(argument * step.exp());
+        // Quadratic convergence: the next step is below rounding.
+        if step.abs() < 1e-8 {
+            break;
+        }
+    }
+    argument
 }

@@ -14,6 +14,7 @@
 use crate::error::Error;
 use crate::limits::in_range;
 use crate::numerics::chebyshev::{Interpolant, Tangent};
+use crate::numerics::roots::logarithmic_newton;
 use crate::parameters::{self, Common};
 use crate::shape::stick_zone::ellipse::EllipseZones;
 use crate::shape::stick_zone::rounded_flat::RoundedFlatZones;
@@ -302,7 +303,7 @@ impl LayeredZones {
     /// given 1 - τ and Λ + λ of the contact alone at a remaining shift of its own.
     pub fn own_shift(&self, remaining: f64, start: f64, mut in_contact: impl FnMut(f64) -> [f64; 2]) -> f64 {
         // Beyond the shift of the contact are no stick zones.
-        inverse_of_sum(remaining, start, self.contact().slip_shift(), |own| {
+        logarithmic_newton(remaining, start, self.contact().slip_shift(), |own| {
             let [load, compliance] = in_contact(own);
             let sum = own + self.layer.shift(load);
             [sum, own / sum * (1.0 + self.layer.compliance(load) / compliance)]
@@ -504,7 +505,7 @@ impl<S: Shape> Shape for Layered<S> {
         // A soft layer stiffens exponentially: alone it may carry a load that no size has.
         let of_layer = self.layer.load_of_extent(value / unloaded);
         let start = if of_layer < self.shape.load(of_shape) { self.shape.at_load(of_layer) } else { of_shape };
-        inverse_of_sum(value, start, f64::INFINITY, |w| {
+        logarithmic_newton(value, start, f64::INFINITY, |w| {
             let sum = self.value(quantity, w);
             // dN/d(ln w) = 2w²/(dw²/dN).
             [sum, 2.0 * w / self.shape.size_slope(w) * w * self.compliance(quantity, w) / sum]
@@ -547,22 +548,6 @@ impl<S: Shape> Shape for Layered<S> {
             }
         }
     }
-}
-
-/// The argument, at most the largest one, at which a growing sum has a value > 0: Newton's method in the logarithms of argument and sum,
-/// given the sum and the derivative of its logarithm by that of the argument.
-fn inverse_of_sum(value: f64, start: f64, largest: f64, mut sum: impl FnMut(f64) -> [f64; 2]) -> f64 {
-    let mut argument = start.min(largest);
-    for _ in 0..30 {
-        let [found, power] = sum(argument);
-        let step = (value / found).ln() / power;
-        argument = largest.min(argument * step.exp());
-        // Quadratic convergence: the next step is below rounding.
-        if step.abs() < 1e-8 {
-            break;
-        }
-    }
-    argument
 }
 
 /// Powers of the series ν(ρ) that inverts `y(ν) = y_0 (1 + ρ)`, at `[power][order]`.

@@ -16,6 +16,7 @@
 use crate::error::Error;
 use crate::limits::{LARGEST_EXPONENT, exponent_of, in_range};
 use crate::numerics::const_math::tabulate;
+use crate::numerics::roots::logarithmic_newton;
 use crate::parameters::{CENTRE_POINT, Pair, Parameters};
 use crate::shape::rounded_punch::{RoundedPunch, TINY};
 use crate::shape::stick_zone::SurfacePoint;
@@ -119,31 +120,22 @@ impl RoundedFlat {
         load * (self.log_compliance(punch, constant) + punch.beta(load))
     }
 
-    /// The size at which [`RoundedFlat::integrated_compliance`] has a value: Newton's method in ln w, in which its logarithm has
-    /// slopes from 1.7 to 3.
+    /// The size at which [`RoundedFlat::integrated_compliance`] has a value: in logarithms it has slopes from 1.7 to 3.
     fn size_of(&self, value: f64, constant: f64) -> f64 {
         if value <= 0.0 {
             return 0.0;
         }
         let load = value / self.log_compliance(self.punch(), constant).max(1.0);
-        let mut w = RoundedPunch::initial_guess_w(self.flat, load);
-        for _ in 0..60 {
+        logarithmic_newton(value, RoundedPunch::initial_guess_w(self.flat, load), f64::INFINITY, |w| {
             let punch = self.punch_at(w);
             let compliance = self.log_compliance(&punch, constant);
             if compliance <= 0.0 {
-                // Beyond the largest size: the steps from below do not overshoot, because the logarithm is concave.
-                w *= 0.5;
-                continue;
+                // Beyond the largest size, half of it. The steps from below do not overshoot, because the logarithm is concave.
+                return [2.0 * value, 1.0];
             }
             let found = self.integrated_compliance(&punch, constant);
-            let slope = 4.0 * w * w * punch.psi * compliance / found;
-            let step = ((value / found).ln() / slope).clamp(-4.0, 4.0);
-            w *= step.exp();
-            if step.abs() < 1e-9 {
-                break;
-            }
-        }
-        w
+            [found, 4.0 * w * w * punch.psi * compliance / found]
+        })
     }
 }
 
