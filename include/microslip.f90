@@ -293,7 +293,7 @@ module microslip
     integer(mslip_int) :: directions = 0
       !! Number of tangential directions, 1 or 2: a displacement is [u, w] or [u, v, w], a force [T, N] or [Tx, Ty, N].
     integer(mslip_int) :: normal_input = 0  !! MSLIP_INPUT_APPROACH or MSLIP_INPUT_NORMAL_FORCE.
-    real(mslip_real) :: reserved(1856) = 0  !! Internal tables.
+    real(mslip_real) :: reserved(1853) = 0  !! Internal tables.
   end type mslip_element
   ! </generated>
 

@@ -315,7 +315,7 @@ typedef struct mslip_element {
     // MSLIP_INPUT_APPROACH or MSLIP_INPUT_NORMAL_FORCE.
     int32_t normal_input;
     // Internal tables.
-    double reserved[1856];
+    double reserved[1853];
 } mslip_element;
 
 #ifdef __cplusplus

@@ -67,8 +67,9 @@ pub struct Element {
     smallest_input: f64,
     /// N, U and S under [`SMALLEST_LOAD`] of the normal force.
     smallest: [f64; 3],
-    flat: Layered<RoundedFlat>,
-    ellipse: Layered<HertzEllipse>,
+    flat: RoundedFlat,
+    ellipse: HertzEllipse,
+    layer: Layer,
     /// N(U) or U(N): what the input does not give.
     of_input: Table,
     /// S of the input.
@@ -156,11 +157,12 @@ impl Element {
         parameters.check()?;
         let (common, length) = (parameters.common(), parameters.length);
         let composite_modulus = closed_modulus(&common)?;
-        let flat = Layered::new(RoundedFlat::new(parameters)?, &common)?;
+        let flat = RoundedFlat::new(parameters)?;
+        let (layer, _) = Layer::new(&common.layer, common.normal_force)?;
         // The load at b = 2L.
         in_range(&[length, length, length, composite_modulus], &[parameters.edge_radius])?;
-        self.init(&flat, &common, directions, input)?;
-        (self.composite_modulus, self.flat, self.ellipse) = (composite_modulus, flat, Layered::default());
+        self.init(&Layered { shape: &flat, layer: &layer }, &common, directions, input)?;
+        (self.composite_modulus, self.flat, self.ellipse) = (composite_modulus, flat, HertzEllipse::default());
         Ok(())
     }
 
@@ -174,21 +176,22 @@ impl Element {
         parameters.check()?;
         let common = parameters.common();
         let composite_modulus = closed_modulus(&common)?;
-        let ellipse = Layered::new(HertzEllipse::new(parameters)?, &common)?;
+        let ellipse = HertzEllipse::new(parameters)?;
+        let (layer, _) = Layer::new(&common.layer, common.normal_force)?;
         // The approach, free of overflow.
         for axis in [parameters.semi_axis_x, parameters.semi_axis_y] {
             in_range(&[common.normal_force], &[axis, composite_modulus])?;
         }
-        self.init(&ellipse, &common, directions, input)?;
+        self.init(&Layered { shape: &ellipse, layer: &layer }, &common, directions, input)?;
         self.tag |= ELLIPTIC;
-        (self.composite_modulus, self.flat, self.ellipse) = (composite_modulus, Layered::default(), ellipse);
+        (self.composite_modulus, self.flat, self.ellipse) = (composite_modulus, RoundedFlat::default(), ellipse);
         Ok(())
     }
 
     /// Checks all ranges, then writes what depends on the shape only through its trait.
     fn init(
         &mut self,
-        shape: &dyn Shape,
+        shape: &Layered,
         parameters: &Common,
         directions: Directions,
         input: NormalInput,
@@ -209,26 +212,27 @@ impl Element {
                 in_range(&[value, friction_coefficient], &[])?;
             }
         }
-        self.largest_load = shape.load(largest);
+        self.largest_load = shape.shape.load(largest);
         [self.largest_approach, self.largest_shift] =
             [Quantity::Approach, Quantity::Shift].map(|quantity| shape.value(quantity, largest));
         if directions == Directions::Two {
             self.largest_load = self.largest_load.min(normal_force / SMALLEST_LOAD);
             self.largest_approach = self.largest_approach.min(approach * MOST_APPROACH);
         }
-        let least = shape.at_load(SMALLEST_LOAD * normal_force);
+        let least = shape.shape.at_load(SMALLEST_LOAD * normal_force);
         self.smallest = Quantity::ALL.map(|quantity| shape.value(quantity, least));
         let smallest = if directions == Directions::Two { SMALLEST_OF_SPRINGS } else { SMALLEST_LOAD };
         self.smallest_input = smallest * if input == NormalInput::Force { normal_force } else { approach };
         self.friction_coefficient = friction_coefficient;
         self.per_two_mu = if friction_coefficient > 0.0 { 0.5 / friction_coefficient.max(TINY) } else { 0.0 };
         self.normal_force = normal_force;
-        self.half_width = shape.half_width(w);
+        self.half_width = shape.shape.half_width(w);
         self.approach = approach;
         [self.normal_stiffness, self.tangential_stiffness] = compliances.map(f64::recip);
         (self.directions, self.normal_input) = (directions as i32, input as i32);
         self.tag = TAG | tag_of(directions) | if input == NormalInput::Force { FORCE_INPUT } else { 0 };
         self.checksum = 0;
+        self.layer = *layer;
         let ratio = plane.per_approach[1] / plane.per_approach[0];
         let own = [plane.per_load[1] - ratio * plane.per_load[0], (1.0 - ratio) * layer.compliance(0.0)];
         self.lateral = [ratio, if layer.is_linear() { own[0] + own[1] } else { own[0] }];
@@ -247,7 +251,7 @@ impl Element {
     }
 
     /// Fills the tables up to N, U and S of the parameters.
-    fn fill_tables(&mut self, shape: &dyn Shape, input: NormalInput, [normal_force, approach, shift]: [f64; 3]) {
+    fn fill_tables(&mut self, shape: &Layered, input: NormalInput, [normal_force, approach, shift]: [f64; 3]) {
         let plane = shape.plane();
         // The approach and the shift of a short contact have a maximum just beyond the largest size, where their inverses are
         // singular. Where that is at less than 2.25 times the argument, it would lie within 9 half-lengths of a quarter.
@@ -274,13 +278,13 @@ impl Element {
 
     /// The family of sizes in both directions.
     pub(crate) fn plane(&self) -> Plane<'_> {
-        self.shape().plane()
+        self.layered().plane()
     }
 
     /// S along y, from a load and its shift along x.
     #[inline(always)]
     pub(crate) fn lateral_shift(&self, load: f64, shift: f64) -> f64 {
-        let ([ratio, per_load], layer) = (self.lateral, self.layer());
+        let ([ratio, per_load], layer) = (self.lateral, &self.layer);
         let linear = ratio * shift + per_load * load;
         if layer.is_linear() { linear } else { linear + (1.0 - ratio) * layer.shift(load) }
     }
@@ -288,14 +292,10 @@ impl Element {
     /// The derivative of S along y.
     #[inline(always)]
     pub(crate) fn lateral_slope(&self, normal: &Normal) -> f64 {
-        let ([ratio, per_load], layer) = (self.lateral, self.layer());
+        let ([ratio, per_load], layer) = (self.lateral, &self.layer);
         let Normal { load, load_slope, shift_slope, .. } = *normal;
         let linear = ratio * shift_slope + per_load * load_slope;
         if layer.is_linear() { linear } else { linear + (1.0 - ratio) * (layer.compliance(load) * load_slope) }
-    }
-
-    fn layer(&self) -> &Layer {
-        if self.tag & ELLIPTIC == 0 { &self.flat.layer } else { &self.ellipse.layer }
     }
 
     /// The size w under a load > 0.
@@ -349,12 +349,12 @@ impl Element {
 
     /// A quantity as a function of an argument >= 0, from the shape. Below the smallest size all are proportional to each other.
     fn outside(&self, [quantity, argument]: [Quantity; 2], x: f64) -> (f64, f64) {
-        let shape = self.shape();
+        let shape = self.layered();
         if x > 0.0 && x < self.smallest(argument) {
             let slope = self.smallest(quantity) / self.smallest(argument);
             return (slope * x, slope);
         }
-        if x <= 0.0 && shape.half_width(0.0) <= 0.0 {
+        if x <= 0.0 && shape.shape.half_width(0.0) <= 0.0 {
             // A point is infinitely compliant.
             return (0.0, if argument == Quantity::Load { f64::INFINITY } else { 0.0 });
         }
@@ -460,9 +460,14 @@ impl Element {
         self.tag & FORCE_INPUT == 0
     }
 
-    /// The family of sizes.
+    /// The family of sizes without the layer.
     pub(crate) fn shape(&self) -> &dyn Shape {
         if self.tag & ELLIPTIC == 0 { &self.flat } else { &self.ellipse }
+    }
+
+    /// The family of sizes.
+    fn layered(&self) -> Layered<'_> {
+        Layered { shape: self.shape(), layer: &self.layer }
     }
 
     /// Checks a normal component.
@@ -578,8 +583,8 @@ impl Element {
         if shift <= self.smallest(Quantity::Shift) {
             return 0.0;
         }
-        let w = self.shape().size_at(Quantity::Shift, shift);
-        let [[_, _, curvature, ..], ..] = self.shape().series(w, Quantity::Shift);
+        let shape = self.layered();
+        let [[_, _, curvature, ..], ..] = shape.series(shape.size_at(Quantity::Shift, shift), Quantity::Shift);
         2.0 * curvature / (shift * shift)
     }
 
@@ -600,7 +605,7 @@ impl Element {
         if shift <= self.smallest(Quantity::Shift) {
             return 0.5 * self.load_under(shift) * shift;
         }
-        self.shape().potential(self.shape().size_at(Quantity::Shift, shift))
+        self.layered().potential(self.layered().size_at(Quantity::Shift, shift))
     }
 }
 
@@ -622,20 +627,20 @@ fn closed_modulus(parameters: &Common) -> Result<f64, Error> {
 /// The size under a normal force and the largest one for which the laws hold.
 ///
 /// Errors: those of [`Layer::check_share`]; `LengthTooShort` if the first one is not smaller.
-fn sizes(shape: &dyn Shape, normal_force: f64, directions: Directions) -> Result<[f64; 2], Error> {
+fn sizes(shape: &Layered, normal_force: f64, directions: Directions) -> Result<[f64; 2], Error> {
     let plane = shape.plane();
     let mut largest = shape.largest_size();
     if directions == Directions::Two {
         largest = largest.min(plane.largest);
     }
-    let w = shape.at_load(normal_force);
+    let w = shape.shape.at_load(normal_force);
     if !plane.layer.is_none() {
         let compliances = [Quantity::Approach, Quantity::Shift].map(|quantity| shape.compliance(quantity, w));
         plane.layer.check_share(normal_force, compliances)?;
         // The contact stiffens with the load, so that a layer has energies of the order of N² where those of a contact are smaller.
         let most = normal_force * MOST_LOAD_WITH_LAYER;
-        if shape.load(largest) > most {
-            largest = shape.at_load(most);
+        if shape.shape.load(largest) > most {
+            largest = shape.shape.at_load(most);
         }
     }
     if w >= largest { Err(Error::LengthTooShort) } else { Ok([w, largest]) }

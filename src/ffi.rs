@@ -120,7 +120,7 @@ pub struct mslip_element {
     /// MSLIP_INPUT_APPROACH or MSLIP_INPUT_NORMAL_FORCE.
     pub normal_input: i32,
     /// Internal tables.
-    pub reserved: [f64; 1856],
+    pub reserved: [f64; 1853],
 }
 
 const _: () = {

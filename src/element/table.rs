@@ -291,14 +291,14 @@ mod tests {
                     stiffening_load: 150.0 * ratio,
                     reference_load: 0.0,
                 };
-                let both = Layered { shape: *shape, layer: Layer::new(&layer, 150.0).unwrap().0 };
-                let largest = both.value(Quantity::Approach, both.at_load(150.0));
+                let both = Layered { shape, layer: &Layer::new(&layer, 150.0).unwrap().0 };
+                let largest = both.value(Quantity::Approach, shape.at_load(150.0));
                 let mut table = Table::default();
                 let at = |x: f64| both.size_at(Quantity::Approach, x);
                 Table::fill([&mut table], largest, &mut |x| [both.series(at(x), Quantity::Approach)[0]]);
                 let mut x = largest;
                 while let Some(([load], _)) = table.at::<true, 1>(&[x]) {
-                    worst = worst.max((load / both.load(at(x)) - 1.0).abs());
+                    worst = worst.max((load / shape.load(at(x)) - 1.0).abs());
                     // The lower end, then another quarter.
                     let low = f64::from_bits(x.to_bits() >> SHIFT << SHIFT);
                     x = if x > low { low } else { 0.97 * x };

@@ -15,7 +15,7 @@ use crate::error::Error;
 use crate::limits::in_range;
 use crate::numerics::chebyshev::{Interpolant, Tangent};
 use crate::numerics::roots::logarithmic_newton;
-use crate::parameters::{self, Common};
+use crate::parameters;
 use crate::shape::stick_zone::ellipse::EllipseZones;
 use crate::shape::stick_zone::rounded_flat::RoundedFlatZones;
 use crate::shape::stick_zone::small_load::{RETAINED_TERMS, SmallLoadSeries, curvature_series};
@@ -442,60 +442,39 @@ pub(crate) fn artanh_remainder(z: f64) -> f64 {
 }
 
 /// A shape and a layer in series with it.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Layered<S> {
-    pub shape: S,
-    pub layer: Layer,
+#[derive(Clone, Copy)]
+pub(crate) struct Layered<'a> {
+    pub shape: &'a dyn Shape,
+    pub layer: &'a Layer,
 }
 
-impl<S: Shape> Layered<S> {
-    /// A shape and the layer of parameters that were checked, N > 0.
-    /// Errors: as for [`Layer::new`].
-    pub fn new(shape: S, parameters: &Common) -> Result<Layered<S>, Error> {
-        Ok(Layered { shape, layer: Layer::new(&parameters.layer, parameters.normal_force)?.0 })
-    }
-}
-
-impl<S: Shape> Shape for Layered<S> {
-    fn plane(&self) -> Plane<'_> {
-        Plane { layer: &self.layer, ..self.shape.plane() }
+impl<'a> Layered<'a> {
+    /// Both directions of the plane of contact.
+    pub fn plane(&self) -> Plane<'a> {
+        Plane { layer: self.layer, ..self.shape.plane() }
     }
 
-    fn half_width(&self, w: f64) -> f64 {
-        self.shape.half_width(w)
-    }
-
-    fn value(&self, quantity: Quantity, w: f64) -> f64 {
+    /// N, U or S \[N, m\].
+    pub fn value(&self, quantity: Quantity, w: f64) -> f64 {
         let (of_shape, unloaded) = (self.shape.value(quantity, w), self.layer.unloaded(quantity));
         if unloaded > 0.0 { of_shape + unloaded * self.layer.extent(self.shape.load(w)) } else { of_shape }
     }
 
-    fn compliance(&self, quantity: Quantity, w: f64) -> f64 {
+    /// The derivative of N, U or S by N.
+    pub fn compliance(&self, quantity: Quantity, w: f64) -> f64 {
         let (of_shape, unloaded) = (self.shape.compliance(quantity, w), self.layer.unloaded(quantity));
         if unloaded > 0.0 { of_shape + unloaded * self.layer.softness(self.shape.load(w)) } else { of_shape }
     }
 
-    fn potential(&self, w: f64) -> f64 {
+    /// M \[J\].
+    pub fn potential(&self, w: f64) -> f64 {
         let of_shape = self.shape.potential(w);
         if self.layer.tangential > 0.0 { of_shape + self.layer.potential(self.shape.load(w)) } else { of_shape }
     }
 
-    fn compliance_under_flat(&self, half_width: f64) -> f64 {
-        self.shape.compliance_under_flat(half_width)
-    }
-
-    fn pressure_weight(&self, w: f64) -> f64 {
-        self.shape.pressure_weight(w)
-    }
-
-    fn size_slope(&self, w: f64) -> f64 {
-        self.shape.size_slope(w)
-    }
-
-    /// The size at which the shape alone has the value and that at which the layer alone has it are both too large; at the smaller one of
+    /// The size w at which N, U or S has a value. The size at which the shape alone has the value and that at which the layer alone has it are both too large; at the smaller one of
     /// both the sum is at most twice the value.
-    fn size_at(&self, quantity: Quantity, value: f64) -> f64 {
+    pub fn size_at(&self, quantity: Quantity, value: f64) -> f64 {
         let unloaded = self.layer.unloaded(quantity);
         if unloaded <= 0.0 || value <= 0.0 {
             return self.shape.size_at(quantity, value);
@@ -512,8 +491,8 @@ impl<S: Shape> Shape for Layered<S> {
         })
     }
 
-    /// That of the shape; approach and shift of the layer up to 2^498 m.
-    fn largest_size(&self) -> f64 {
+    /// The largest size of the shape; approach and shift of the layer up to 2^498 m.
+    pub fn largest_size(&self) -> f64 {
         let largest = self.shape.largest_size();
         let compliance = self.layer.normal.max(self.layer.tangential);
         if compliance <= 1.0 {
@@ -522,11 +501,8 @@ impl<S: Shape> Shape for Layered<S> {
         largest.min(self.shape.at_load(2f64.powi(498) / compliance))
     }
 
-    fn pressure_between(&self, from: f64, to: f64, x: f64) -> f64 {
-        self.shape.pressure_between(from, to, x)
-    }
-
-    fn series(&self, w: f64, argument: Quantity) -> [Series; 3] {
+    /// N, U and S about the size w > 0 as functions of one of them.
+    pub fn series(&self, w: f64, argument: Quantity) -> [Series; 3] {
         if self.layer.is_none() {
             return self.shape.series(w, argument);
         }
