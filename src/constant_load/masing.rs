@@ -14,57 +14,31 @@ use crate::limits::check_displacement;
 use crate::simd::dispatch;
 use crate::tag::Kind;
 
-/// Evaluates force and stiffness on a branch without gross slip.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct BranchEvaluator<'c> {
-    branch: Branch,
-    /// Direction times Masing scale.
-    factor: f64,
-    contact: &'c Contact,
-}
-
 impl Branch {
-    #[inline(always)]
-    pub fn evaluator<'c>(&self, contact: &'c Contact) -> BranchEvaluator<'c> {
-        BranchEvaluator { branch: *self, factor: self.direction * self.scale, contact }
-    }
-
     /// Force and stiffness at a displacement on the branch.
     #[inline(always)]
     pub fn response(&self, contact: &Contact, displacement: f64) -> Response {
         if self.gross_slip {
             return Response { force: self.direction * contact.slip_force, stiffness: 0.0 };
         }
-        self.evaluator(contact).at(displacement)
-    }
-}
-
-impl BranchEvaluator<'_> {
-    /// The displacement on the monotonic curve.
-    #[inline(always)]
-    fn distance(&self, displacement: f64) -> f64 {
-        self.branch.distance(self.contact.slip_displacement, displacement)
+        self.on_branch(contact, contact.response(self.distance(contact.slip_displacement, displacement)))
     }
 
     /// The response on the branch, from that of the monotonic curve.
     #[inline(always)]
-    fn on_branch(&self, Response { force, stiffness }: Response) -> Response {
-        let (force, limit) = (self.branch.start.force + self.factor * force, self.contact.slip_force);
+    fn on_branch(&self, contact: &Contact, Response { force, stiffness }: Response) -> Response {
+        let (force, limit) = (self.start.force + self.direction * self.scale * force, contact.slip_force);
         let force = if force > limit { limit } else { force };
         Response { force: if force < -limit { -limit } else { force }, stiffness }
     }
 
-    /// At a displacement on the branch.
-    #[inline(always)]
-    pub fn at(&self, displacement: f64) -> Response {
-        self.on_branch(self.contact.response(self.distance(displacement)))
-    }
-
-    /// Forces, and stiffnesses if requested, at `count` displacements in the order of the branch, with the same bits. All arrays, of
-    /// which the first two are scratch memory, have at least [`BEYOND`] more values; those of the outputs are overwritten.
+    /// Forces, and stiffnesses if requested, at `count` displacements in the order of the branch, which is not gross slip, with the
+    /// same bits. All arrays, of which the first two are scratch memory, have at least [`BEYOND`] more values; those of the outputs are
+    /// overwritten.
     #[inline(always)]
     pub fn along<const STIFFNESS: bool>(
         &self,
+        contact: &Contact,
         count: usize,
         displacement: &[f64],
         [distances, roots]: [&mut [f64]; 2],
@@ -72,8 +46,8 @@ impl BranchEvaluator<'_> {
         stiffnesses: &mut [f64],
     ) {
         dispatch!({
-            let BranchEvaluator { branch, factor, contact } = self;
-            let limit = contact.slip_force;
+            let (branch, limit) = (*self, contact.slip_force);
+            let factor = branch.direction * branch.scale;
             let blocks = distances.as_chunks_mut::<4>().0.iter_mut().zip(displacement.as_chunks::<4>().0);
             for (block, &x) in blocks.take(count.div_ceil(4)) {
                 // Stored together: otherwise they could overlap the next displacement.
@@ -128,9 +102,9 @@ struct StepRecord {
 /// no iteration. `None` for every other step. State and displacement are checked.
 #[inline(always)]
 pub(crate) fn continued(contact: &Contact, state: &[f64], displacement: f64) -> Option<Response> {
-    let evaluator = state::memory(state).branch_ahead(contact, displacement)?.evaluator(contact);
-    let response = contact.interpolated(evaluator.distance(displacement))?;
-    Some(evaluator.on_branch(response))
+    let branch = state::memory(state).branch_ahead(contact, displacement)?;
+    let response = contact.interpolated(branch.distance(contact.slip_displacement, displacement))?;
+    Some(branch.on_branch(contact, response))
 }
 
 /// Finds the step of a contact from a state to a displacement \[m\], both checked.

@@ -3,14 +3,13 @@
 use crate::constant_load::contact::Contact;
 use crate::constant_load::energy::Dissipation;
 use crate::constant_load::evaluator::Response;
-use crate::constant_load::masing::BranchEvaluator;
 use crate::constant_load::memory::{Branch, InitialCurve, Memory, Point, Reversal, push};
 use crate::parameters::{Sensitivity, times};
 
 /// A contact with friction under a constant normal force in the steady state of a periodic displacement.
 #[derive(Debug)]
 pub(crate) struct SteadyState<'c, 's> {
-    contact: &'c Contact,
+    pub contact: &'c Contact,
     energy: Option<Dissipation<'c>>,
     initial: InitialCurve,
     branch: Branch,
@@ -50,11 +49,6 @@ impl<'c, 's> SteadyState<'c, 's> {
     pub fn branch(&self) -> Branch {
         let Branch { direction, end, gross_slip, .. } = self.branch;
         Branch { end: if gross_slip { direction * f64::INFINITY } else { end }, ..self.branch }
-    }
-
-    /// Evaluator of the present branch.
-    pub fn evaluator(&self) -> BranchEvaluator<'c> {
-        self.branch.evaluator(self.contact)
     }
 
     /// Response at a displacement on the present branch.

@@ -353,13 +353,12 @@ impl<'m, 'c, 's> Period<'m, 'c, 's> {
             let derivatives = |displacement| stack.at(&self.law, displacement);
             return buffers.nodes.integrate(&self.motion, segment, buffers.harmonics, derivatives, sums);
         }
-        let evaluator = self.law.evaluator();
         let orders = if stiffness { 2 * buffers.harmonics } else { buffers.harmonics };
         let Buffers { nodes, segment_stiffness, assembly, force: force_sums, .. } = buffers;
         let sums = segment_stiffness.as_flattened_mut().get_mut(..2 * coefficients - 1).unwrap_or(&mut []);
         sums.fill(0.0);
         let values = |displacement| {
-            let Response { force, stiffness } = evaluator.at(displacement);
+            let Response { force, stiffness } = self.law.response(displacement);
             [force, stiffness]
         };
         let requested = [if force { &mut **force_sums } else { &mut [] }, if stiffness { &mut *sums } else { &mut [] }];

@@ -205,9 +205,9 @@ impl Path<'_> {
                 } else {
                     let [one, two] = scratch;
                     if requested.stiffness {
-                        law.evaluator().along::<true>(count, rest, [one, two], force, stiffness);
+                        branch.along::<true>(law.contact, count, rest, [one, two], force, stiffness);
                     } else {
-                        law.evaluator().along::<false>(count, rest, [one, two], force, stiffness);
+                        branch.along::<false>(law.contact, count, rest, [one, two], force, stiffness);
                     }
                 }
                 from.force = at(force, count - 1);
