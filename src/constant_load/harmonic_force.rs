@@ -30,13 +30,13 @@ use crate::parameters::PARAMETERS;
 
 pub use crate::fourier::HarmonicOutput;
 
-/// Quadrature rule for the integrals over a period.
+/// Quadrature rule for the integrals over a period, with the constant of the C interface.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Rule {
     /// Uniformly spaced samples.
-    UniformSampling,
+    UniformSampling = 0,
     /// Gauss-Legendre nodes between the events of the force.
-    EventDriven,
+    EventDriven = 1,
 }
 
 impl Rule {

@@ -10,8 +10,7 @@
 
 use crate::constant_load::ConstantLoad;
 use crate::constant_load::contact::Contact;
-use crate::constant_load::memory::{InitialCurve, Memory, force_error, push};
-use crate::constant_load::memory::{Point, Reversal};
+use crate::constant_load::memory::{InitialCurve, Memory, Point, Reversal, push};
 use crate::error::Error;
 use crate::law::Law;
 use crate::numerics::fp_class::is_finite;
@@ -138,5 +137,6 @@ pub fn state_check(state: &[f64]) -> Result<(), Error> {
 /// erased the memory.
 /// Errors: `StateTooShort`, `BadState`.
 pub fn state_error(state: &[f64]) -> Result<f64, Error> {
-    Ok(force_error(read(state)?.reversals))
+    ConstantLoad::check_header(state)?;
+    Ok(ConstantLoad::force_error(state))
 }

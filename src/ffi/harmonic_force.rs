@@ -67,13 +67,9 @@ pub unsafe extern "C" fn mslip_harmonic_workspace_size(
         [harmonics, samples].iter().try_for_each(|output| check_alignment(*output))?;
         check_alignment(rule)?;
         let (found, size, _) = workspace_size(&header)?;
-        let constant = match found {
-            Rule::UniformSampling => MSLIP_UNIFORM_SAMPLING,
-            Rule::EventDriven => MSLIP_EVENT_DRIVEN,
-        };
         pointers::write(harmonics, size.harmonics);
         pointers::write(samples, size.samples);
-        pointers::write(rule, constant);
+        pointers::write(rule, found as i32);
         Ok(())
     })
 }
