@@ -295,7 +295,7 @@ fn bad_data_are_reported() {
 #[test]
 fn arbitrary_records_are_fitted_or_rejected() {
     let mut fitted = 0;
-    for seed in 0..300 {
+    for seed in 0..60 {
         let mut random = Random::new(seed);
         let count = 40 + (random.uniform() * 200.0) as usize;
         let mut walk = 0.0;
@@ -327,5 +327,5 @@ fn arbitrary_records_are_fitted_or_rejected() {
             }
         }
     }
-    assert!(fitted > 20, "{fitted}");
+    assert!(fitted > 4, "{fitted}");
 }

@@ -137,10 +137,10 @@ sanitized() {
         $CARGO "$@" --quiet --locked --package microslip --target "$triple" --target-dir "target/$sanitizer"
 }
 
-# instrument SANITIZER: builds the archive for a sanitizer, as $instrumented.
+# instrument SANITIZER: builds the archive for a sanitizer, as $instrumented; with the profile of tests, which share the compilation.
 instrument() {
-    instrumented=target/$1/$triple/release/libmicroslip.a
-    sanitized "$1" build --release
+    instrumented=target/$1/$triple/debug/libmicroslip.a
+    sanitized "$1" build
 }
 
 # detects NAME PATTERN COMMAND...: the tool reports the error of that name inside the library.
