@@ -121,14 +121,11 @@ impl<const B: usize> Dual<B> {
         self
     }
 
-    /// Adds the derivatives of a number, times a factor.
+    /// Adds the derivatives of a number of a contact, times a factor.
     #[inline(always)]
-    fn plus_slopes<const P: usize>(mut self, factor: f64, x: &Dual<P>) -> Self {
-        let value = self.value();
-        for b in 0..P.min(B) {
-            self.0[b] = plus(self.0[b], factor, x.0[b]);
-        }
-        self.with_value(value)
+    fn plus_slopes(mut self, factor: f64, Dual([[x, y, z, _]]): Dual<1>) -> Self {
+        self.0[0] = plus(self.0[0], factor, [x, y, z, 0.0]);
+        self
     }
 }
 
@@ -193,7 +190,9 @@ impl<const B: usize> Mul for Dual<B> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        self.scale(other.value()).plus_slopes(self.value(), &other)
+        let (value, mut product) = (self.value(), self.scale(other.value()));
+        product.add_scaled(&other, value);
+        product.with_value(value * other.value())
     }
 }
 
@@ -208,12 +207,11 @@ impl<const B: usize> Over<Dual<1>> for Dual<B> {
 
     #[inline(always)]
     fn times(self, a: Dual<1>) -> Self {
-        self.scale(a.value()).plus_slopes(self.value(), &a)
+        self.scale(a.value()).plus_slopes(self.value(), a)
     }
 
     #[inline(always)]
     fn add_product(&mut self, x: &Self, a: Dual<1>) {
-        self.add_scaled(x, a.value());
-        *self = self.plus_slopes(x.value(), &a);
+        *self = *self + x.times(a);
     }
 }

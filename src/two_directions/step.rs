@@ -178,7 +178,8 @@ impl<X: Real> Far<X> {
     }
 }
 
-/// A fine spring, returned to its limit: by values its direction, and the derivatives of the direction and of the limit.
+/// A fine spring, returned to its limit: by values its direction e of v over the limits; the direction turns by `e × d(v/limit)` over the
+/// length of v over the limits.
 #[inline(always)]
 pub(crate) fn returned<A: Real, X: Over<A>>(v: Both<X>, limit: &Both<A>, far: Option<&Far<X>>) -> Both<X> {
     let [x, y] = both!(|k| limit[k].value());
@@ -187,12 +188,14 @@ pub(crate) fn returned<A: Real, X: Over<A>>(v: Both<X>, limit: &Both<A>, far: Op
     let mut v = v;
     if square > bound * bound {
         let per_length = 1.0 / square.at_least(TINY).sqrt();
-        let (e_x, e_y) = (across * per_length, along * per_length);
-        let per = bound * per_length;
-        let turn = v[1].times(limit[1].inverse().scale(e_x * per)) - v[0].times(limit[0].inverse().scale(e_y * per));
+        let (e_x, e_y, per_bound) = (across * per_length, along * per_length, 1.0 / bound);
+        let mut turn = v[1].scale(e_x * x * per_length);
+        turn.add_scaled(&v[0], -e_y * y * per_length);
+        let both = e_x * e_y * per_bound;
+        turn = turn.minus(limit[1].scale(both * x)).minus(limit[0].scale(-both * y));
         v = [
-            (X::constant(e_x) - turn.scale(e_y)).times(limit[0]),
-            (X::constant(e_y) + turn.scale(e_x)).times(limit[1]),
+            turn.scale(-e_y * x).minus(limit[0].scale(-e_x)),
+            turn.scale(e_x * y).minus(limit[1].scale(-e_y)),
         ];
     }
     if let Some(far) = far {
