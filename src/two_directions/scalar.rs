@@ -23,6 +23,8 @@ pub(crate) use both;
 
 /// A number of the law. Guards and choices depend on the value only.
 pub(crate) trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
+    /// Whether it has derivatives.
+    const DERIVED: bool;
     fn constant(value: f64) -> Self;
     fn value(&self) -> f64;
     fn scale(self, factor: f64) -> Self;
@@ -63,6 +65,8 @@ pub(crate) trait Over<A>: Real {
 }
 
 impl Real for f64 {
+    const DERIVED: bool = false;
+
     #[inline(always)]
     fn constant(value: f64) -> f64 {
         value
@@ -130,6 +134,8 @@ impl<const B: usize> Dual<B> {
 }
 
 impl<const B: usize> Real for Dual<B> {
+    const DERIVED: bool = true;
+
     #[inline(always)]
     fn constant(value: f64) -> Self {
         Dual([[0.0; 4]; B]).with_value(value)

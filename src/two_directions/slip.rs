@@ -69,8 +69,9 @@ pub(crate) struct Slip {
     /// K, and the inverse of the derivative of the residual by the angles, as `[m][i]`.
     pub k: Both<Matrix>,
     pub inverse: Matrix,
-    /// The points and the load of K.
+    /// The points and the load of K, and those of the inverse.
     known: (Set, f64),
+    inverted: (Set, f64),
 }
 
 /// First directions, and points that slip.
@@ -241,6 +242,7 @@ impl Slip {
         k: [[[0.0; N]; N]; 2],
         inverse: [[0.0; N]; N],
         known: (0, 0.0),
+        inverted: (0, 0.0),
     };
 
     #[inline(always)]
@@ -336,16 +338,18 @@ impl Slip {
             for i in 0..N {
                 slips[i] = if set >> i & 1 == 1 { 1.0 } else { 0.0 };
             }
-            if self.known != (set, contact.now.load) {
-                self.known = (set, contact.now.load);
-                if other.known == self.known {
+            let of = (set, contact.now.load);
+            if self.known != of {
+                self.known = of;
+                if other.known == of {
                     self.k = other.k;
                 } else {
                     self.stiffen(problem);
                 }
             }
             let constant = both!(|k| times(&self.k[k], [first, end], &r_trial[k]));
-            let (mut turn, mut reviewed, mut done, mut fresh) = (9.0f64, false, false, false);
+            // The inverse of the step before holds while changes of angles fall to a tenth.
+            let (mut turn, mut reviewed, mut done, mut holds) = (f64::MAX, false, false, self.inverted == of);
             let mut renewed = [false; 2];
             loop {
                 let ([e_x, e_y], level) = (self.e, self.level);
@@ -372,7 +376,7 @@ impl Slip {
                         continue 'sets;
                     }
                 }
-                renewed = [renewed[1], turn > RENEWED || !fresh];
+                renewed = [renewed[1], !holds];
                 if (done && derivatives) || (!done && renewed[1]) {
                     for m in first..end {
                         for i in 0..N {
@@ -383,6 +387,7 @@ impl Slip {
                         }
                     }
                     invert(&mut self.inverse, set, [first, end]);
+                    self.inverted = of;
                 }
                 if done {
                     return true;
@@ -409,11 +414,11 @@ impl Slip {
                 }
                 self.e = [x, y];
                 // Quadratic with a new inverse, linear with an old one.
-                let linear = turn / if before > TINY { before } else { TINY };
-                let rate = if turn > RENEWED || before > RENEWED { turn } else { linear };
+                let linear = if before < LOST { turn / if before > TINY { before } else { TINY } } else { 1.0 };
+                let rate = if renewed[1] { turn } else { linear };
                 let stalled = renewed == [true; 2] && before <= SMALL_TURN && turn >= STALLED * before;
                 done = stalled || turn * (if rate < 1.0 { rate } else { 1.0 }) <= CONVERGED;
-                fresh = turn <= 0.1 * before && turn <= RENEWED;
+                holds = turn <= 0.1 * before && turn <= RENEWED;
             }
         }
         false

@@ -188,15 +188,14 @@ pub(crate) fn returned<A: Real, X: Over<A>>(v: Both<X>, limit: &Both<A>, far: Op
     let mut v = v;
     if square > bound * bound {
         let per_length = 1.0 / square.at_least(TINY).sqrt();
-        let (e_x, e_y, per_bound) = (across * per_length, along * per_length, 1.0 / bound);
-        let mut turn = v[1].scale(e_x * x * per_length);
-        turn.add_scaled(&v[0], -e_y * y * per_length);
-        let both = e_x * e_y * per_bound;
-        turn = turn.minus(limit[1].scale(both * x)).minus(limit[0].scale(-both * y));
-        v = [
-            turn.scale(-e_y * x).minus(limit[0].scale(-e_x)),
-            turn.scale(e_x * y).minus(limit[1].scale(-e_y)),
-        ];
+        let e = [across * per_length, along * per_length];
+        let mut turn = X::constant(0.0);
+        if X::DERIVED {
+            let part = e[0] * e[1] / bound;
+            turn = v[1].scale(e[0] * x * per_length).minus(limit[1].scale(part * x)).minus(limit[0].scale(-part * y));
+            turn.add_scaled(&v[0], -e[1] * y * per_length);
+        }
+        v = [turn.scale(-e[1] * x).minus(limit[0].scale(-e[0])), turn.scale(e[0] * y).minus(limit[1].scale(-e[1]))];
     }
     if let Some(far) = far {
         v = both!(|k| far.blend(k, v[k], limit[k]));
