@@ -10,8 +10,8 @@
 
 use super::contact::Contact;
 use super::scalar::both;
-use super::tables::{Both, Matrix, N, Row, Rows};
-use super::trial::{Motion, ROUNDING, Trial, Values, limits_before, slid, tractions};
+use super::tables::{Both, FINE, INSIDE, Matrix, N, Row, Rows, SHIFT};
+use super::trial::{FINE_SPRING, Motion, ROUNDING, Trial, Values, limits_before, moved, slid, tractions};
 use crate::shape::TINY;
 use crate::simd::dispatch;
 
@@ -54,8 +54,51 @@ pub(crate) struct Slips {
     pub slides: f64,
     /// The springs at the end.
     pub v: Both<Row<f64>>,
+    pub fine: FineSlips,
     /// Tractions at the start of the step before.
     start: Both<Row<f64>>,
+}
+
+/// Fine springs that slip, each on its own: directions of their displacements over the limits, and reciprocals of the lengths of these, over
+/// the limits once more; 0 for a spring that sticks.
+pub(crate) struct FineSlips([[Row<f64>; FINE / N]; 3]);
+
+impl FineSlips {
+    const NONE: FineSlips = FineSlips([[[0.0; N]; FINE / N]; 3]);
+
+    #[inline(always)]
+    pub fn at(&self, f: usize) -> [f64; 3] {
+        let [e_x, e_y, per_length] = &self.0;
+        [e_x, e_y, per_length].map(|rows| rows.as_flattened().get(f).copied().unwrap_or(0.0))
+    }
+
+    #[inline(always)]
+    fn find(&mut self, t: &Rows, c: &Contact<f64>, motion: &Motion<f64, f64>, springs: &Values) {
+        const ROWS: usize = FINE / N;
+        let (rise, inside) = (both!(|k| c.now.shift[k] - motion.before[k]), both!(|k| c.limit_inside(k)));
+        for row in 0..ROWS {
+            for j in 0..N {
+                let at_edge = row * N + j == INSIDE;
+                let limit = both!(|k| if at_edge { inside[k] } else { c.now.shift[k] - t[SHIFT + k * ROWS + row][j] });
+                let before = both!(|k| springs[FINE_SPRING / N + k * ROWS + row][j]);
+                let kept = !at_edge || motion.constant_load;
+                let v = both!(|k| if kept { before[k] } else { 0.0 } + moved(limit[k], rise[k], motion.by[k]));
+                let direction = direction(v, limit);
+                for (rows, value) in self.0.iter_mut().zip(direction) {
+                    rows[row][j] = value;
+                }
+            }
+        }
+    }
+}
+
+/// Of a fine spring with a displacement and limits.
+#[inline(always)]
+pub(crate) fn direction(v: Both<f64>, [x, y]: Both<f64>) -> [f64; 3] {
+    let (across, along, bound) = (v[0] * y, v[1] * x, x * y);
+    let square = across * across + along * along;
+    let per_length = 1.0 / (if square > TINY { square } else { TINY }).sqrt();
+    [across * per_length, along * per_length, if square > bound * bound { per_length } else { 0.0 }]
 }
 
 /// Points that slip, and what derivatives need.
@@ -93,8 +136,14 @@ struct Problem<'a> {
 }
 
 impl Slips {
-    pub const NONE: Slips =
-        Slips { middle: Slip::NONE, end: Slip::NONE, slides: 0.0, v: [[0.0; N]; 2], start: [[0.0; N]; 2] };
+    pub const NONE: Slips = Slips {
+        middle: Slip::NONE,
+        end: Slip::NONE,
+        slides: 0.0,
+        v: [[0.0; N]; 2],
+        fine: FineSlips::NONE,
+        start: [[0.0; N]; 2],
+    };
 
     /// Whether nothing slips.
     pub fn is_empty(&self) -> bool {
@@ -115,6 +164,7 @@ impl Slips {
         dispatch!({
             let (end, start) = ((contact.last + 1).min(N), &trial.start);
             (slips.middle.set, slips.end.set, slips.slides, slips.v) = (0, 0, 0.0, trial.v);
+            slips.fine.find(t, contact, motion, old);
             if trial.sticks {
                 return;
             }

@@ -110,7 +110,7 @@ fn finish<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
         let w = both!(|k| c.fine(t, k, f));
         let limit = both!(|k| c.limit(t, k, f));
         let mut v = both!(|k| s.get(FINE_SPRING + k * FINE + f) + moved(limit[k], rise[k], motion.by[k]));
-        v = returned(v, &limit, far.as_ref());
+        v = returned(v, &limit, slip.fine.at(f), far.as_ref());
         for k in 0..2 {
             force[k].add_product(&v[k], w[k]);
             s.put(FINE_SPRING + k * FINE + f, v[k]);
@@ -122,7 +122,7 @@ fn finish<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     if motion.constant_load {
         v = both!(|k| v[k] + s.get(FINE_SPRING + k * FINE + INSIDE));
     }
-    v = returned(v, &limit, far.as_ref());
+    v = returned(v, &limit, slip.fine.at(INSIDE), far.as_ref());
     for k in 0..2 {
         force[k].add_product(&v[k], c.fine_inside(k));
         if S::KEPT {
@@ -178,24 +178,25 @@ impl<X: Real> Far<X> {
     }
 }
 
-/// A fine spring, returned to its limit: by values its direction e of v over the limits; the direction turns by `e × d(v/limit)` over the
-/// length of v over the limits.
+/// A fine spring, returned to its limit if it slips: by values `limit e`; e turns by `e × d(v/limit)` over the length of v/limit.
 #[inline(always)]
-pub(crate) fn returned<A: Real, X: Over<A>>(v: Both<X>, limit: &Both<A>, far: Option<&Far<X>>) -> Both<X> {
-    let [x, y] = both!(|k| limit[k].value());
-    let (across, along, bound) = (v[0].value() * y, v[1].value() * x, x * y);
-    let square = across * across + along * along;
+pub(crate) fn returned<A: Real, X: Over<A>>(
+    v: Both<X>,
+    limit: &Both<A>,
+    [e_x, e_y, per_length]: [f64; 3],
+    far: Option<&Far<X>>,
+) -> Both<X> {
     let mut v = v;
-    if square > bound * bound {
-        let per_length = 1.0 / square.at_least(TINY).sqrt();
-        let e = [across * per_length, along * per_length];
+    if per_length > 0.0 {
+        let [x, y] = both!(|k| limit[k].value());
         let mut turn = X::constant(0.0);
         if X::DERIVED {
-            let part = e[0] * e[1] / bound;
-            turn = v[1].scale(e[0] * x * per_length).minus(limit[1].scale(part * x)).minus(limit[0].scale(-part * y));
-            turn.add_scaled(&v[0], -e[1] * y * per_length);
+            let [along, across] = [e_x * per_length, e_y * per_length];
+            turn = v[1].scale(along * x).minus(limit[1].scale(across * v[0].value()));
+            turn.add_scaled(&v[0], -across * y);
+            turn = turn.minus(limit[0].scale(-along * v[1].value()));
         }
-        v = [turn.scale(-e[1] * x).minus(limit[0].scale(-e[0])), turn.scale(e[0] * y).minus(limit[1].scale(-e[1]))];
+        v = [turn.scale(-e_y * x).minus(limit[0].scale(-e_x)), turn.scale(e_x * y).minus(limit[1].scale(-e_y))];
     }
     if let Some(far) = far {
         v = both!(|k| far.blend(k, v[k], limit[k]));

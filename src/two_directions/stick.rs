@@ -1,7 +1,8 @@
 //! A step under a constant load in which nothing slips: all springs follow the motion.
 
 use super::contact::{Contact, Pressed};
-use super::scalar::{Dual, Over, both};
+use super::scalar::{Dual, Over, Real, both};
+use super::slip::direction;
 use super::step::returned;
 use super::tables::{Both, END, FINE, INSIDE, N, Rows, SHIFT};
 use super::trial::{FINE_SPRING, ROUNDING, Values, tractions};
@@ -46,7 +47,8 @@ pub(crate) fn stick(t: &Rows, c: &Contact<f64>, by: &Both<f64>, springs: &mut Va
             return None;
         }
         let edge = both!(|k| springs[(FINE_SPRING + k * FINE + INSIDE) / N][INSIDE % N] + by[k]);
-        let ends = returned(edge, &both!(|k| c.limit_inside(k)), None);
+        let limit = both!(|k| c.limit_inside(k));
+        let ends = returned(edge, &limit, direction(edge, limit), None);
         for k in 0..2 {
             for j in 0..=c.last.min(N - 1) {
                 fine[k][j] += by[k];
@@ -71,7 +73,9 @@ pub(crate) fn tangent(
     let at = |place: usize| springs.get(place).copied().unwrap_or(0.0);
     let derived = c.derived(&t, slopes);
     let edge = [Dual([[0.0, 1.0, 0.0, edge[0]]]), Dual([[0.0, 0.0, 1.0, edge[1]]])];
-    let ends = returned(edge, &both!(|k| derived.limit_inside(k)), None);
+    let limit = both!(|k| derived.limit_inside(k));
+    let direction = direction(edge.map(|x| x.value()), both!(|k| c.limit_inside(k)));
+    let ends = returned(edge, &limit, direction, None);
     both!(|k| {
         let fine = |f: usize| derived.fine(&t, k, f).0[0][END] * at(FINE_SPRING + k * FINE + f);
         let [mut slopes] = ends[k].times(derived.fine_inside(k)).0;
