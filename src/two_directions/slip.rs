@@ -97,7 +97,8 @@ impl FineSlips {
 pub(crate) fn direction(v: Both<f64>, [x, y]: Both<f64>) -> [f64; 3] {
     let (across, along, bound) = (v[0] * y, v[1] * x, x * y);
     let square = across * across + along * along;
-    let per_length = 1.0 / (if square > TINY { square } else { TINY }).sqrt();
+    // A sum: of a maximum, the compiler would divide by what is less.
+    let per_length = 1.0 / (square + TINY).sqrt();
     [across * per_length, along * per_length, if square > bound * bound { per_length } else { 0.0 }]
 }
 
