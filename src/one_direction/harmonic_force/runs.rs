@@ -345,13 +345,13 @@ fn slip(stack: &mut Stack, span: Span, per_two_mu: f64, places: &mut [f64]) -> R
     let (inner, outer) = (stack.knot(kept - 1), stack.knot(kept));
     let (falling, rising) = (inner.xi - outer.xi, outer.eta - inner.eta);
     let (x, y) = (span.xi.first().copied().unwrap_or(0.0), span.eta.first().copied().unwrap_or(0.0));
+    // The piece leaves the quadrant through ξ = x unless it crosses η = y first: the quotient is at most 1.
+    let is_forward =
+        outer.xi <= x && (rising <= 0.0 || inner.eta + rising * ((inner.xi - x) / falling.max(SMALLEST)) <= y);
     // Changes of the other coordinate along the piece; 0 for a slip zone.
     let ratio = |change: f64, by: f64| if change > 0.0 { change / by.max(SMALLEST) } else { 0.0 };
-    // The piece leaves the quadrant through ξ = x unless it crosses η = y first.
-    let forward = ratio(rising, falling);
-    let is_forward = outer.xi <= x && inner.eta + forward * (inner.xi - x) <= y;
     let (count, [xi, eta], cut) = if is_forward {
-        count_slip::<true>(span, &inner, forward, per_two_mu, places)
+        count_slip::<true>(span, &inner, ratio(rising, falling), per_two_mu, places)
     } else {
         count_slip::<false>(span, &inner, ratio(falling, rising), per_two_mu, places)
     };
