@@ -124,14 +124,6 @@ fn step(contact: &Contact, state: &[f64], displacement: f64) -> StepRecord {
     StepRecord { depth: branch.depth, reversed, merge, initial, start, end, stiffness }
 }
 
-/// A step in place that does not continue its branch, with its energy.
-#[inline(never)]
-fn general_advance(contact: &Contact, state: &mut [f64], displacement: f64, energy: f64) -> Step {
-    let step = step(contact, state, displacement);
-    step.write(state);
-    step.result(energy)
-}
-
 /// The energy \[J\] that a step dissipates.
 #[inline(never)]
 fn dissipated(contact: &Contact, state: &[f64], displacement: f64) -> f64 {
@@ -221,7 +213,9 @@ impl Law for ConstantLoad {
             state::set_point(state, Point { displacement, force });
             return Step { force, tangent: stiffness, dissipated: energy };
         }
-        general_advance(contact, state, displacement, energy)
+        let step = step(contact, state, displacement);
+        step.write(state);
+        step.result(energy)
     }
 
     /// The copy holds at most [`REVERSALS_OF_COPY`] reversals.
