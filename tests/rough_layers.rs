@@ -129,41 +129,50 @@ fn the_stiffness_of_a_stuck_contact_is_that_of_the_curve() {
     println!("stiffness {worst:.1e}");
 }
 
-/// Between steps of random histories and neighbours of them, bisection finds no jump of the force.
+/// The largest jump on a line from 0 to 1, of which values and derivatives are given: an interval is halved until the derivatives at its ends
+/// explain the difference of the values to 3e-7.
+fn jump(of: impl Fn(f64) -> [[f64; 2]; 2]) -> f64 {
+    let mut largest = 0.0f64;
+    let mut intervals = vec![[(0.0, of(0.0)), (1.0, of(1.0))]];
+    while let Some([low, high]) = intervals.pop() {
+        let width = high.0 - low.0;
+        let unexplained = [0, 1].map(|k| high.1[0][k] - low.1[0][k] - 0.5 * width * (low.1[1][k] + high.1[1][k]));
+        let unexplained = unexplained[0].hypot(unexplained[1]);
+        if unexplained > 3e-7 && width <= 1e-12 {
+            largest = largest.max(unexplained);
+        } else if unexplained > 3e-7 {
+            let at = 0.5 * (low.0 + high.0);
+            let middle = (at, of(at));
+            intervals.extend([[low, middle], [middle, high]]);
+        }
+    }
+    largest
+}
+
+/// On lines from displacements of random histories, the force of a step has no jump: where the middle of a step begins to slip while its end
+/// sticks, and where a contact that sticks exceeds Coulomb's bound, too.
 #[test]
 fn the_force_does_not_jump() {
-    let mut random = Random(13);
-    for _ in 0..100 {
-        let element = element(&mut random);
-        let unit = slip_displacement(&element, 1000.0);
-        let (mut contact, scale) = (Contact::new(&element), between(&mut random, 0.1, 4.0) * unit);
-        let mut at = [0.0, 0.0, 700.0];
-        for k in 0..150 {
+    let mut randoms = [Random(15), Random(23)];
+    for n in 0..120 {
+        // With these seeds, both are met.
+        let random = &mut randoms[n / 60];
+        let element = element(random);
+        let scale = between(random, 0.1, 4.0) * slip_displacement(&element, 1000.0);
+        let (mut contact, mut at) = (Contact::new(&element), [0.0, 0.0, 700.0]);
+        for k in 0..60 {
             at = [at[0] + scale * random.signed(), at[1] + scale * random.signed(), at[2]];
             if k % 3 == 0 {
-                at[2] = 1000.0 * between(&mut random, 0.02, 1.0);
+                at[2] = 1000.0 * between(random, 0.02, 1.0);
             }
-            let (sin, cos) = (TAU * random.next()).sin_cos();
-            let force = |part: f64| {
-                let place = [at[0] + 1e-3 * part * unit * cos, at[1] + 1e-3 * part * unit * sin, at[2]];
-                contact.trial(place).force
-            };
-            let apart = |one: [f64; 3], two: [f64; 3]| {
-                (one[0] - two[0]).hypot(one[1] - two[1]) / (element.friction_coefficient * at[2])
-            };
-            let (mut low, mut high) = ((0.0, force(0.0)), (1.0, force(1.0)));
-            if k > 0 && apart(low.1, high.1) > 0.03 * unit / slip_displacement(&element, at[2]) {
-                for _ in 0..60 {
-                    let middle = 0.5 * (low.0 + high.0);
-                    let value = force(middle);
-                    if apart(value, low.1) > apart(value, high.1) {
-                        high = (middle, value);
-                    } else {
-                        low = (middle, value);
-                    }
-                }
-                assert!(apart(low.1, high.1) < 1e-6, "{at:?}: {:e}, {element:?}", apart(low.1, high.1));
-            }
+            let slip_force = element.friction_coefficient * at[2];
+            let line = [0.3 * scale * random.signed(), 0.3 * scale * random.signed()];
+            let size = jump(|part| {
+                let step = contact.trial([at[0] + part * line[0], at[1] + part * line[1], at[2]]);
+                let slope = |i: usize| (step.tangent[i] * line[0] + step.tangent[3 + i] * line[1]) / slip_force;
+                [[step.force[0] / slip_force, step.force[1] / slip_force], [slope(0), slope(1)]]
+            });
+            assert!(size <= 1e-6, "{size:e} at {at:?} along {line:?}: {element:?}");
             contact.to(at);
         }
     }

@@ -166,7 +166,8 @@ impl Slips {
             let (end, start) = ((contact.last + 1).min(N), &trial.start);
             (slips.middle.set, slips.end.set, slips.slides, slips.v) = (0, 0, 0.0, trial.v);
             slips.fine.find(t, contact, motion, old);
-            if trial.sticks {
+            // Under a constant load, the middle sticks if the end does.
+            if trial.sticks && motion.constant_load {
                 return;
             }
             slips.slides = slid(&t, contact, &trial.v);

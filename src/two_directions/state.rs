@@ -16,7 +16,7 @@ use super::scalar::{Dual, Real};
 use super::slip::Slips;
 use super::step::{advance, bounded, separated, step};
 use super::stick;
-use super::tables::{Both, END, FINE, INSIDE, MOST_PARTS, Matrix, N, ROWS, Row, Rows, Units, fill, starts, under_flat};
+use super::tables::{Both, END, FINE, MOST_PARTS, Matrix, N, ROWS, Row, Rows, Units, fill, starts, under_flat};
 use super::trial::{FINE_SPRING, Motion, SPRINGS, Values, trial};
 use super::{Requested, Step, TwoDirections};
 use crate::element::{Element, Normal};
@@ -187,15 +187,8 @@ impl Memory<'_> {
 
     /// A step to a displacement under the same load, unless something slips; the displacement of the spring at the edge.
     fn stick(&mut self, contact: &Contact<f64>, path: &Path, header: &mut Header) -> Option<Both<f64>> {
-        let force = [0, 1].map(|k| header.force[k] + path.by[k] * contact.total(k));
-        let bound = contact.now.load * contact.now.load;
-        if path.scale > 1.0 || force[0] * force[0] + force[1] * force[1] > bound {
-            return None;
-        }
-        let edge = stick::stick(self.tables, contact, &path.by, self.springs)?;
-        let ends = |k: usize| self.springs[(FINE_SPRING + k * FINE + INSIDE) / N][INSIDE % N];
-        header.force = [0, 1].map(|k| force[k] + contact.fine_inside(k) * (ends(k) - edge[k]));
-        Some(edge)
+        let within = path.scale == 1.0;
+        within.then(|| stick::stick(self.tables, contact, &path.by, self.springs, &mut header.force)).flatten()
     }
 
     /// The place of a state in which nothing slipped.

@@ -8,9 +8,15 @@ use super::tables::{Both, END, FINE, INSIDE, N, Rows, SHIFT};
 use super::trial::{FINE_SPRING, ROUNDING, Values, tractions};
 use crate::simd::dispatch;
 
-/// Moves the springs, unless a point or a fine spring would slip; the displacement of the fine spring at the edge, which may, before it returns
-/// to its limit.
-pub(crate) fn stick(t: &Rows, c: &Contact<f64>, by: &Both<f64>, springs: &mut Values) -> Option<Both<f64>> {
+/// Moves the springs and their force, unless a point or a fine spring would slip or the force exceeds its bound; the displacement of the fine
+/// spring at the edge, which may slip, before it returns to its limit.
+pub(crate) fn stick(
+    t: &Rows,
+    c: &Contact<f64>,
+    by: &Both<f64>,
+    springs: &mut Values,
+    force: &mut Both<f64>,
+) -> Option<Both<f64>> {
     dispatch!({
         let mut largest = [0.0; N];
         let mut r = both!(|k| tractions(t, c, k, &springs[k], 0));
@@ -49,6 +55,11 @@ pub(crate) fn stick(t: &Rows, c: &Contact<f64>, by: &Both<f64>, springs: &mut Va
         let edge = both!(|k| springs[(FINE_SPRING + k * FINE + INSIDE) / N][INSIDE % N] + by[k]);
         let limit = both!(|k| c.limit_inside(k));
         let ends = returned(edge, &limit, direction(edge, limit), None);
+        let moved = both!(|k| force[k] + by[k] * c.total(k) + c.fine_inside(k) * (ends[k] - edge[k]));
+        if moved[0] * moved[0] + moved[1] * moved[1] > c.now.load * c.now.load {
+            return None;
+        }
+        *force = moved;
         for k in 0..2 {
             for j in 0..=c.last.min(N - 1) {
                 fine[k][j] += by[k];
