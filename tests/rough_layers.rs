@@ -150,9 +150,9 @@ fn jump(of: impl Fn(f64) -> [[f64; 2]; 2]) -> f64 {
 }
 
 /// The largest jump of the force of a step over mu N, on lines from displacements of random histories; with loads that differ by a part.
-fn jumps(random: &mut Random, by_load: f64) -> f64 {
+fn jumps(random: &mut Random, elements: usize, by_load: f64) -> f64 {
     let mut largest = 0.0f64;
-    for _ in 0..60 {
+    for _ in 0..elements {
         let element = element(random);
         let scale = between(random, 0.1, 4.0) * slip_displacement(&element, 1000.0);
         let (mut contact, mut at) = (Contact::new(&element), [0.0, 0.0, 700.0]);
@@ -174,15 +174,16 @@ fn jumps(random: &mut Random, by_load: f64) -> f64 {
     largest
 }
 
-/// Where the middle of a step begins to slip while its end sticks, and where a contact that sticks exceeds Coulomb's bound, too: with these
-/// seeds, both are met. From one load to the next the force jumps where the edge passes a node and where the springs are aligned anew.
+/// Where the middle of a step begins to slip while its end sticks, where a contact that sticks exceeds Coulomb's bound, and where Newton's
+/// method needs sweeps, once and twice, too: with these seeds, all are met. From one load to the next the force jumps where the edge passes a
+/// node and where the springs are aligned anew.
 #[test]
 fn the_force_does_not_jump() {
-    for seed in [15, 23] {
-        let size = jumps(&mut Random(seed), 0.0);
-        assert!(size <= 1e-6, "{size:e}");
-        let size = jumps(&mut Random(seed), -0.03);
+    for (seed, elements) in [(15, 8), (23, 48), (309, 1), (222, 4)] {
+        let size = jumps(&mut Random(seed), elements, 0.0);
+        assert!(size <= 1e-6, "{seed}: {size:e}");
+        let size = jumps(&mut Random(seed), elements, -0.03);
         println!("jump by load: {size:.1e} mu N");
-        assert!(size <= 0.02, "{size:e}");
+        assert!(size <= 0.03, "{seed}: {size:e}");
     }
 }

@@ -40,3 +40,19 @@ pub(crate) const fn cosine(m: usize, quarter: usize) -> f64 {
     }
     if first == 0 { sum } else { angle * sum }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cosine_agrees_with_the_standard_library_beyond_two_periods() {
+        for quarter in [1, 3, 16, 20] {
+            for m in 0..=9 * quarter {
+                let exact = (FRAC_PI_2 * m as f64 / quarter as f64).cos();
+                // The argument of `exact` is rounded: at most 2.25 periods.
+                assert!((cosine(m, quarter) - exact).abs() < 3e-15, "{m} {quarter}");
+            }
+        }
+    }
+}

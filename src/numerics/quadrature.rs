@@ -68,3 +68,24 @@ pub(crate) fn gauss_nodes(blocks: usize) -> impl Iterator<Item = (&'static f64, 
 pub(crate) fn gauss(length: f64, mut f: impl FnMut(f64) -> f64) -> f64 {
     length * gauss_nodes(4).map(|(node, weight)| weight * f(length * node)).sum::<f64>()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn gauss_rules_are_exact_for_polynomials() {
+        for blocks in 1..=MAX_GAUSS_BLOCKS {
+            for degree in [0, 1, 2, 8 * blocks as i32 - 1] {
+                let sum: f64 = gauss_nodes(blocks).map(|(node, weight)| weight * node.powi(degree)).sum();
+                assert!((sum * f64::from(degree + 1) - 1.0).abs() < 4e-15, "{blocks} {degree} {sum}");
+            }
+        }
+        // At run time as at compile time.
+        let [nodes, weights] = gauss_legendre::<32>();
+        assert!(
+            gauss_nodes(MAX_GAUSS_BLOCKS).map(|(node, weight)| (*node, *weight)).eq(nodes.into_iter().zip(weights))
+        );
+        assert!((gauss(2.0, |x| x.powi(31)) / (2f64.powi(32) / 32.0) - 1.0).abs() < 4e-15);
+    }
+}

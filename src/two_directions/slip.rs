@@ -30,8 +30,8 @@ const SMALL_TURN: f64 = 1e-9;
 const STALLED: f64 = 0.5;
 /// Beyond this a guess is lost.
 const LOST: f64 = 1e4;
-/// Sweeps of the points before Newton's method is tried again, at first, and attempts, of which the first two are without: the first sweeps
-/// have always been enough.
+/// Sweeps of the points before Newton's method is tried again, at first, and attempts, of which the first two are without: in random steps, one
+/// of two million needs sweeps, and few of these more than the first.
 const SWEEPS: usize = 30;
 const MOST_ATTEMPTS: usize = 8;
 /// Newton steps after which points that slip backwards stick: the angle of a point that hardly slips is undetermined.
