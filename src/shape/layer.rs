@@ -300,10 +300,12 @@ impl LayeredZones {
     }
 
     /// The remaining shift of the contact alone where that of contact and layer has a value: Newton's method in the logarithms of both,
-    /// given 1 - τ and Λ + λ of the contact alone at a remaining shift of its own.
+    /// given 1 - τ and Λ + λ of the contact alone at a remaining shift of its own. For τ >= 1/2.
     pub fn own_shift(&self, remaining: f64, start: f64, mut in_contact: impl FnMut(f64) -> [f64; 2]) -> f64 {
-        // Beyond the shift of the contact are no stick zones.
-        logarithmic_newton(remaining, start, self.contact().slip_shift(), |own| {
+        let contact = self.contact();
+        // Both have the same load, of which half at least is consumed.
+        let largest = contact.slip_shift() - contact.small_load().half_shift;
+        logarithmic_newton(remaining, start, largest, |own| {
             let [load, compliance] = in_contact(own);
             let sum = own + self.layer.shift(load);
             [sum, own / sum * (1.0 + self.layer.compliance(load) / compliance)]
