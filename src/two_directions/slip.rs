@@ -59,8 +59,8 @@ pub(crate) struct Slips {
     start: Both<Row<f64>>,
 }
 
-/// Fine springs that slip, each on its own: directions of their displacements over the limits, and reciprocals of the lengths of these, over
-/// the limits once more; 0 for a spring that sticks.
+/// Fine springs that slip, each on its own: e, the direction of v/limit, and 1/(x y |v/limit|) with the limits x and y, which is 0 for a spring
+/// that sticks.
 pub(crate) struct FineSlips([[Row<f64>; FINE / N]; 3]);
 
 impl FineSlips {
@@ -92,7 +92,7 @@ impl FineSlips {
     }
 }
 
-/// Of a fine spring with a displacement and limits.
+/// These three numbers of a spring.
 #[inline(always)]
 pub(crate) fn direction(v: Both<f64>, [x, y]: Both<f64>) -> [f64; 3] {
     let (across, along, bound) = (v[0] * y, v[1] * x, x * y);
@@ -465,11 +465,12 @@ impl Slip {
                     (x[i], y[i]) = (cos * e_x[i] - sin * e_y[i], cos * e_y[i] + sin * e_x[i]);
                 }
                 self.e = [x, y];
-                // Quadratic with a new inverse, linear with an old one.
-                let linear = if before < LOST { turn / if before > TINY { before } else { TINY } } else { 1.0 };
+                // Quadratic with a new inverse, linear with an old one, of which the first change tells nothing.
+                let linear = turn / if before > TINY { before } else { TINY };
                 let rate = if renewed[1] { turn } else { linear };
+                let is_first = before > LOST && !renewed[1];
                 let stalled = renewed == [true; 2] && before <= SMALL_TURN && turn >= STALLED * before;
-                done = stalled || turn * (if rate < 1.0 { rate } else { 1.0 }) <= CONVERGED;
+                done = stalled || turn * (if rate < 1.0 && !is_first { rate } else { 1.0 }) <= CONVERGED;
                 holds = turn <= 0.1 * before && turn <= RENEWED;
             }
         }

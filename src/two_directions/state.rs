@@ -187,8 +187,10 @@ impl Memory<'_> {
 
     /// A step to a displacement under the same load, unless something slips; the displacement of the spring at the edge.
     fn stick(&mut self, contact: &Contact<f64>, path: &Path, header: &mut Header) -> Option<Both<f64>> {
-        let within = path.scale == 1.0;
-        within.then(|| stick::stick(self.tables, contact, &path.by, self.springs, &mut header.force)).flatten()
+        if path.scale > 1.0 {
+            return None;
+        }
+        stick::stick(self.tables, contact, &path.by, self.springs, &mut header.force)
     }
 
     /// The place of a state in which nothing slipped.
