@@ -19,5 +19,7 @@ pub mod state;
 pub(crate) mod steady_state;
 pub(crate) mod stiffness_table;
 
+pub use crate::law::Law;
+
 /// The law of contacts under a constant normal force.
-pub(crate) struct ConstantLoad;
+pub struct ConstantLoad;

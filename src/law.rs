@@ -1,9 +1,6 @@
-//! What all laws have in common: results of steps and of load histories, and the traits by which the interface calls them.
+//! What all laws have in common: states, steps, and load histories.
 
-use crate::element::Element;
 use crate::error::Error;
-use crate::fourier::HarmonicOutput;
-use crate::fourier::workspace::Layout;
 use crate::tag::Kind;
 
 /// Result of a step, with vectors `[T, N]` or `[Tx, Ty, N]`, and tangents of 2 x 2 or 3 x 3 entries.
@@ -23,14 +20,16 @@ impl<const M: usize, const MM: usize> StepResult<[f64; M], [f64; MM]> {
 
 /// Results of a step that are requested besides the force.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Requested {
+pub struct Requested {
+    /// The derivatives of the force.
     pub tangent: bool,
+    /// The dissipated energy.
     pub energy: bool,
 }
 
 /// Outputs of a path, step after step; `None` is not computed.
 #[derive(Debug)]
-pub(crate) struct PathOutput<'a, V, T> {
+pub struct PathOutput<'a, V, T> {
     /// `[T, N]` or `[Tx, Ty, N]` per step \[N\].
     pub force: Option<&'a mut [V]>,
     /// A tangent per step, 2 x 2 or 3 x 3, column-major.
@@ -40,10 +39,10 @@ pub(crate) struct PathOutput<'a, V, T> {
 }
 
 /// Result of a step of a law.
-type StepOf<L> = StepResult<<L as Law>::Vector, <L as Law>::Tangent>;
+pub type StepOf<L> = StepResult<<L as Law>::Vector, <L as Law>::Tangent>;
 
 /// A law that advances the state of a contact, or of an element with a number of directions.
-pub(crate) trait Law: Sized {
+pub trait Law: Sized {
     /// A contact or an element.
     type Item: Copy;
     /// A displacement; a force has as many components.
@@ -62,18 +61,24 @@ pub(crate) trait Law: Sized {
     fn check(item: &Self::Item) -> Result<(), Error>;
     /// Rejects a tag that no state of that length has.
     fn check_tag(tag: f64, state_length: usize) -> Result<(), Error>;
+    /// Checks the end of a step.
+    /// Errors: `BadDisplacement`, `BadNormalForce` or `LengthTooShort`.
     fn check_step(item: &Self::Item, displacement: &Self::Vector) -> Result<(), Error>;
 
-    /// Validates a state in full: for states from outside the process.
+    /// Validates a state in full: its values are finite and belong to a possible history. For states from outside the process.
+    /// Errors: `StateTooShort`; `BadState` for an array that was not initialised, or whose values no history leads to.
     fn state_check(state: &[f64]) -> Result<(), Error>;
-    /// A bound on the error of the force \[N\] in a state whose header was checked.
-    fn force_error(state: &[f64]) -> f64;
+    /// A bound on the error of the force \[N\] due to merged parts of the history, in a state whose header was checked; 0 while none was
+    /// merged, and again once gross slip or separation has erased the memory.
+    fn force_error(_state: &[f64]) -> f64 {
+        0.0
+    }
     /// Copies what is in use of a state whose header was checked to one of the same length.
     fn copy_used(from: &[f64], to: &mut [f64]);
 
     /// A step with checked arguments whose new state is discarded.
     fn trial(item: &Self::Item, old: &[f64], displacement: Self::Vector, requested: Requested) -> StepOf<Self>;
-    /// The same in place.
+    /// A step in place with checked arguments.
     fn advance(item: &Self::Item, state: &mut [f64], displacement: Self::Vector, requested: Requested) -> StepOf<Self>;
     /// Steps in place along a path, with a state and displacements that were checked.
     fn path(
@@ -102,6 +107,15 @@ pub(crate) trait Law: Sized {
         output: PathOutput<Self::Vector, Self::Tangent>,
     );
 
+    /// A step in place.
+    /// Errors: `StateTooShort`, `BadState`, and those of [`Law::check_step`].
+    fn step(item: &Self::Item, state: &mut [f64], displacement: Self::Vector) -> Result<StepOf<Self>, Error> {
+        Self::check_header(state)?;
+        Self::check_step(item, &displacement)?;
+        Ok(Self::advance(item, state, displacement, Requested { tangent: true, energy: true }))
+    }
+
+    /// Initialises a state: open or unloaded, at displacement 0.
     /// Errors: `StateTooShort` for fewer than [`Law::STATE_LENGTH`] doubles.
     fn state_init(state: &mut [f64]) -> Result<(), Error> {
         if state.len() < Self::STATE_LENGTH {
@@ -125,25 +139,9 @@ pub(crate) trait Law: Sized {
         )
     }
 
+    /// Checks length and tag of a state. Errors: `StateTooShort`, `BadState`, `BadDirections`.
     #[inline(always)]
     fn check_header(state: &[f64]) -> Result<(), Error> {
         Self::check_state(state.first().copied().unwrap_or(0.0), state.len())
     }
-}
-
-/// The law of elements with a number of tangential directions.
-pub(crate) trait ElementLaw: Law<Item = Element> {
-    /// An opened workspace of the harmonic force.
-    type Workspace<'a>: Layout<'a>;
-
-    /// Components of a displacement.
-    const COMPONENTS: usize;
-
-    fn check_motion(workspace: &mut Self::Workspace<'_>, element: &Element, motion: &[f64]) -> Result<(), Error>;
-    fn harmonic_force(
-        element: &Element,
-        workspace: &mut Self::Workspace<'_>,
-        motion: &[f64],
-        output: HarmonicOutput,
-    ) -> Result<(), Error>;
 }

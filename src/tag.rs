@@ -9,7 +9,7 @@ pub(crate) const LAYOUT: u64 = 5;
 /// Kind of a buffer: the leading 16 bits of its tag, a double of about 1e64.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(u16)]
-pub(crate) enum Kind {
+pub enum Kind {
     State = 0x4d53,
     ElementState = 0x4d45,
     UniformSampling = 0x4d55,

@@ -8,11 +8,11 @@ mod common;
 
 use common::{Random, advance, harmonic, outputs, seed, unloaded};
 use microslip::constant_load::harmonic_force::Rule;
-use microslip::constant_load::state::{state_check, state_error};
+use microslip::constant_load::{ConstantLoad, Law};
 use microslip::element::{Directions, Element, NormalInput};
 use microslip::one_direction::harmonic_force as line;
 use microslip::one_direction::tractions::tractions;
-use microslip::one_direction::{self as varying, Step};
+use microslip::one_direction::{self as varying, OneDirection, Step};
 use microslip::parameters::CENTRE_POINT;
 use microslip::{Contact, EllipticParameters, Error, Layer, Material, Parameters};
 use std::f64::consts::{PI, TAU};
@@ -236,12 +236,12 @@ struct History<'a> {
 impl History<'_> {
     fn new(element: &Element, pieces: usize) -> History<'_> {
         let mut state = vec![0.0; varying::state_length(pieces)];
-        varying::state_init(&mut state).unwrap();
+        OneDirection::state_init(&mut state).unwrap();
         History { element, state }
     }
 
     fn step(&mut self, u: f64, w: f64) -> Step {
-        varying::advance(self.element, &mut self.state, [u, w], true).unwrap()
+        OneDirection::step(self.element, &mut self.state, [u, w]).unwrap()
     }
 }
 
@@ -563,7 +563,7 @@ fn tractions_integrate_to_the_forces() {
             let step = memory.step(u * unit, w * NORMAL_FORCE);
             // Forces of a step are those before a merge; a restart from the state has those of the merged pieces.
             let again = memory.step(u * unit, w * NORMAL_FORCE);
-            let error = varying::force_error(&memory.state);
+            let error = OneDirection::force_error(&memory.state);
             assert!((again.force[0] - step.force[0]).abs() <= error + 1e-13 * SLIP_FORCE);
             // The midpoint rule in the angle, x = b cos: its error is that of the logarithms at the edges of the pieces.
             let half_width = element.half_width_under(w * NORMAL_FORCE);
@@ -612,7 +612,7 @@ impl<'c> Bounded<'c> {
         let expected = advance(&mut self.exact);
         for (state, largest) in self.short.iter_mut().zip(&mut self.reported) {
             let found = advance(state);
-            let reported = state_error(state).unwrap() / self.contact.slip_force;
+            let reported = ConstantLoad::force_error(state) / self.contact.slip_force;
             if reported == 0.0 {
                 assert_eq!(found, expected, "no reversals were merged");
             }
@@ -626,7 +626,7 @@ impl<'c> Bounded<'c> {
     /// Gross slip erases all memory but the present point.
     fn check_erased(&self) {
         for state in &self.short {
-            assert_eq!(state_error(state), Ok(0.0));
+            assert_eq!(ConstantLoad::force_error(state), 0.0);
             assert_eq!(state.first_chunk::<5>(), self.exact.first_chunk::<5>());
         }
     }
@@ -702,7 +702,7 @@ fn bounded_states_in_random_histories() {
                 }
                 bounded.advance(displacement);
             }
-            bounded.short.iter().for_each(|state| assert_eq!(state_check(state), Ok(())));
+            bounded.short.iter().for_each(|state| assert_eq!(ConstantLoad::state_check(state), Ok(())));
             bounded.advance(5.0);
             bounded.check_erased();
         }

@@ -6,12 +6,12 @@ mod common;
 use common::Random;
 use common::two_directions::Contact;
 use microslip::element::{Directions, Element, NormalInput};
-use microslip::one_direction;
+use microslip::one_direction::{self, OneDirection};
 use microslip::parameters::{CENTRE_POINT, EllipticParameters, Layer, Material, Parameters};
 use microslip::two_directions::harmonic_force::{
     HarmonicOutput, Workspace, harmonic_force, workspace_init, workspace_length,
 };
-use microslip::two_directions::{Step, state_check};
+use microslip::two_directions::{Law, Step, TwoDirections};
 use std::array::from_fn;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -169,7 +169,7 @@ fn tangents_are_derivatives() {
             }
             at = next;
             contact.to(at);
-            state_check(&contact.state).unwrap();
+            TwoDirections::state_check(&contact.state).unwrap();
         }
     }
     errors.sort_by(f64::total_cmp);
@@ -231,11 +231,10 @@ fn motion_along_x_is_that_of_one_direction() {
         for (element, single) in shapes(Directions::Two, input).iter().zip(&shapes(Directions::One, input)) {
             let mut contact = Contact::new(element);
             let mut state = vec![0.0; one_direction::state_length(100)];
-            one_direction::state_init(&mut state).unwrap();
+            OneDirection::state_init(&mut state).unwrap();
             let (mut worst, mut energies) = (0.0f64, [0.0; 2]);
             for [u, v, w] in on_line(element, 300, &mut random) {
-                let (step, expected) =
-                    (contact.to([u, v, w]), one_direction::advance(single, &mut state, [u, w], true).unwrap());
+                let (step, expected) = (contact.to([u, v, w]), OneDirection::step(single, &mut state, [u, w]).unwrap());
                 assert_eq!((step.force[1], step.force[2]), (0.0, expected.force[1]));
                 worst = worst.max((step.force[0] - expected.force[0]).abs() / slip_force(element));
                 energies = [energies[0] + step.dissipated, energies[1] + expected.dissipated];
@@ -417,7 +416,7 @@ fn steps_satisfy_coulomb_and_states_restart() {
                 // The force is divided by its excess: some roundings.
                 assert!(x.hypot(y) <= element.friction_coefficient * load * (1.0 + 4e-16), "{step:?}");
                 assert!(step.dissipated >= 0.0);
-                state_check(&contact.state).unwrap();
+                TwoDirections::state_check(&contact.state).unwrap();
                 let again = contact.trial(to);
                 assert!(apart(&again, &step) <= 1e-12 * slip_force(element), "{again:?} {step:?}");
                 assert!(again.dissipated <= 1e-12 * slip_force(element) * unit(element), "{again:?}");

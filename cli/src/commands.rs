@@ -9,8 +9,8 @@ use crate::table::{ColumnSpec, InputTable, Table, read_columns};
 use crate::units::Quantity::{self, Energy, Force, Length, Number, Pressure, Stiffness, StiffnessSlope};
 use crate::varying_load;
 use microslip::constant_load::equivalents::{SpringSlider, iwan, jenkins};
-use microslip::constant_load::masing::advance;
-use microslip::constant_load::state::{state_init, state_length};
+use microslip::constant_load::state::state_length;
+use microslip::constant_load::{ConstantLoad, Law};
 use microslip::element::NormalInput;
 use microslip::{Contact, CurvePoint, Error};
 use std::f64::consts::PI;
@@ -381,18 +381,18 @@ fn constant_load_history(options: &History, spec: &ContactSpec, table: &InputTab
     let (contact, path, count) = (&spec.contact, &options.displacements, table.rows.len());
     // A history has no more reversals than rows: none is merged, and the results are exact.
     let mut state = vec![0.0; state_length(count)];
-    state_init(&mut state).map_err(|error| CliError::in_file(path, error))?;
+    ConstantLoad::state_init(&mut state).map_err(|error| CliError::in_file(path, error))?;
     let parts = parts_of_step(count);
     let (mut rows, mut points, mut from) = (Vec::new(), vec![(0.0, 0.0)], 0.0);
     let mut total = 0.0;
     for row in &table.rows {
         let displacement = row.values[0] * if options.relative { contact.slip_displacement } else { 1.0 };
         let mut divided = state.clone();
-        let step = advance(contact, &mut state, displacement)
+        let step = ConstantLoad::step(contact, &mut state, displacement)
             .map_err(|error| CliError::in_file(path, format!("{}: {error}", table.place(row, 0))))?;
         points.extend((1..parts).filter_map(|part| {
             let between = from + (displacement - from) * f64::from(part) / f64::from(parts);
-            Some((between, advance(contact, &mut divided, between).ok()?.force))
+            Some((between, ConstantLoad::step(contact, &mut divided, between).ok()?.force))
         }));
         points.push((displacement, step.force));
         total += step.dissipated;

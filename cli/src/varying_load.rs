@@ -13,8 +13,8 @@ use crate::table::{InputTable, Table};
 use crate::units::Quantity::{Angle, Energy, Force, Length, Stiffness};
 use microslip::Error;
 use microslip::element::{Directions, Element, NormalInput};
-use microslip::one_direction::{advance, state_init, state_length};
-use microslip::two_directions;
+use microslip::one_direction::{OneDirection, state_length};
+use microslip::two_directions::{self, Law, TwoDirections};
 
 const NORMAL_FORCE: Axis = Axis::linear("normal force", Force);
 
@@ -64,7 +64,7 @@ pub fn normal(options: &Normal, spec: &ContactSpec) -> Result<Report> {
 /// The state of an open contact at displacement 0.
 fn new_state(pieces: usize) -> Result<Vec<f64>> {
     let mut state = vec![0.0; state_length(pieces)];
-    state_init(&mut state).map_err(|error| CliError::Input(error.to_string()))?;
+    OneDirection::state_init(&mut state).map_err(|error| CliError::Input(error.to_string()))?;
     Ok(state)
 }
 
@@ -92,7 +92,7 @@ pub fn history(
     let (mut least, mut largest, mut total) = (f64::INFINITY, 0f64, 0.0);
     for row in &table.rows {
         let to = [row.values[0] * factors[0], row.values[1] * factors[1]];
-        let step = advance(&element, &mut state, to, true).map_err(|error| {
+        let step = OneDirection::step(&element, &mut state, to).map_err(|error| {
             let index = usize::from(error != Error::BadDisplacement || to[0].abs() <= 1e150);
             let (place, value) = (table.place(row, index), format_number(to[index]));
             CliError::in_file(path, format!("{place}: {value}: {error}"))
@@ -101,7 +101,7 @@ pub fn history(
             let fraction = f64::from(part) / f64::from(parts);
             let normal = normal_between(&element, from[1], to[1], fraction);
             let at = if part < parts { [from[0] + (to[0] - from[0]) * fraction, normal] } else { to };
-            let step = advance(&element, &mut drawn, at, false).map_err(|error| CliError::in_file(path, error))?;
+            let step = OneDirection::step(&element, &mut drawn, at).map_err(|error| CliError::in_file(path, error))?;
             points.push([at[0], step.force[1], step.force[0]]);
         }
         let [tangential, normal] = step.force;
@@ -151,7 +151,7 @@ pub fn history_in_two_directions(
     let along = spec.contact.slip_displacement;
     let factors = if options.relative { [along, along, of_normal] } else { [1.0; 3] };
     let mut state = vec![0.0; two_directions::state_length()];
-    two_directions::state_init(&mut state).map_err(|error| CliError::in_file(path, error))?;
+    TwoDirections::state_init(&mut state).map_err(|error| CliError::in_file(path, error))?;
     let parts = parts_of_step(TRIALS_PER_POINT * table.rows.len());
     let (mut rows, mut points, mut from): (_, Vec<Point>, _) = (Vec::new(), vec![[[0.0; 3]; 2]], [0.0; 3]);
     let (mut least, mut largest, mut total) = (f64::INFINITY, 0f64, 0.0);
@@ -159,7 +159,7 @@ pub fn history_in_two_directions(
         let given = |i: usize| row.values.get(i).map_or(element.normal_force, |value| value * factors[i]);
         let to = [given(0), given(1), given(2)];
         let go = |state: &mut [f64], to: [f64; 3]| {
-            two_directions::advance(&element, state, to).map_err(|error| {
+            TwoDirections::step(&element, state, to).map_err(|error| {
                 let is_large = |value: &f64| error == Error::BadDisplacement && (value.is_nan() || value.abs() > 1e150);
                 let index = to.iter().position(is_large).unwrap_or(2);
                 let (place, value) = (table.place(row, index), format_number(to[index]));
@@ -319,7 +319,7 @@ fn steady_period(element: &Element, path: &[[f64; 2]]) -> Result<(Vec<[f64; 3]>,
     let mut state = new_state(2 * steps)?;
     let first = (0..steps).fold(0, |best, i| if path[i][1] > path[best][1] { i } else { best });
     let mut go = |to: [f64; 2]| {
-        let step = advance(element, &mut state, to, true).map_err(|error| CliError::Input(error.to_string()))?;
+        let step = OneDirection::step(element, &mut state, to).map_err(|error| CliError::Input(error.to_string()))?;
         Ok::<_, CliError>(([to[0], to[1], step.force[0]], step.dissipated))
     };
     go([0.0, path[first][1]])?;

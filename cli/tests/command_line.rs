@@ -1,11 +1,12 @@
 //! The program as its users call it, from a shell: results equal to those of the library, messages, pictures and files.
 
 use microslip::constant_load::equivalents::{iwan, jenkins};
-use microslip::constant_load::masing;
-use microslip::constant_load::state::{state_init, state_length};
+use microslip::constant_load::state::state_length;
+use microslip::constant_load::{ConstantLoad, Law};
 use microslip::element::{Directions, Element, NormalInput};
+use microslip::one_direction::{self as element_state, OneDirection};
+use microslip::two_directions::{self, TwoDirections};
 use microslip::{Contact, EllipticParameters, Error, Material, Parameters};
-use microslip::{one_direction as element_state, two_directions};
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
@@ -278,9 +279,9 @@ fn histories_equal_those_of_the_library() {
     for path in [vec![5e-7, -3e-7, 2e-7, -1e-7, 8e-7, 3e-6, 2.5e-6, 2.5e-6], spiral.collect()] {
         let n = path.len();
         let mut state = vec![0.0; state_length(n)];
-        state_init(&mut state).unwrap();
+        ConstantLoad::state_init(&mut state).unwrap();
         let rows = path.iter().map(|&to| {
-            let step = masing::advance(&contact, &mut state, to).unwrap();
+            let step = ConstantLoad::step(&contact, &mut state, to).unwrap();
             vec![to, step.force, step.tangent, step.dissipated]
         });
         let expected = with_totals(rows.collect());
@@ -332,16 +333,16 @@ fn histories_of_elements_equal_those_of_the_library() {
         let by_approach = input == NormalInput::Approach;
         let element = Element::rounded_flat(&flat_parameters(), directions, input).unwrap();
         let mut memory = [vec![0.0; element_state::state_length(7)], vec![0.0; two_directions::state_length()]];
-        element_state::state_init(&mut memory[0]).unwrap();
-        two_directions::state_init(&mut memory[1]).unwrap();
+        OneDirection::state_init(&mut memory[0]).unwrap();
+        TwoDirections::state_init(&mut memory[1]).unwrap();
         let row = |i: usize| -> Vec<f64> {
             let given = if by_approach { vec![values[i]] } else { vec![] };
             if directions == one {
-                let step = element_state::advance(&element, &mut memory[0], [x[i], values[i]], true).unwrap();
+                let step = OneDirection::step(&element, &mut memory[0], [x[i], values[i]]).unwrap();
                 let results = [step.force[1], step.force[0], step.tangent[0], step.dissipated];
                 [vec![x[i]], given, results.to_vec()].concat()
             } else {
-                let step = two_directions::advance(&element, &mut memory[1], [x[i], y[i], values[i]]).unwrap();
+                let step = TwoDirections::step(&element, &mut memory[1], [x[i], y[i], values[i]]).unwrap();
                 let [force_x, force_y, normal] = step.force;
                 assert!(force_x.hypot(force_y) <= 0.4 * normal * (1.0 + 1e-12) && step.dissipated >= 0.0);
                 [vec![x[i], y[i]], given, vec![normal, force_x, force_y, step.dissipated]].concat()

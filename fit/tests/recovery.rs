@@ -3,7 +3,7 @@
 mod common;
 use common::*;
 use microslip::element::{Directions, Element, NormalInput};
-use microslip::one_direction::{advance, state_init, state_length};
+use microslip::one_direction::{Law, OneDirection, state_length};
 use microslip_fit::{
     Contact, Estimate, Geometry, Measurement, NormalForce, Options, Report, ShapeParameter, Status, fit,
 };
@@ -218,12 +218,12 @@ fn a_small_swing_of_the_normal_force_is_included() {
     for swing in [0.02, 0.08] {
         let loops = [0.8, 2.0].map(|amplitude| {
             let mut state = vec![0.0; state_length(4000)];
-            state_init(&mut state).unwrap();
+            OneDirection::state_init(&mut state).unwrap();
             let at = |i: i32| {
                 let phase = std::f64::consts::TAU * f64::from(i) / 200.0;
                 let [load, at] = [800.0 * (1.0 + swing * (2.0 * phase + 0.7).sin()), amplitude * phase.sin()];
                 let at = at * law.slip_displacement;
-                (load, (at, advance(&element, &mut state, [at, load], false).unwrap().force[0]))
+                (load, (at, OneDirection::step(&element, &mut state, [at, load]).unwrap().force[0]))
             };
             let (loads, (displacement, force)) = (0..700).map(at).unzip::<_, _, Vec<_>, (Vec<_>, Vec<_>)>();
             let normal_force = Some(NormalForce::Samples(loads));

@@ -6,11 +6,12 @@ use crate::constant_load::ConstantLoad;
 use crate::constant_load::contact::Contact;
 use crate::constant_load::energy::Dissipation;
 use crate::constant_load::evaluator::{BEYOND, Response};
-use crate::constant_load::memory::{Branch, InitialCurve, Merge, Point, Transition, force_error};
-use crate::constant_load::state;
+use crate::constant_load::memory::{Branch, InitialCurve, Memory, Merge, Point, Transition, force_error};
+use crate::constant_load::state::{self, HEADER, PER_REVERSAL};
 use crate::error::Error;
 use crate::law::{Law, PathOutput, Requested, StepResult};
 use crate::limits::check_displacement;
+use crate::numerics::fp_class::is_finite;
 use crate::simd::dispatch;
 use crate::tag::Kind;
 
@@ -73,15 +74,6 @@ impl Branch {
             }
         });
     }
-}
-
-/// A step in place to a displacement \[m\]: force \[N\], tangent stiffness \[N/m\] on the branch on which it ends, 0 in gross slip, and
-/// dissipated energy \[J\], not negative.
-/// Errors: `BadState`, `StateTooShort`, `BadDisplacement`.
-pub fn advance(contact: &Contact, state: &mut [f64], displacement: f64) -> Result<Step, Error> {
-    ConstantLoad::check_header(state)?;
-    check_displacement(displacement)?;
-    Ok(ConstantLoad::advance(contact, state, displacement, Requested { tangent: true, energy: true }))
 }
 
 /// A step that does not continue its branch, before anything is written.
@@ -174,7 +166,10 @@ impl Law for ConstantLoad {
 
     #[inline(always)]
     fn check_tag(tag: f64, state_length: usize) -> Result<(), Error> {
-        state::check_tag(tag, state_length)
+        match Kind::State.count(tag) {
+            Some(depth) if HEADER + PER_REVERSAL * depth <= state_length => Ok(()),
+            _ => Err(Error::BadState),
+        }
     }
 
     #[inline(always)]
@@ -183,7 +178,28 @@ impl Law for ConstantLoad {
     }
 
     fn state_check(state: &[f64]) -> Result<(), Error> {
-        state::state_check(state)
+        let Memory { initial: InitialCurve { offset, slip_direction }, now, reversals } = state::read(state)?;
+        let header = [now.displacement, now.force, offset, slip_direction];
+        let finite = header.iter().chain(reversals.as_flattened()).all(|value| is_finite(*value));
+        if !finite || ![-1.0, 0.0, 1.0].contains(&slip_direction) || reversals.iter().any(|[.., error]| *error < 0.0) {
+            return Err(Error::BadState);
+        }
+        // Each lies between the two before it; the oldest and its mirror point enclose all others.
+        let mut bounds = None;
+        for displacement in reversals.iter().map(|[displacement, ..]| *displacement).chain([now.displacement]) {
+            bounds = match bounds {
+                None if reversals.is_empty() => None,
+                None => Some((2.0 * offset - displacement, displacement)),
+                Some((before, last)) => {
+                    let (low, high) = if before < last { (before, last) } else { (last, before) };
+                    if displacement < low || displacement > high {
+                        return Err(Error::BadState);
+                    }
+                    Some((last, displacement))
+                }
+            };
+        }
+        Ok(())
     }
 
     fn force_error(state: &[f64]) -> f64 {

@@ -13,11 +13,10 @@ use crate::constant_load::contact::Contact;
 use crate::constant_load::memory::{InitialCurve, Memory, Point, Reversal, push};
 use crate::error::Error;
 use crate::law::Law;
-use crate::numerics::fp_class::is_finite;
 use crate::tag::Kind;
 
-const HEADER: usize = 5;
-const PER_REVERSAL: usize = 3;
+pub(crate) const HEADER: usize = 5;
+pub(crate) const PER_REVERSAL: usize = 3;
 /// Reversals that every state holds: merging needs a pair.
 const MIN_REVERSALS: usize = 2;
 
@@ -27,26 +26,11 @@ pub const fn state_length(reversals: usize) -> usize {
     reversals.saturating_mul(PER_REVERSAL).saturating_add(HEADER)
 }
 
-/// Initialises a state: unloaded, at displacement 0.
-/// Errors: `StateTooShort` for fewer than [`state_length`]`(0)` doubles.
-pub fn state_init(state: &mut [f64]) -> Result<(), Error> {
-    ConstantLoad::state_init(state)
-}
-
 /// Whether a state whose header was checked holds as many reversals as fit.
 #[inline(always)]
 pub(crate) fn is_full(state: &[f64]) -> bool {
     let depth = Kind::State.count(state.first().copied().unwrap_or(0.0)).unwrap_or(0);
     HEADER + PER_REVERSAL * (depth + 1) > state.len()
-}
-
-/// Rejects a tag that no state of that length has.
-#[inline(always)]
-pub(crate) fn check_tag(tag: f64, state_length: usize) -> Result<(), Error> {
-    match Kind::State.count(tag) {
-        Some(depth) if HEADER + PER_REVERSAL * depth <= state_length => Ok(()),
-        _ => Err(Error::BadState),
-    }
 }
 
 /// The memory in a state whose header was checked.
@@ -104,39 +88,4 @@ pub(crate) fn set_point(state: &mut [f64], now: Point) {
     if let Some([_, displacement, _, force, _]) = state.first_chunk_mut::<HEADER>() {
         (*displacement, *force) = (now.displacement, now.force);
     }
-}
-
-/// Validates a state in full: all values are finite, and the reversals are nested. For states from outside the process.
-/// Errors: `StateTooShort`; `BadState` for an array that was not initialised, or whose values no history leads to.
-pub fn state_check(state: &[f64]) -> Result<(), Error> {
-    let Memory { initial: InitialCurve { offset, slip_direction }, now, reversals } = read(state)?;
-    let header = [now.displacement, now.force, offset, slip_direction];
-    let finite = header.iter().chain(reversals.as_flattened()).all(|value| is_finite(*value));
-    if !finite || ![-1.0, 0.0, 1.0].contains(&slip_direction) || reversals.iter().any(|[.., error]| *error < 0.0) {
-        return Err(Error::BadState);
-    }
-    // Each lies between the two before it; the oldest and its mirror point enclose all others.
-    let mut bounds = None;
-    for displacement in reversals.iter().map(|[displacement, ..]| *displacement).chain([now.displacement]) {
-        bounds = match bounds {
-            None if reversals.is_empty() => None,
-            None => Some((2.0 * offset - displacement, displacement)),
-            Some((before, last)) => {
-                let (low, high) = if before < last { (before, last) } else { (last, before) };
-                if displacement < low || displacement > high {
-                    return Err(Error::BadState);
-                }
-                Some((last, displacement))
-            }
-        };
-    }
-    Ok(())
-}
-
-/// Bound on the error \[N\] that merged reversals have caused in the force; 0 while none was merged, and again once gross slip has
-/// erased the memory.
-/// Errors: `StateTooShort`, `BadState`.
-pub fn state_error(state: &[f64]) -> Result<f64, Error> {
-    ConstantLoad::check_header(state)?;
-    Ok(ConstantLoad::force_error(state))
 }

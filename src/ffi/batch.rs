@@ -12,7 +12,7 @@ use crate::constant_load::harmonic_force::{HarmonicOutput, harmonic_force};
 use crate::element::{Directions, Element};
 use crate::error::Error;
 use crate::fourier::workspace::Layout;
-use crate::law::{ElementLaw, Law, PathOutput, Requested};
+use crate::law::{Law, PathOutput, Requested};
 use crate::limits::check_coefficients;
 use core::{ptr, slice};
 use libc::size_t;
@@ -418,12 +418,12 @@ pub unsafe extern "C" fn mslip_batch_element_harmonic_force(
         let items = Items::new(n, n_elements, elements.cast::<Element>(), index, active)?;
         let outputs = [force, jacobian, dissipated, drift];
         let (directions, size, extent) = pointers::element_workspace_size(workspace)?;
-        with_law!(directions, L => {
-            let mut workspace = <L as ElementLaw>::Workspace::open(output(workspace, extent)?.ok_or(Error::BadWorkspace)?)?;
-            let one = L::COMPONENTS * size.coefficients();
+        with_law!(directions, L, law => {
+            let mut workspace = law::Workspace::open(output(workspace, extent)?.ok_or(Error::BadWorkspace)?)?;
+            let one = (directions as usize + 1) * size.coefficients();
             // The arrays of an element with another number of directions are shorter: no reference to them is created.
             items.check::<L>(|_, _| Ok(()))?;
-            let (check, compute) = (L::check_motion, L::harmonic_force);
+            let (check, compute) = (law::Workspace::check, law::harmonic_force);
             harmonic_forces::<L, _>(items, &mut workspace, one, displacement, outputs, check, compute)
         })
     })

@@ -8,7 +8,6 @@ use crate::constant_load::harmonic_force::{self, HarmonicOutput, Rule, harmonic_
 use crate::element::Directions;
 use crate::error::Error;
 use crate::fourier::workspace::{Layout, Size};
-use crate::law::ElementLaw;
 use crate::parameters::PARAMETERS;
 use core::ptr;
 use libc::size_t;
@@ -93,7 +92,8 @@ pub extern "C" fn mslip_element_workspace_length(
     rule: i32,
 ) -> size_t {
     let size = Size::new(harmonics, samples);
-    let length = |directions| with_law!(directions, L => <L as ElementLaw>::Workspace::length_or_zero(size));
+    let length =
+        |directions| with_law!(directions, _L, harmonic_force => harmonic_force::Workspace::length_or_zero(size));
     check_element_rule(directions, rule).map_or(0, length)
 }
 
@@ -117,7 +117,7 @@ pub unsafe extern "C" fn mslip_element_workspace_init(
         let directions = check_element_rule(directions, rule)?;
         let memory = memory(workspace_length, workspace)?;
         let size = Size::new(harmonics, samples).with_periods(periods);
-        with_law!(directions, L => <L as ElementLaw>::Workspace::init(size, memory))
+        with_law!(directions, _L, harmonic_force => harmonic_force::Workspace::init(size, memory))
     })
 }
 

@@ -4,13 +4,13 @@ use crate::constant_load::ConstantLoad;
 use crate::constant_load::contact::tests::{FLATS, contact, ellipse};
 use crate::constant_load::harmonic_force::tests::{compute, workspace};
 use crate::constant_load::harmonic_force::{HarmonicOutput, Rule, Workspace, harmonic_sensitivity};
-use crate::constant_load::state::{state_init, state_length};
+use crate::constant_load::state::state_length;
 use crate::constant_load::stiffness_table::StiffnessTable;
 use crate::element::{Directions, Element, NormalInput};
 use crate::law::{Law, PathOutput};
-use crate::one_direction::harmonic_force as line;
+use crate::one_direction::{self, OneDirection, harmonic_force as line};
+use crate::two_directions::{self, TwoDirections};
 use crate::{Contact, Material, Parameters};
-use crate::{one_direction, two_directions};
 use core::cell::Cell;
 use std::prelude::rust_2024::*;
 use std::vec;
@@ -60,7 +60,7 @@ fn the_curve_and_a_path() {
         });
         compare("path", || {
             let mut state = vec![0.0; state_length(64)];
-            state_init(&mut state).unwrap();
+            ConstantLoad::state_init(&mut state).unwrap();
             let [mut force, mut stiffness, mut dissipated] = [(); 3].map(|()| vec![0.0; 1000]);
             let [one, two, three] = [&mut force, &mut stiffness, &mut dissipated].map(|v| Some(v.as_mut_slice()));
             let output = PathOutput { force: one, tangent: two, dissipated: three };
@@ -145,13 +145,13 @@ fn an_element() {
         compare("steps", || {
             let mut values = Vec::new();
             let mut memory = [vec![0.0; one_direction::state_length(32)], vec![0.0; two_directions::state_length()]];
-            one_direction::state_init(&mut memory[0]).unwrap();
-            two_directions::state_init(&mut memory[1]).unwrap();
+            OneDirection::state_init(&mut memory[0]).unwrap();
+            TwoDirections::state_init(&mut memory[1]).unwrap();
             for motion in scattered(600, 7, 1.0).as_chunks::<3>().0 {
                 let [u, v, w] = [2.0 * unit * motion[0], 2.0 * unit * motion[1], largest * (0.5 + 0.45 * motion[2])];
-                let line = one_direction::advance(&one, &mut memory[0], [u, w], true).unwrap();
+                let line = OneDirection::step(&one, &mut memory[0], [u, w]).unwrap();
                 values.extend(line.force.iter().chain(&line.tangent).chain([&line.dissipated]));
-                let plane = two_directions::advance(&two, &mut memory[1], [u, v, w]).unwrap();
+                let plane = TwoDirections::step(&two, &mut memory[1], [u, v, w]).unwrap();
                 values.extend(plane.force.iter().chain(&plane.tangent).chain([&plane.dissipated]));
             }
             values

@@ -19,9 +19,10 @@ use super::stick;
 use super::tables::{Both, END, FINE, MOST_PARTS, Matrix, N, ROWS, Row, Rows, Units, fill, starts, under_flat};
 use super::trial::{FINE_SPRING, Motion, SPRINGS, Values, trial};
 use super::{Requested, Step, TwoDirections};
-use crate::element::{Element, Normal};
+use crate::element::{Directions, Element, Normal};
 use crate::error::Error;
-use crate::law::Law;
+use crate::law::{Law, PathOutput};
+use crate::limits::check_displacement;
 use crate::numerics::fp_class::is_finite;
 use crate::shape::TINY;
 use crate::simd::dispatch;
@@ -45,51 +46,158 @@ pub const fn state_length() -> usize {
     LENGTH
 }
 
-/// Initialises a state: open, at displacement 0 and normal component 0.
-/// Errors: `StateTooShort` for fewer than [`state_length`] doubles.
-pub fn state_init(state: &mut [f64]) -> Result<(), Error> {
-    TwoDirections::state_init(state)
-}
+impl Law for TwoDirections {
+    type Item = Element;
+    type Vector = [f64; 3];
+    type Tangent = [f64; 9];
 
-/// Rejects the tag of what is no state.
-#[inline(always)]
-pub(super) fn check_tag(tag: f64) -> Result<(), Error> {
-    if Kind::TwoDirectionsState.count(tag) == Some(0) { Ok(()) } else { Err(Error::BadState) }
-}
+    const STATE_LENGTH: usize = LENGTH;
+    const NEW_STATE: f64 = Kind::TwoDirectionsState.tag(0);
+    const OTHER_STATE: Option<Kind> = Some(Kind::ElementState);
 
-/// Validates a state in full: finite values, springs within their limits. For states from outside the process.
-/// Errors: `StateTooShort`; `BadState` for an array that was not initialised, or whose values no history leads to.
-pub fn state_check(state: &[f64]) -> Result<(), Error> {
-    TwoDirections::check_header(state)?;
-    let mut copy = [0.0; LENGTH];
-    copy_used(state, &mut copy);
-    let Some(memory) = Memory::of(&mut copy) else { return Err(Error::StateTooShort) };
-    if !state.iter().take(LENGTH).all(|value| is_finite(*value)) {
-        return Err(Error::BadState);
+    #[inline(always)]
+    fn check(element: &Element) -> Result<(), Error> {
+        element.check_directions(Directions::Two)
     }
-    let (header, contact) = memory.read();
-    if header.normal_force == 0.0 {
-        return Ok(());
-    }
-    let Units { load, shift, size } = header.units;
-    let positive =
-        [header.normal_force, load, shift, size, contact.now.load, contact.now.shift[0], contact.now.shift[1]];
-    let held = memory.springs.as_flattened().iter().all(|value| value.abs() <= LONGEST);
-    let edge = contact.edge.as_flattened().iter().chain(&contact.per_pressure).all(|value| *value >= 0.0);
-    let start = starts(contact.under_flat);
-    let within = (0..2).all(|k| {
-        let rounding = 1e-9 * contact.now.shift[k];
-        let limit = |j: usize| contact.limit(&&*memory.tables, k, start[j]) + rounding;
-        (0..=contact.last.min(N - 1)).all(|j| memory.springs[k][j].abs() <= limit(j))
-    });
-    if within && held && edge && positive.iter().all(|value| *value > 0.0) { Ok(()) } else { Err(Error::BadState) }
-}
 
-/// Copies a state whose header was checked to one that is as long.
-#[inline(always)]
-pub(super) fn copy_used(from: &[f64], to: &mut [f64]) {
-    if let (Some(from), Some(to)) = (from.first_chunk::<LENGTH>(), to.first_chunk_mut::<LENGTH>()) {
-        *to = *from;
+    #[inline(always)]
+    fn check_tag(tag: f64, _state_length: usize) -> Result<(), Error> {
+        if Kind::TwoDirectionsState.count(tag) == Some(0) { Ok(()) } else { Err(Error::BadState) }
+    }
+
+    #[inline(always)]
+    fn check_step(element: &Element, &[u, v, input]: &[f64; 3]) -> Result<(), Error> {
+        check_displacement(u)?;
+        check_displacement(v)?;
+        element.check_input(input)
+    }
+
+    fn state_check(state: &[f64]) -> Result<(), Error> {
+        TwoDirections::check_header(state)?;
+        let mut copy = [0.0; LENGTH];
+        Self::copy_used(state, &mut copy);
+        let Some(memory) = Memory::of(&mut copy) else { return Err(Error::StateTooShort) };
+        if !state.iter().take(LENGTH).all(|value| is_finite(*value)) {
+            return Err(Error::BadState);
+        }
+        let (header, contact) = memory.read();
+        if header.normal_force == 0.0 {
+            return Ok(());
+        }
+        let Units { load, shift, size } = header.units;
+        let positive =
+            [header.normal_force, load, shift, size, contact.now.load, contact.now.shift[0], contact.now.shift[1]];
+        let held = memory.springs.as_flattened().iter().all(|value| value.abs() <= LONGEST);
+        let edge = contact.edge.as_flattened().iter().chain(&contact.per_pressure).all(|value| *value >= 0.0);
+        let start = starts(contact.under_flat);
+        let within = (0..2).all(|k| {
+            let rounding = 1e-9 * contact.now.shift[k];
+            let limit = |j: usize| contact.limit(&&*memory.tables, k, start[j]) + rounding;
+            (0..=contact.last.min(N - 1)).all(|j| memory.springs[k][j].abs() <= limit(j))
+        });
+        if within && held && edge && positive.iter().all(|value| *value > 0.0) { Ok(()) } else { Err(Error::BadState) }
+    }
+
+    #[inline(always)]
+    fn copy_used(from: &[f64], to: &mut [f64]) {
+        if let (Some(from), Some(to)) = (from.first_chunk::<LENGTH>(), to.first_chunk_mut::<LENGTH>()) {
+            *to = *from;
+        }
+    }
+
+    #[inline(always)]
+    fn trial(element: &Element, old: &[f64], displacement: [f64; 3], requested: Requested) -> Step {
+        let mut copy = [0.0; LENGTH];
+        Self::copy_used(old, &mut copy);
+        Self::advance(element, &mut copy, displacement, requested)
+    }
+
+    fn advance(element: &Element, state: &mut [f64], to: [f64; 3], requested: Requested) -> Step {
+        let closes = element.is_closed(to[2]);
+        let mut result = Step::NONE;
+        let Some(mut memory) = Memory::of(state) else { return result };
+        let (mut header, mut from) = memory.read();
+        if element.friction_coefficient == 0.0 || !(closes || header.normal_force > 0.0) {
+            // Without friction, or open before and after, only the position changes.
+            if closes {
+                let normal = element.normal(to[2]);
+                (result.force[2], result.tangent[8]) = (normal.load, normal.load_slope);
+            }
+            memory.open(to);
+            return result;
+        }
+        let belongs = header.key == element.key;
+        let same =
+            belongs && closes && header.normal_force > 0.0 && to[2].to_bits() == header.displacement[2].to_bits();
+        let normal = if closes && (!same || requested.tangent) {
+            element.normal(to[2])
+        } else {
+            Normal { load: header.normal_force, ..Normal::OPEN }
+        };
+        let largest = header.normal_force.max(normal.load);
+        if !belongs || (!same && largest > OUTGROWN * header.units.load) {
+            memory.align(element, &mut header, &mut from, largest);
+        }
+        let was_closed = header.normal_force > 0.0;
+        let units = header.units;
+        let path = Path::new(element, &units, [header.displacement, to], [was_closed, closes]);
+        let force_unit = element.friction_coefficient * units.load;
+        let energy_unit = force_unit * element.friction_coefficient * units.shift * path.scale;
+        if !closes {
+            if requested.energy {
+                let energy = separated(memory.tables, &from, &Pressed::NONE, path.by, memory.springs);
+                result.dissipated = energy_unit * energy;
+            }
+            memory.open(to);
+            return result;
+        }
+        let mut slopes = Pressed::NONE;
+        let mut contact = from;
+        if !same || requested.tangent {
+            let now;
+            [now, slopes] = Pressed::new(element, &units, to[2], &normal);
+            if !same {
+                contact = Contact::press(memory.tables, &now, from.under_flat, memory.inverse);
+            }
+        }
+        if same && let Some(edge) = memory.stick(&contact, &path, &mut header) {
+            result.force = [force_unit * header.force[0], force_unit * header.force[1], normal.load];
+            if requested.tangent {
+                let slopes = stick::tangent(memory.tables, &contact, &slopes, &edge, memory.springs);
+                result.tangent = tangent_of(slopes, [force_unit * path.per_distance, force_unit], normal.load_slope);
+            }
+            memory.move_to(to, &header.force);
+            return result;
+        }
+        let motion = path.motion(&from, &contact, same);
+        let trial = trial(memory.tables, &contact, &motion, memory.springs);
+        let mut slip = Slips::NONE;
+        slip.find(memory.tables, &contact, memory.inverse, &motion, (&trial, memory.springs), requested.tangent);
+        if requested.tangent {
+            let by = [0, 1].map(|k| {
+                let mut by = Dual::constant(motion.by[k]);
+                (by.0[0][END], by.0[0][END + 1 + k]) = (path.per_input[k][1], path.per_distance);
+                by
+            });
+            let motion = Motion { before: motion.before.map(Dual::constant), by, constant_load: same };
+            let force = tangent(memory.tables, &contact, &slopes, &motion, &slip, memory.springs);
+            result.tangent = tangent_of(force.map(|force| force.0[0]), [force_unit; 2], normal.load_slope);
+        }
+        let contacts = [&from, &contact];
+        let (force, energy) = advance(memory.tables, contacts, &motion, &slip, requested.energy, memory.springs);
+        let [x, y] = bounded(force, contact.now.load).map(|force| force_unit * force);
+        result.force = [x, y, normal.load];
+        result.dissipated = energy_unit * energy;
+        let header = Header { displacement: to, normal_force: normal.load, force, ..header };
+        memory.write(&header, &contact);
+        result
+    }
+
+    #[inline(never)]
+    fn path_in_copy(element: &Element, state: &[f64], path: &[[f64; 3]], output: PathOutput<[f64; 3], [f64; 9]>) {
+        let mut copy = [0.0; LENGTH];
+        Self::copy_used(state, &mut copy);
+        Self::path(element, &mut copy, path, output);
     }
 }
 
@@ -264,94 +372,6 @@ fn polygon(at: f64, corners: impl Iterator<Item = [f64; 2]>) -> f64 {
         before = corner;
     }
     before[1]
-}
-
-/// A step whose new state is discarded, with a state and a displacement that were checked.
-pub(super) fn trial_step(element: &Element, old: &[f64], displacement: [f64; 3], requested: Requested) -> Step {
-    let mut copy = [0.0; LENGTH];
-    copy_used(old, &mut copy);
-    advance_state(element, &mut copy, displacement, requested)
-}
-
-/// A step in place, with a state and a displacement that were checked.
-pub(super) fn advance_state(element: &Element, state: &mut [f64], to: [f64; 3], requested: Requested) -> Step {
-    let closes = element.is_closed(to[2]);
-    let mut result = Step::NONE;
-    let Some(mut memory) = Memory::of(state) else { return result };
-    let (mut header, mut from) = memory.read();
-    if element.friction_coefficient == 0.0 || !(closes || header.normal_force > 0.0) {
-        // Without friction, or open before and after, only the position changes.
-        if closes {
-            let normal = element.normal(to[2]);
-            (result.force[2], result.tangent[8]) = (normal.load, normal.load_slope);
-        }
-        memory.open(to);
-        return result;
-    }
-    let belongs = header.key == element.key;
-    let same = belongs && closes && header.normal_force > 0.0 && to[2].to_bits() == header.displacement[2].to_bits();
-    let normal = if closes && (!same || requested.tangent) {
-        element.normal(to[2])
-    } else {
-        Normal { load: header.normal_force, ..Normal::OPEN }
-    };
-    let largest = header.normal_force.max(normal.load);
-    if !belongs || (!same && largest > OUTGROWN * header.units.load) {
-        memory.align(element, &mut header, &mut from, largest);
-    }
-    let was_closed = header.normal_force > 0.0;
-    let units = header.units;
-    let path = Path::new(element, &units, [header.displacement, to], [was_closed, closes]);
-    let force_unit = element.friction_coefficient * units.load;
-    let energy_unit = force_unit * element.friction_coefficient * units.shift * path.scale;
-    if !closes {
-        if requested.energy {
-            let energy = separated(memory.tables, &from, &Pressed::NONE, path.by, memory.springs);
-            result.dissipated = energy_unit * energy;
-        }
-        memory.open(to);
-        return result;
-    }
-    let mut slopes = Pressed::NONE;
-    let mut contact = from;
-    if !same || requested.tangent {
-        let now;
-        [now, slopes] = Pressed::new(element, &units, to[2], &normal);
-        if !same {
-            contact = Contact::press(memory.tables, &now, from.under_flat, memory.inverse);
-        }
-    }
-    if same && let Some(edge) = memory.stick(&contact, &path, &mut header) {
-        result.force = [force_unit * header.force[0], force_unit * header.force[1], normal.load];
-        if requested.tangent {
-            let slopes = stick::tangent(memory.tables, &contact, &slopes, &edge, memory.springs);
-            result.tangent = tangent_of(slopes, [force_unit * path.per_distance, force_unit], normal.load_slope);
-        }
-        memory.move_to(to, &header.force);
-        return result;
-    }
-    let motion = path.motion(&from, &contact, same);
-    let trial = trial(memory.tables, &contact, &motion, memory.springs);
-    let mut slip = Slips::NONE;
-    slip.find(memory.tables, &contact, memory.inverse, &motion, (&trial, memory.springs), requested.tangent);
-    if requested.tangent {
-        let by = [0, 1].map(|k| {
-            let mut by = Dual::constant(motion.by[k]);
-            (by.0[0][END], by.0[0][END + 1 + k]) = (path.per_input[k][1], path.per_distance);
-            by
-        });
-        let motion = Motion { before: motion.before.map(Dual::constant), by, constant_load: same };
-        let force = tangent(memory.tables, &contact, &slopes, &motion, &slip, memory.springs);
-        result.tangent = tangent_of(force.map(|force| force.0[0]), [force_unit; 2], normal.load_slope);
-    }
-    let contacts = [&from, &contact];
-    let (force, energy) = advance(memory.tables, contacts, &motion, &slip, requested.energy, memory.springs);
-    let [x, y] = bounded(force, contact.now.load).map(|force| force_unit * force);
-    result.force = [x, y, normal.load];
-    result.dissipated = energy_unit * energy;
-    let header = Header { displacement: to, normal_force: normal.load, force, ..header };
-    memory.write(&header, &contact);
-    result
 }
 
 /// The tangent from the derivatives of both forces by the normal component, u and v, in the units of the springs.

@@ -6,8 +6,8 @@ pub mod two_directions;
 
 use microslip::Contact;
 use microslip::constant_load::harmonic_force::{HarmonicOutput, Rule, Workspace, harmonic_force};
-use microslip::constant_load::masing;
-use microslip::constant_load::state::{state_init, state_length};
+use microslip::constant_load::state::state_length;
+use microslip::constant_load::{ConstantLoad, Law};
 
 /// Force and Jacobian, column-major, and dissipated energy of a motion of n coefficients.
 pub fn outputs<E>(
@@ -61,13 +61,13 @@ pub fn seed() -> u64 {
 
 pub fn unloaded(reversals: usize) -> Vec<f64> {
     let mut state = vec![0.0; state_length(reversals)];
-    state_init(&mut state).unwrap();
+    ConstantLoad::state_init(&mut state).unwrap();
     state
 }
 
 /// Advances a state; force, stiffness and dissipated energy.
 #[inline(never)]
 pub fn advance(contact: &Contact, state: &mut [f64], displacement: f64) -> (f64, f64, f64) {
-    let step = masing::advance(contact, state, displacement).unwrap();
+    let step = ConstantLoad::step(contact, state, displacement).unwrap();
     (step.force, step.tangent, step.dissipated)
 }

@@ -1,7 +1,7 @@
 //! An element with two tangential directions and its state.
 
 use microslip::element::Element;
-use microslip::two_directions::{Step, advance, state_init, state_length};
+use microslip::two_directions::{Law, Step, TwoDirections, state_length};
 
 #[derive(Clone)]
 pub struct Contact<'a> {
@@ -12,12 +12,12 @@ pub struct Contact<'a> {
 impl Contact<'_> {
     pub fn new(element: &Element) -> Contact<'_> {
         let mut state = vec![0.0; state_length()];
-        state_init(&mut state).unwrap();
+        TwoDirections::state_init(&mut state).unwrap();
         Contact { element, state }
     }
 
     pub fn to(&mut self, displacement: [f64; 3]) -> Step {
-        advance(self.element, &mut self.state, displacement).unwrap()
+        TwoDirections::step(self.element, &mut self.state, displacement).unwrap()
     }
 
     pub fn trial(&self, displacement: [f64; 3]) -> Step {

@@ -1,7 +1,7 @@
 //! Computed measurements: loops of the library, in series with a spring, with offset, drift and noise.
 
-use microslip::constant_load::masing::advance;
-use microslip::constant_load::state::{state_init, state_length};
+use microslip::constant_load::state::state_length;
+use microslip::constant_load::{ConstantLoad, Law};
 use microslip::{Layer, Parameters};
 use microslip_fit::{Contact, DisplacementReference, Estimate, Geometry, Material, Measurement, NormalForce, Report};
 use std::f64::consts::TAU;
@@ -171,7 +171,7 @@ pub fn measured(contact: &Contact, rig: &Rig, random: &mut Random) -> Measuremen
     };
     let law = &microslip::Contact::rounded_flat(&parameters).unwrap();
     let mut state = vec![0.0; state_length(16)];
-    state_init(&mut state).unwrap();
+    ConstantLoad::state_init(&mut state).unwrap();
     let amplitude = rig.amplitude * law.slip_displacement;
     let mut noise = [0.0; 2];
     let (mut displacement, mut force) = (Vec::new(), Vec::new());
@@ -181,7 +181,7 @@ pub fn measured(contact: &Contact, rig: &Rig, random: &mut Random) -> Measuremen
         // The reversals are between samples.
         let phase = TAU * (i as f64 + 0.3) / rig.samples as f64;
         let at = amplitude * phase.sin();
-        let tangential = advance(law, &mut state, at).unwrap().force;
+        let tangential = ConstantLoad::step(law, &mut state, at).unwrap().force;
         let scatter = (1.0 - rig.correlation * rig.correlation).sqrt();
         noise = noise.map(|last| rig.correlation * last + scatter * random.normal());
         let part = i as f64 / total as f64;

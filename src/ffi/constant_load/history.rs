@@ -1,6 +1,6 @@
 //! Load histories: states, and Masing's rule with return-point memory.
 
-use crate::constant_load::{ConstantLoad, masing, state};
+use crate::constant_load::{ConstantLoad, Law, masing, state};
 use crate::ffi::batch::{path, update_one};
 use crate::ffi::mslip_contact;
 use crate::ffi::pointers::{self, call, input, memory, output, outputs, set, state_input, status};
@@ -19,7 +19,7 @@ pub extern "C" fn mslip_state_length(reversals: size_t) -> size_t {
 /// Returns MSLIP_NULL_POINTER or MSLIP_STATE_TOO_SHORT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_state_init(state_length: size_t, state: *mut f64) -> i32 {
-    status(memory(state_length, state).and_then(state::state_init))
+    status(memory(state_length, state).and_then(ConstantLoad::state_init))
 }
 
 /// Validates a state that was read from a file or a message: all values must be finite and the reversals nested. Other functions only
@@ -28,7 +28,7 @@ pub unsafe extern "C" fn mslip_state_init(state_length: size_t, state: *mut f64)
 /// Returns MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or MSLIP_BAD_STATE.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_state_check(state_length: size_t, state: *const f64) -> i32 {
-    status(state_input(state_length, state).and_then(state::state_check))
+    status(state_input(state_length, state).and_then(ConstantLoad::state_check))
 }
 
 /// Bound on the error \[N\] of the force due to removed reversals: 0 if none was removed since the last gross slip.
@@ -38,8 +38,8 @@ pub unsafe extern "C" fn mslip_state_check(state_length: size_t, state: *const f
 pub unsafe extern "C" fn mslip_state_error(state_length: size_t, state: *const f64, force_error: *mut f64) -> i32 {
     call(|| {
         let (state, mut force_error) = (state_input(state_length, state)?, output(force_error, 1)?);
-        let error = state::state_error(state)?;
-        set(&mut force_error, 0, || error);
+        ConstantLoad::check_header(state)?;
+        set(&mut force_error, 0, || ConstantLoad::force_error(state));
         Ok(())
     })
 }

@@ -2,7 +2,7 @@
 //!
 //! In these units the results do not depend on the size, modulus and friction chosen here.
 
-use microslip::constant_load::{masing, state};
+use microslip::constant_load::{ConstantLoad, Law, masing, state};
 use microslip::element::{Directions, Element, NormalInput};
 use microslip::{Contact, CurvePoint, EllipticParameters, Material, Parameters};
 use reference::law::load_of_size;
@@ -200,10 +200,10 @@ impl Case {
     /// The state after displacements in their unit.
     pub fn state_after(&self, displacements: &[f64]) -> Vec<f64> {
         let mut state = vec![0.0; state::state_length(2)];
-        state::state_init(&mut state).expect("a state");
+        ConstantLoad::state_init(&mut state).expect("a state");
         for displacement in displacements {
             let displacement = displacement * self.displacement_unit();
-            masing::advance(&self.contact, &mut state, displacement).expect("a step");
+            ConstantLoad::step(&self.contact, &mut state, displacement).expect("a step");
         }
         state
     }

@@ -4,7 +4,7 @@ use crate::cases::Case;
 use crate::drawings::even;
 use crate::table::Table;
 use microslip::element::{Element, NormalInput};
-use microslip::one_direction::{Step, advance, state_init, state_length};
+use microslip::one_direction::{Law, OneDirection, Step, state_length};
 use std::f64::consts::TAU;
 
 const STEPS_OF_CYCLE: usize = 180;
@@ -72,13 +72,13 @@ struct Path<'a> {
 impl Path<'_> {
     fn new(element: &Element, pieces: usize) -> Path<'_> {
         let mut state = vec![0.0; state_length(pieces)];
-        state_init(&mut state).expect("a long state");
+        OneDirection::state_init(&mut state).expect("a long state");
         Path { element, state, displacement: 0.0 }
     }
 
     fn displace(&mut self, displacement: f64, load: f64) -> Step {
         self.displacement = displacement;
-        advance(self.element, &mut self.state, [displacement, load], true).expect("an admissible step")
+        OneDirection::step(self.element, &mut self.state, [displacement, load]).expect("an admissible step")
     }
 
     /// A step to a tangential force below the slip force, by Newton's method within a bracket.

@@ -1,10 +1,9 @@
 //! The law under prescribed forces: the displacement that gives a tangential force, by Newton's method with the law's tangent.
 
 use crate::histories::{History, Row};
-use microslip::constant_load::masing;
-use microslip::constant_load::state as constant_state;
+use microslip::constant_load::{ConstantLoad, state as constant_state};
 use microslip::element::Element;
-use microslip::one_direction as state;
+use microslip::one_direction::{self as state, Law, OneDirection};
 
 /// Steps of the law for each row, straight in both forces.
 pub const SUBSTEPS: u32 = 6;
@@ -42,7 +41,7 @@ pub fn displacement_at(target: f64, start: f64, mut low: f64, mut high: f64, law
 /// The element along a history, at the end of each substep; the first row is one step from the open contact.
 pub fn varying(element: &Element, history: &History) -> Vec<Point> {
     let mut memory = vec![0.0; state::state_length(256)];
-    state::state_init(&mut memory).expect("a state");
+    OneDirection::state_init(&mut memory).expect("a state");
     // Twice the shift under the largest force: beyond it there is gross slip.
     let reach = 4.0 * element.friction_coefficient * element.shift_under(element.normal_force);
     let mut now = Point { tangential_force: 0.0, displacement: 0.0, dissipated: 0.0 };
@@ -55,12 +54,12 @@ pub fn varying(element: &Element, history: &History) -> Vec<Point> {
             let normal_force = along(last.normal_force, row.normal_force);
             let target = along(last.tangential_force, row.tangential_force);
             let trial = |u: f64| {
-                let step = state::advance(element, &mut memory.clone(), [u, normal_force], false).expect("a step");
+                let step = OneDirection::step(element, &mut memory.clone(), [u, normal_force]).expect("a step");
                 (step.force[0], step.tangent[0])
             };
             let (start, low, high) = (now.displacement, now.displacement - reach, now.displacement + reach);
             let displacement = displacement_at(target, start, low, high, trial);
-            let step = state::advance(element, &mut memory, [displacement, normal_force], true).expect("a step");
+            let step = OneDirection::step(element, &mut memory, [displacement, normal_force]).expect("a step");
             let dissipated = now.dissipated + step.dissipated;
             now = Point { tangential_force: step.force[0], displacement, dissipated };
             points.push(now);
@@ -74,17 +73,17 @@ pub fn varying(element: &Element, history: &History) -> Vec<Point> {
 pub fn constant(history: &History) -> Vec<Point> {
     let contact = history.shape.contact(history.shape.normal_force()).expect("a contact");
     let mut memory = vec![0.0; constant_state::state_length(256)];
-    constant_state::state_init(&mut memory).expect("a state");
+    ConstantLoad::state_init(&mut memory).expect("a state");
     let reach = 4.0 * contact.slip_displacement;
     let mut now = Point { tangential_force: 0.0, displacement: 0.0, dissipated: 0.0 };
     let to_row = |row: &Row| {
         let trial = |u: f64| {
-            let step = masing::advance(&contact, &mut memory.clone(), u).expect("a step");
+            let step = ConstantLoad::step(&contact, &mut memory.clone(), u).expect("a step");
             (step.force, step.tangent)
         };
         let (start, low, high) = (now.displacement, now.displacement - reach, now.displacement + reach);
         let displacement = displacement_at(row.tangential_force, start, low, high, trial);
-        let step = masing::advance(&contact, &mut memory, displacement).expect("a step");
+        let step = ConstantLoad::step(&contact, &mut memory, displacement).expect("a step");
         now = Point { tangential_force: step.force, displacement, dissipated: now.dissipated + step.dissipated };
         now
     };

@@ -1,6 +1,6 @@
 //! Tractions of a cylinder on a flat by a finite-element model (`tests/golden/abaqus_mindlin.csv`), loaded and unloaded.
 
-use microslip::constant_load::{masing, state};
+use microslip::constant_load::{ConstantLoad, Law, masing, state};
 use microslip::{Contact, Material, Parameters};
 use std::f64::consts::PI;
 use std::fmt::Write;
@@ -56,8 +56,8 @@ fn differences(unloaded: bool) -> Differences {
     // Masing's rule: half of the change of force is that of the curve.
     let (top, half) = (at(LOADED), at(0.5 * LOADED));
     let mut memory = vec![0.0; state::state_length(4)];
-    state::state_init(&mut memory).expect("a state");
-    let mut advance = |to: f64| masing::advance(&contact, &mut memory, to).expect("a step");
+    ConstantLoad::state_init(&mut memory).expect("a state");
+    let mut advance = |to: f64| ConstantLoad::step(&contact, &mut memory, to).expect("a step");
     advance(top.displacement());
     let mut edges = vec![contact.half_width, top.stick_half_width()];
     if unloaded {

@@ -9,7 +9,7 @@
 
 use crate::drive::displacement_at;
 use microslip::element::{Directions, Element, NormalInput};
-use microslip::one_direction as state;
+use microslip::one_direction::{self as state, Law, OneDirection};
 use microslip::parameters::RIGID_STRIP;
 use microslip::{Material, Parameters};
 use std::f64::consts::TAU;
@@ -82,7 +82,7 @@ fn element(edge_radius: f64, length: f64, normal_force: f64, friction_coefficien
 /// The second of two cycles. `ratio`: smallest over largest load; `rig`: the compliance of the rig; `lag`: of the load.
 fn cycle(element: &Element, ratio: f64, amplitude: f64, rig: f64, lag: f64) -> Cycle {
     let mut memory = vec![0.0; state::state_length(64)];
-    state::state_init(&mut memory).expect("a state");
+    OneDirection::state_init(&mut memory).expect("a state");
     let (mut imposed, mut force) = (0.0, 0.0);
     let mut cycle = Cycle { imposed: amplitude, sliding: 0.0, dissipated: 0.0, area: 0.0 };
     for i in 1..=2 * STEPS {
@@ -90,12 +90,12 @@ fn cycle(element: &Element, ratio: f64, amplitude: f64, rig: f64, lag: f64) -> C
         let load = 0.5 * element.normal_force * (1.0 + ratio + (1.0 - ratio) * (phase - lag).sin());
         let target = amplitude * phase.sin();
         let trial = |u: f64| {
-            let step = state::advance(element, &mut memory.clone(), [u, load], false).expect("a step");
+            let step = OneDirection::step(element, &mut memory.clone(), [u, load]).expect("a step");
             (u + rig * step.force[0], 1.0 + rig * step.tangent[0])
         };
         let reach = 2.0 * amplitude;
         let u = displacement_at(target, target - rig * force, -reach, reach, trial);
-        let step = state::advance(element, &mut memory, [u, load], true).expect("a step");
+        let step = OneDirection::step(element, &mut memory, [u, load]).expect("a step");
         if i > STEPS {
             cycle.dissipated += step.dissipated;
             cycle.area += 0.5 * (force + step.force[0]) * (target - imposed);
@@ -128,13 +128,13 @@ fn sliding_by(sliding: f64, at: impl Fn(f64) -> Cycle) -> Cycle {
 /// A cycle in which load and displacement rise together from 0, and fall together to 0: the contact opens.
 fn opening_cycle(element: &Element, stroke: f64) -> Cycle {
     let mut memory = vec![0.0; state::state_length(64)];
-    state::state_init(&mut memory).expect("a state");
+    OneDirection::state_init(&mut memory).expect("a state");
     let mut cycle = Cycle { imposed: stroke, sliding: 0.0, dissipated: 0.0, area: 0.0 };
     let (mut before, mut force) = (0.0, 0.0);
     for i in 1..=STEPS {
         let part = 2.0 * f64::from(i.min(STEPS - i)) / f64::from(STEPS);
         let step =
-            state::advance(element, &mut memory, [part * stroke, part * element.normal_force], true).expect("a step");
+            OneDirection::step(element, &mut memory, [part * stroke, part * element.normal_force]).expect("a step");
         let now = part * stroke;
         cycle.dissipated += step.dissipated;
         cycle.area += 0.5 * (force + step.force[0]) * (now - before);

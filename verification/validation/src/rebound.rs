@@ -6,7 +6,7 @@
 
 use crate::table::Table;
 use microslip::element::{Directions, Element, NormalInput};
-use microslip::one_direction as state;
+use microslip::one_direction::{self as state, Law as _, OneDirection};
 use microslip::{EllipticParameters, Material};
 use std::f64::consts::PI;
 use std::fmt::Write;
@@ -76,7 +76,7 @@ impl Impact {
     /// Leapfrog from the first touch to separation.
     fn rebound(&self, law: Law, normal: f64, tangential: f64) -> Rebound {
         let mut memory = vec![0.0; state::state_length(2 * STEPS)];
-        state::state_init(&mut memory).expect("a state");
+        OneDirection::state_init(&mut memory).expect("a state");
         let largest = (normal * normal / self.of_velocity).powf(0.4);
         // A Hertzian impact takes 2.94 w/v.
         let dt = 3.0 * largest / normal / f64::from(STEPS as u32);
@@ -96,7 +96,7 @@ impl Impact {
             let of_radius = |r: f64| (force + 8.0 * self.moduli[1] * r * du).clamp(-limit, limit);
             force = match law {
                 Law::Microslip => {
-                    state::advance(&self.element, &mut memory, [u, w], true).expect("a step of the element").force[0]
+                    OneDirection::step(&self.element, &mut memory, [u, w]).expect("a step of the element").force[0]
                 }
                 Law::NoPartialSlip => of_radius(contact),
                 Law::SpringSlider => of_radius((self.radius * largest).sqrt()),

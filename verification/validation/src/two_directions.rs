@@ -4,7 +4,7 @@
 
 use crate::table::Table;
 use microslip::element::{Directions, Element, NormalInput};
-use microslip::two_directions::{Step, advance, state_init, state_length};
+use microslip::two_directions::{Law, Step, TwoDirections, state_length};
 use microslip::{EllipticParameters, Material, Parameters};
 use std::f64::consts::TAU;
 use std::fmt::Write;
@@ -99,8 +99,8 @@ fn paths() -> Vec<Path> {
 /// The law along displacements; pressed at the first one without tangential force.
 fn drive(element: &Element, path: impl Iterator<Item = [f64; 3]>) -> Vec<Point> {
     let mut state = vec![0.0; state_length()];
-    state_init(&mut state).expect("a state");
-    let mut to = |displacement: [f64; 3]| advance(element, &mut state, displacement).expect("a step");
+    TwoDirections::state_init(&mut state).expect("a state");
+    let mut to = |displacement: [f64; 3]| TwoDirections::step(element, &mut state, displacement).expect("a step");
     let mut path = path.peekable();
     if let Some([u, v, _]) = path.peek() {
         to([*u, *v, 0.0]);

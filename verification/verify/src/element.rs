@@ -5,8 +5,8 @@ use crate::curve::moved;
 use crate::histories;
 use crate::sampler::{ElementCase, Sampler, text};
 use crate::tally::Tally;
-use microslip::one_direction as state;
 use microslip::one_direction::tractions::tractions;
+use microslip::one_direction::{self as state, Law, OneDirection};
 use reference::element::{Element as Exact, Kind, State, Step};
 use reference::family::{Given, Size};
 use reference::{Input, Real};
@@ -91,12 +91,12 @@ pub fn along_a_path(case: &ElementCase, sampler: &mut Sampler, tally: &mut Tally
 pub fn steps(case: &ElementCase, path: &[[f64; 2]], range: &'static str, tally: &mut Tally) -> (Vec<f64>, State, f64) {
     let ElementCase { element, reference, kind, input } = case;
     let mut library = vec![0.0; state::state_length(64)];
-    state::state_init(&mut library).expect("long enough");
+    OneDirection::state_init(&mut library).expect("long enough");
     let mut exact = reference.open();
     // Largest displacement and size so far.
     let (mut farthest, mut largest): (f64, Option<Size>) = (0.0, None);
     for (i, &[u, w]) in path.iter().enumerate() {
-        let got = quiet("advance", || state::advance(element, &mut library, [u, w], true))
+        let got = quiet("advance", || OneDirection::step(element, &mut library, [u, w]))
             .unwrap_or_else(|error| panic!("{error:?}: {} path {:?}", text(input), &path[..=i]));
         let before = exact.clone();
         let [displacement, normal] = [u, w].map(|value| reference.real(value));

@@ -4,7 +4,7 @@
 use crate::call::quiet;
 use crate::sampler::{ElementCase, Sampler};
 use microslip::element::{Directions, Element, NormalInput};
-use microslip::one_direction as state;
+use microslip::one_direction::{self as state, Law, OneDirection};
 use microslip::{EllipticParameters, Material};
 
 const YOUNG_MODULUS: f64 = 7e10;
@@ -67,9 +67,9 @@ pub fn compare(_: &ElementCase, _: &mut Sampler, _: &mut crate::Tally) {
     };
     let element = Element::elliptic(&parameters, Directions::One, NormalInput::Force).expect("an element");
     let mut memory = vec![0.0; state::state_length(64)];
-    state::state_init(&mut memory).expect("long enough");
+    OneDirection::state_init(&mut memory).expect("long enough");
     let mut step =
-        |to: [f64; 2]| quiet("advance", || state::advance(&element, &mut memory, to, false)).expect("a step").force[0];
+        |to: [f64; 2]| quiet("advance", || OneDirection::step(&element, &mut memory, to)).expect("a step").force[0];
     step([0.0, 40.0]);
     // T rises, falls and rises while N rises, falls, rises, falls and rises.
     let corners: [[f64; 2]; 6] = [[40.0, 0.0], [46.0, 9.0], [41.0, 2.0], [44.0, -3.0], [38.0, 4.0], [39.0, 6.0]];

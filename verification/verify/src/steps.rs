@@ -6,7 +6,7 @@ use crate::element::prepare;
 use crate::histories::{self, OF_CONTACTS, OF_ELEMENTS};
 use crate::layer;
 use crate::sampler::{Case, ElementCase, Sampler};
-use microslip::one_direction as state;
+use microslip::one_direction::{self as state, Law, OneDirection};
 
 /// Reversals or pieces that a state holds: none are merged.
 const ENOUGH: usize = 520;
@@ -81,12 +81,12 @@ pub fn of_element(case: &ElementCase, sampler: &mut Sampler, _: &mut crate::Tall
     let [mut one, mut mirrored, mut short] = [ENOUGH, ENOUGH, 6].map(|pieces| vec![0.0; state::state_length(pieces)]);
     [&mut one, &mut mirrored, &mut short]
         .into_iter()
-        .for_each(|memory| state::state_init(memory).expect("long enough"));
+        .for_each(|memory| OneDirection::state_init(memory).expect("long enough"));
     let (mut farthest, mut largest): (f64, f64) = (0.0, 0.0);
     for (i, &to) in path.iter().enumerate() {
         let context = || format!("{:?}, step {i} of {:?}", case.input, &path[..=i]);
         let step = |memory: &mut Vec<f64>, to: [f64; 2]| {
-            let (step, raised) = call::flags_of(|| state::advance(element, memory, to, true));
+            let (step, raised) = call::flags_of(|| OneDirection::step(element, memory, to));
             assert!(raised == 0, "exceptions {raised:#x}; {}", context());
             step.unwrap_or_else(|error| panic!("{error:?}; {}", context()))
         };
@@ -96,7 +96,7 @@ pub fn of_element(case: &ElementCase, sampler: &mut Sampler, _: &mut crate::Tall
         assert!(finite && dissipated.is_finite() && dissipated >= 0.0, "{now:?}; {}", context());
         assert!(force.abs() <= mu * load, "Coulomb's bound: {now:?}; {}", context());
         assert!(
-            state::force_error(&one) == 0.0 && state::state_check(&one).is_ok(),
+            OneDirection::force_error(&one) == 0.0 && OneDirection::state_check(&one).is_ok(),
             "merged or invalid; {}",
             context()
         );
@@ -112,7 +112,7 @@ pub fn of_element(case: &ElementCase, sampler: &mut Sampler, _: &mut crate::Tall
         (farthest, largest) = (farthest.max(to[0].abs()), largest.max(load));
         let rounding = 1e-13 * (unit + mu * largest + farthest * element.tangential_stiffness);
         let merged = step(&mut short, to).force[0];
-        let error = state::force_error(&short);
+        let error = OneDirection::force_error(&short);
         assert!((merged - force).abs() <= error + rounding, "bounded {merged:e}, {error:e}: {now:?}; {}", context());
     }
 }

@@ -3,7 +3,7 @@
 use crate::call::quiet;
 use crate::sampler::{ElementCase, Sampler};
 use microslip::element::{Directions, Element, NormalInput};
-use microslip::two_directions::{self, Step};
+use microslip::two_directions::{self, Law, Step, TwoDirections};
 use reference::Input;
 
 /// Error of the force of a step that is repeated, over mu N of the parameters: where the slip converges, a rounding error.
@@ -50,7 +50,7 @@ pub fn histories(case: &ElementCase, sampler: &mut Sampler, _: &mut crate::Tally
     let Ok(element) = element else { return };
     let mu = element.friction_coefficient;
     let mut state = vec![f64::NAN; two_directions::state_length()];
-    two_directions::state_init(&mut state).expect("a state");
+    TwoDirections::state_init(&mut state).expect("a state");
     let scale = sampler.power(-3.0, 1.0) * mu * element.shift_under(element.normal_force);
     let mut at = [0.0; 3];
     for number in 0..100 {
@@ -66,7 +66,7 @@ pub fn histories(case: &ElementCase, sampler: &mut Sampler, _: &mut crate::Tally
         let before = state.clone();
         let context = || format!("step {number}, state before {before:?}, then {to:?}");
         let advance = |state: &mut Vec<f64>| {
-            quiet("advance", || two_directions::advance(&element, state, to))
+            quiet("advance", || TwoDirections::step(&element, state, to))
                 .unwrap_or_else(|e| panic!("{e:?}; {}", context()))
         };
         let step = advance(&mut state);
@@ -75,7 +75,7 @@ pub fn histories(case: &ElementCase, sampler: &mut Sampler, _: &mut crate::Tally
         assert!(finite && load >= 0.0 && dissipated >= 0.0, "{step:?}; {}", context());
         // The force is divided by its excess; the squares of forces are within the range of doubles.
         assert!(x.hypot(y) <= mu * load * (1.0 + 1e-15), "Coulomb's bound: {step:?}; {}", context());
-        assert!(two_directions::state_check(&state).is_ok(), "the state is not valid: {state:?}; {}", context());
+        assert!(TwoDirections::state_check(&state).is_ok(), "the state is not valid: {state:?}; {}", context());
         let again = advance(&mut state.clone());
         let moved = (again.force[0] - x).hypot(again.force[1] - y) / (mu * element.normal_force);
         assert!(
