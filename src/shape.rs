@@ -21,10 +21,24 @@ pub(crate) mod stick_zone;
 pub(crate) mod tractions;
 
 pub use hertz_ellipse::HertzEllipse;
-pub(crate) use layer::{Layer, Layered, LayeredZones};
+pub(crate) use layer::{Layer, Layered};
 pub use rounded_flat::RoundedFlat;
 pub(crate) use rounded_flat::size_under_load;
 pub(crate) use rounded_punch::{RoundedPunch, TINY};
+
+/// A complementary pair of amounts, `consumed + remaining`. Neither is computed from the other if it is the smaller.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Complement {
+    pub consumed: f64,
+    pub remaining: f64,
+}
+
+impl Complement {
+    /// The pair with the sum 1.
+    pub fn of_remaining(remaining: f64) -> Complement {
+        Complement { consumed: 1.0 - remaining, remaining }
+    }
+}
 
 /// A nested family of contact sizes in absolute terms. A size is given by a parameter w \[m\] that is 0 for the smallest one.
 pub(crate) trait Shape {

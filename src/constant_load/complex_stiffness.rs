@@ -244,8 +244,8 @@ impl Contact {
     /// The curve, continued to negative displacements, has a point of zero compliance, to first order at this distance from 0, in
     /// displacements of gross slip.
     fn relative_distance_of_zero_compliance(&self) -> f64 {
-        let series = self.stick_zones().small_load();
-        series.compliance * series.compliance / (2.0 * series.initial_curvature() * self.stick_zones().slip_shift())
+        let series = self.stick_zones().small_load;
+        series.compliance * series.compliance / (2.0 * series.initial_curvature() * self.stick_zones().slip_shift)
     }
 
     /// The weights of F in gross slip; 0 without an interpolant, or if Λ is so small that the rule does not converge.
@@ -327,7 +327,7 @@ impl Contact {
         if self.is_frictionless() {
             return (0.0, 0.0);
         }
-        let series = self.stick_zones().small_load();
+        let series = self.stick_zones().small_load;
         let slope = 0.5 * series.initial_curvature() / (series.compliance * series.compliance * series.compliance);
         let unit = self.stiffness_scale / self.displacement_scale.max(f64::MIN_POSITIVE);
         (-slope * unit, 4.0 / (3.0 * PI) * slope * unit)

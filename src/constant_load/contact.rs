@@ -7,9 +7,8 @@ use crate::limits::check_displacement;
 use crate::limits::{exponent_of, in_range};
 use crate::parameters::{self, Common, EllipticParameters, PARAMETERS, Parameters, Sensitivity};
 use crate::shape::rounded_flat::reference_slope;
-use crate::shape::stick_zone::rounded_flat::RoundedFlatZones;
-use crate::shape::stick_zone::{Complement, StickZones};
-use crate::shape::{HertzEllipse, Layer, LayeredZones, RoundedFlat};
+use crate::shape::stick_zone::StickZones;
+use crate::shape::{Complement, HertzEllipse, Layer, RoundedFlat};
 use crate::tag::LAYOUT;
 use core::f64::consts::PI;
 
@@ -57,7 +56,7 @@ pub struct Contact {
     interpolant: ForceInterpolant,
     /// Weights of K' in gross slip; 0 if there are none.
     pub(crate) weights_in_slip: [[f64; 4]; BLOCKS_IN_SLIP],
-    zones: LayeredZones,
+    zones: StickZones,
     /// mu N over each parameter; over b instead of a.
     pub(crate) sensitivity_scales: Sensitivity,
     /// dκ/d(ln b): 0 unless the displacement reference depends on b/L.
@@ -87,9 +86,10 @@ impl Contact {
         (contact.half_width, contact.flat_half_width) = (half_width, flat_half_width.abs());
         contact.pressure_scale = normal_force / length / half_width;
         contact.stiffness_scale = 0.5 * PI * composite_modulus * length;
-        contact.zones = LayeredZones::of_flat(RoundedFlatZones::new(shape.punch(), shape.reference_compliance()));
         contact.reference_slope = reference_slope(parameters, half_width);
-        contact.set_layer(&parameters.layer, normal_force)?;
+        let compliance = shape.reference_compliance();
+        let layer = contact.layer(&parameters.layer, normal_force, compliance)?;
+        contact.zones = StickZones::of_flat(shape.punch(), compliance, layer);
         contact.set_friction(normal_force, [half_width, edge_radius, length, composite_modulus])?;
         Ok(contact)
     }
@@ -105,14 +105,15 @@ impl Contact {
         }
         let composite_modulus = contact.composite_modulus;
         contact.half_width = semi_axis_x;
-        contact.zones = LayeredZones::of_ellipse();
         contact.stiffness_scale = 1.0 / HertzEllipse::new(parameters)?.initial_compliance();
         contact.pressure_scale = normal_force / semi_axis_x / semi_axis_y;
-        contact.set_layer(&parameters.layer, normal_force)?;
-        // The radius of the sphere with this semi-axis. Nothing depends on the other two lengths.
+        contact.zones = StickZones::of_ellipse(contact.layer(&parameters.layer, normal_force, 1.0)?);
+        // The radius of the sphere with this semi-axis.
         in_range(&[semi_axis_x, semi_axis_x, semi_axis_x, composite_modulus], &[normal_force])?;
         let radius = 4.0 / 3.0 * (semi_axis_x * (semi_axis_x * (semi_axis_x * composite_modulus / normal_force)));
         contact.set_friction(normal_force, [semi_axis_x, radius, semi_axis_x, composite_modulus])?;
+        // Nothing depends on the other two lengths.
+        (contact.sensitivity_scales[2], contact.sensitivity_scales[4]) = (0.0, 0.0);
         Ok(contact)
     }
 
@@ -125,14 +126,12 @@ impl Contact {
         Ok(Contact { composite_modulus, friction_coefficient, sensitivity_scales, tag: TAG, ..Contact::default() })
     }
 
-    /// The layer of parameters that were checked in series.
-    fn set_layer(&mut self, layer: &parameters::Layer, normal_force: f64) -> Result<(), Error> {
+    /// The layer of parameters that were checked in units of the stick zones, in which the contact has the compliance `of_contact`.
+    fn layer(&mut self, layer: &parameters::Layer, normal_force: f64, of_contact: f64) -> Result<Layer, Error> {
         let (layer, under_load) = Layer::new(layer, normal_force)?;
-        let of_contact = self.stick_zones().small_load().compliance;
-        self.zones.set_layer(&layer.relative(normal_force, self.stiffness_scale, of_contact)?);
         // For a friction force of 1, by the compliance under the reference load.
         self.sensitivity_scales[PARAMETERS - 1] = under_load * self.stiffness_scale;
-        Ok(())
+        layer.relative(normal_force, self.stiffness_scale, of_contact)
     }
 
     /// The tangential law, from geometry and stiffness; `parameters` are b, R, L and E*.
@@ -152,15 +151,16 @@ impl Contact {
         let [by_size, by_radius, by_length, by_modulus] = parameters.map(|parameter| slip_force / parameter);
         let displacement_scale = slip_force / self.stiffness_scale;
         let zones = self.stick_zones();
-        let (energy, _) = zones.dissipation_beyond_half(0.0, zones.at_load_remaining(0.0).compliance_increase);
+        let gross_slip = zones.at_load(Complement::of_remaining(0.0));
+        let (energy, _) = zones.dissipation(gross_slip.load, gross_slip.compliance_increase);
         let slip_energy = slip_force * displacement_scale * energy;
         if !slip_energy.is_normal() {
             return Err(Error::OutOfRange);
         }
         // Calls accept no larger displacement, so that gross slip would never be reached.
-        let slip_displacement = displacement_scale * zones.slip_shift();
+        let slip_displacement = displacement_scale * zones.slip_shift;
         check_displacement(slip_displacement).map_err(|_| Error::OutOfRange)?;
-        let initial_stiffness = self.stiffness_scale / zones.small_load().compliance;
+        let initial_stiffness = self.stiffness_scale / zones.small_load.compliance;
         self.slip_force = slip_force;
         self.slip_force_rounding = self.friction_coefficient.mul_add(normal_force, -slip_force);
         (self.displacement_scale, self.per_displacement_scale) = (displacement_scale, 1.0 / displacement_scale);
@@ -169,7 +169,12 @@ impl Contact {
         let by_compliance = slip_force * self.sensitivity_scales[PARAMETERS - 1];
         self.sensitivity_scales =
             [self.friction_coefficient, normal_force, by_size, by_radius, by_length, by_modulus, by_compliance];
-        let inner = set_interpolant_of_curve(&self.zones, &mut self.interpolant);
+        let mut inner = INNER_FRACTION;
+        self.interpolant = ForceInterpolant::of(inner, &self.zones);
+        if !self.interpolant.is_converged() && self.has_knee() {
+            inner = KNEE_FRACTION;
+            self.interpolant = ForceInterpolant::of(inner, &self.zones);
+        }
         self.inner_scale = 1.0 / (inner * slip_displacement);
         self.outer_scale = 1.0 / ((1.0 - inner) * slip_displacement);
         self.weights_in_slip = self.weights_of_curve();
@@ -182,16 +187,6 @@ impl Contact {
         if self.tag == TAG { Ok(()) } else { Err(Error::BadContact) }
     }
 
-    pub(crate) fn is_ellipse(&self) -> bool {
-        self.zones.is_elliptic()
-    }
-
-    /// Whether there is a layer that is compliant in the tangential direction.
-    #[inline(always)]
-    pub(crate) fn is_layered(&self) -> bool {
-        self.zones.has_layer()
-    }
-
     #[inline(always)]
     pub(crate) fn interpolant(&self) -> &ForceInterpolant {
         &self.interpolant
@@ -200,16 +195,12 @@ impl Contact {
     /// Whether a layer bends the curve strongly near gross slip.
     #[inline(always)]
     pub(crate) fn has_knee(&self) -> bool {
-        self.is_layered() && self.zones.has_knee()
+        self.zones.layer.has_knee()
     }
 
-    /// Those of the contact and the layer.
-    pub(crate) fn layered_zones(&self) -> &LayeredZones {
+    #[inline(always)]
+    pub(crate) fn stick_zones(&self) -> &StickZones {
         &self.zones
-    }
-
-    pub(crate) fn stick_zones(&self) -> &dyn StickZones {
-        self.zones.both()
     }
 
     /// No tangential force is possible: an open contact, or one without friction.
@@ -227,28 +218,6 @@ impl Contact {
     pub(crate) fn energy_scale(&self) -> f64 {
         self.slip_force * self.displacement_scale
     }
-}
-
-/// Interpolates the curve, in place; returns the fraction of its first polynomial.
-fn set_interpolant_of_curve(all: &LayeredZones, curve: &mut ForceInterpolant) -> f64 {
-    let of = |zones: &dyn StickZones| (zones.slip_shift(), zones.small_load().compliance);
-    let is_layered = all.has_layer();
-    if is_layered {
-        let (slip_shift, compliance) = of(all);
-        let fractions = [INNER_FRACTION, KNEE_FRACTION];
-        for fraction in fractions.into_iter().take(if all.has_knee() { 2 } else { 1 }) {
-            *curve = ForceInterpolant::of(fraction, slip_shift, compliance, &mut all.sequence());
-            if curve.is_converged() {
-                return fraction;
-            }
-        }
-    }
-    let (slip_shift, compliance) = of(all.contact());
-    *curve = ForceInterpolant::of(INNER_FRACTION, slip_shift, compliance, &mut all.sequence_of_contact());
-    if is_layered {
-        curve.mark_without_layer();
-    }
-    INNER_FRACTION
 }
 
 #[cfg(test)]

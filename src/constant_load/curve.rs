@@ -7,7 +7,8 @@ use crate::constant_load::evaluator::{Response, sign_of};
 use crate::error::Error;
 use crate::limits::{check_displacement, check_force};
 use crate::numerics::fp_class::le;
-use crate::shape::stick_zone::{Complement, StickZone};
+use crate::shape::Complement;
+use crate::shape::stick_zone::StickZone;
 
 /// A point of the monotonic curve. Quantities are evaluated on demand.
 #[derive(Debug, Clone, Copy)]
@@ -79,7 +80,7 @@ impl Contact {
 
     /// The same; with a layer that of the load which the interpolant gives, if there is one.
     fn stick_zone_of_curve(&self, displacement: f64) -> StickZone {
-        let load = if self.is_layered() { self.load_at(self.before_slip(displacement)) } else { None };
+        let load = if self.stick_zones().has_layer() { self.load_at(self.before_slip(displacement)) } else { None };
         match load {
             Some((load, _)) => self.stick_zones().at_load(load),
             None => self.stick_zone_at_displacement(displacement),

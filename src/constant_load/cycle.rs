@@ -3,7 +3,8 @@
 use crate::constant_load::contact::Contact;
 use crate::error::Error;
 use crate::numerics::fp_class::in_0_to;
-use crate::shape::stick_zone::{Complement, StickZone};
+use crate::shape::Complement;
+use crate::shape::stick_zone::StickZone;
 
 impl Contact {
     /// Energy \[J\] dissipated per cycle between ± a force amplitude \[N\], at most mu N (Eq. 13-16).
@@ -33,7 +34,7 @@ impl Contact {
             (zone.load, self.stiffness_of(&zone))
         });
         let compliance = self.stiffness_scale / stiffness.max(f64::MIN_POSITIVE);
-        let (dissipation, slope) = zones.dissipation(load, compliance - zones.small_load().compliance);
+        let (dissipation, slope) = zones.dissipation(load, compliance - zones.small_load.compliance);
         (self.energy_scale() * dissipation, self.displacement_scale * slope * stiffness)
     }
 

@@ -7,7 +7,8 @@ use crate::constant_load::complex_stiffness::check_amplitude;
 use crate::constant_load::contact::Contact;
 use crate::error::Error;
 use crate::numerics::roots::logarithmic_newton;
-use crate::shape::stick_zone::{Complement, StickZones};
+use crate::shape::Complement;
+use crate::shape::stick_zone::StickZones;
 use core::f64::consts::PI;
 
 /// A spring in series with a Coulomb slider.
@@ -138,14 +139,14 @@ struct Side {
 
 /// The monotonic curve in nondimensional form.
 struct Curve<'a> {
-    zones: &'a dyn StickZones,
+    zones: &'a StickZones,
     /// Tangent stiffness just before gross slip.
     last_slope: f64,
 }
 
 impl<'a> Curve<'a> {
-    fn new(zones: &'a dyn StickZones) -> Curve<'a> {
-        Curve { zones, last_slope: 1.0 / zones.compliance(&zones.at_load_remaining(0.0)) }
+    fn new(zones: &'a StickZones) -> Curve<'a> {
+        Curve { zones, last_slope: 1.0 / zones.compliance(&zones.at_load(Complement::of_remaining(0.0))) }
     }
 
     /// Shift and tangent stiffness at a force over mu N.
@@ -156,7 +157,7 @@ impl<'a> Curve<'a> {
 
     /// The side from a corner: tangent to the curve lowered by the error, up to the curve raised by it or to mu N.
     fn side(&self, from: &Corner, error: f64) -> Side {
-        let slip = self.zones.slip_shift();
+        let slip = self.zones.slip_shift;
         let lowered = |force: f64, shift: f64, slope: f64| force - error - from.force - slope * (shift - from.shift);
         let distance = |force: f64| {
             let (shift, slope) = self.at(force);

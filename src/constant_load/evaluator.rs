@@ -4,8 +4,8 @@
 //! that bends the curve strongly, the stick zone is found by iteration.
 
 use crate::constant_load::contact::Contact;
-use crate::constant_load::interpolant::{END_OF_PIECES, INNER_FRACTION, Interval, root_of};
-use crate::shape::stick_zone::{Complement, StickZones};
+use crate::constant_load::interpolant::{END_OF_PIECES, Interval, root_of};
+use crate::shape::Complement;
 
 /// Force \[N\] and tangent stiffness \[N/m\] at a displacement.
 #[derive(Debug, Clone, Copy)]
@@ -49,9 +49,6 @@ impl Contact {
         if self.is_frictionless() {
             return Response { force: 0.0, stiffness: 0.0 };
         }
-        if let Some((load, stiffness)) = self.load_with_knee(self.slip_displacement - displacement) {
-            return Response { force: self.slip_force - self.slip_force * load.remaining, stiffness };
-        }
         let zone = self.stick_zone_at_displacement(displacement);
         Response { force: self.force_of(&zone), stiffness: self.stiffness_of(&zone) }
     }
@@ -69,45 +66,8 @@ impl Contact {
                 self.response(x * self.slip_displacement).stiffness
             };
         }
-        if let Some((_, stiffness)) = self.load_with_knee(rho * self.slip_displacement) {
-            return stiffness;
-        }
-        let (zones, slip) = (self.stick_zones(), self.stick_zones().slip_shift());
+        let (zones, slip) = (self.stick_zones(), self.stick_zones().slip_shift);
         self.stiffness_of(&zones.at_shift(Complement { consumed: x * slip, remaining: rho * slip }))
-    }
-
-    /// The load at a distance from the displacement of gross slip and the stiffness, of a contact whose layer bends the curve strongly,
-    /// beyond half of mu N: from the contact without its layer, which has an interpolant.
-    pub(crate) fn load_with_knee(&self, distance: f64) -> Option<(Complement, f64)> {
-        let zones = self.layered_zones();
-        let remaining = distance * self.per_displacement_scale;
-        let beyond_half = remaining > 0.0 && remaining <= zones.slip_shift() - zones.small_load().half_shift;
-        if !self.interpolant().is_without_layer() || !beyond_half {
-            return None;
-        }
-        let own = zones.own_shift(remaining, zones.start(remaining), |own| self.without_layer(own));
-        let [load, compliance] = self.without_layer(own);
-        let stiffness = self.stiffness_scale / (compliance + zones.layer().compliance(load));
-        Some((Complement { consumed: 1.0 - load, remaining: load }, stiffness))
-    }
-
-    /// 1 - τ and Λ + λ of the contact without its layer at a remaining shift.
-    fn without_layer(&self, remaining: f64) -> [f64; 2] {
-        let alone = self.layered_zones().contact();
-        let (slip_shift, full_stick) = (alone.slip_shift(), alone.small_load().compliance);
-        let y = (slip_shift - remaining) / (INNER_FRACTION * slip_shift);
-        if y <= 1.0 {
-            let ([secant], [tangent]) = self.interpolant().secants_and_tangents::<1, true>(&[y]);
-            return [1.0 - (slip_shift - remaining) / full_stick * secant, full_stick / tangent];
-        }
-        let outer = (1.0 - INNER_FRACTION) * slip_shift;
-        match self.interpolant().complement_and_slope(remaining / outer) {
-            Some((left, slope)) => [left, outer / slope],
-            None => {
-                let zone = alone.at_shift_remaining(remaining);
-                [zone.load.remaining, alone.compliance(&zone)]
-            }
-        }
     }
 }
 
@@ -288,7 +248,7 @@ impl Contact {
     #[inline(always)]
     pub(crate) fn load_at(&self, displacement: Complement) -> Option<(Complement, f64)> {
         if !self.interpolant().is_converged() {
-            return self.load_with_knee(displacement.remaining);
+            return None;
         }
         if displacement.consumed * self.inner_scale <= 1.0 {
             let ([force], [stiffness]) = self.inner::<1, true>(&[displacement.consumed]);

@@ -3,7 +3,8 @@
 use crate::constant_load::contact::Contact;
 use crate::constant_load::curve::CurvePoint;
 use crate::error::Error;
-use crate::shape::stick_zone::{StickZone, SurfacePoint};
+use crate::shape::stick_zone::StickZone;
+use crate::shape::tractions::SurfacePoint;
 
 impl CurvePoint<'_> {
     /// The stick zone; in gross slip the smallest one, to which it has shrunk.
@@ -53,14 +54,8 @@ impl Contact {
         }
     }
 
-    /// The point x in units of the half-width, at most 2: all points outside the contact are equivalent.
     fn surface_point(&self, x: f64) -> SurfacePoint {
-        let (x, unit) = (x.abs().min(2.0 * self.half_width), self.half_width.max(f64::MIN_POSITIVE));
-        SurfacePoint {
-            x: x / unit,
-            past_flat: (x - self.flat_half_width.min(x + unit)) / unit,
-            from_edge: (self.half_width - x) / unit,
-        }
+        SurfacePoint::new(x, self.half_width, self.flat_half_width)
     }
 }
 

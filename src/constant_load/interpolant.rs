@@ -19,7 +19,7 @@ use crate::numerics::chebyshev::{Interpolant, Polynomial, TERMS, Tangent, powers
 use crate::numerics::const_math::tabulate;
 use crate::numerics::polynomial::{rows, sum, value_and_slope, values_and_slopes};
 use crate::shape::rounded_punch::TINY;
-use crate::shape::stick_zone::LoadPoint;
+use crate::shape::stick_zone::{LoadPoint, StickZones};
 
 /// Fraction of x_s that the first polynomial covers.
 pub(crate) const INNER_FRACTION: f64 = 0.4;
@@ -32,9 +32,6 @@ const PIECES: usize = 5;
 const LAST_PIECES: usize = 6;
 /// The smallest ρ of the first ones.
 pub(crate) const END_OF_PIECES: f64 = 1.0 / (1 << (2 * PIECES)) as f64;
-
-/// Mark of the interpolant of a contact without its layer, which bends the curve too strongly for polynomials.
-const WITHOUT_LAYER: u64 = 2;
 
 /// `(n+1) 8/π ∫ t^(n+1/2) (1-t)^(1/2) dt`: K' of the power n of the secant stiffness.
 pub(crate) static CYCLE_WEIGHTS: Polynomial = {
@@ -73,29 +70,16 @@ pub(crate) struct ForceInterpolant {
     pieces: [Polynomial; PIECES],
     /// (1 - τ)/ρ over z of a [`DyadicPlace`].
     last: [Polynomial; LAST_PIECES],
-    /// 1 if all polynomials are accurate to rounding; 0 if the curvature is too strong, for Λ near 0; [`WITHOUT_LAYER`].
+    /// 1 if all polynomials are accurate to rounding; 0 if the curvature is too strong, for Λ near 0 or with a layer.
     converged: u64,
 }
 
 impl ForceInterpolant {
-    /// Marks it as that of the curve of the contact without its layer.
-    pub fn mark_without_layer(&mut self) {
-        self.converged *= WITHOUT_LAYER;
-    }
-
-    pub fn is_without_layer(&self) -> bool {
-        self.converged == WITHOUT_LAYER
-    }
-
-    /// The interpolant of a curve from the fraction of its first polynomial, the shift of gross slip, the compliance Λ and points at decreasing
-    /// remaining shifts.
+    /// The interpolant of a curve, given the fraction of its first polynomial.
     #[inline(never)]
-    pub fn of(
-        inner_fraction: f64,
-        slip_shift: f64,
-        compliance: f64,
-        at_remaining: &mut dyn FnMut(f64) -> LoadPoint,
-    ) -> ForceInterpolant {
+    pub fn of(inner_fraction: f64, zones: &StickZones) -> ForceInterpolant {
+        let (slip_shift, compliance) = (zones.slip_shift, zones.small_load.compliance);
+        let at_remaining: &mut dyn FnMut(f64) -> LoadPoint = &mut zones.sequence();
         let (first, remaining) = (inner_fraction * slip_shift, (1.0 - inner_fraction) * slip_shift);
         let mut tangents = Interpolant::<{ TERMS / 2 }>::at_points(|z| {
             let LoadPoint { compliance_increase: increase, curvature, .. } =
@@ -134,7 +118,7 @@ impl ForceInterpolant {
 
     #[inline(always)]
     pub fn is_converged(&self) -> bool {
-        self.converged == 1
+        self.converged != 0
     }
 
     /// The secant stiffness over the initial one.

@@ -26,7 +26,7 @@ use crate::constant_load::evaluator::sign_of;
 use crate::error::Error;
 use crate::limits::check_displacement;
 use crate::parameters::{PARAMETERS, Sensitivity, times};
-use crate::shape::stick_zone::{Complement, StickZones, ellipse};
+use crate::shape::Complement;
 
 impl Contact {
     /// Derivatives of the force of the monotonic curve at a fixed displacement \[m\]; beyond `slip_displacement` those of mu N. Without
@@ -56,9 +56,30 @@ impl Contact {
     /// The derivatives over the scales. Those of a contact with a layer are, at the same force, those of the contact alone over the
     /// compliance of both, but for the displacement of the layer.
     fn shares(&self, displacement: f64) -> Sensitivity {
-        let layer = self.layered_zones().layer();
-        let (load, mut shares, of_contact) = self.shares_of_contact(displacement);
-        if self.is_layered() {
+        let (zones, layer) = (self.stick_zones(), &self.stick_zones().layer);
+        let (load, increase) = self.load_and_increase(displacement);
+        let moments = zones.moments(load, increase);
+        let (tau, full_stick) = (load.consumed, zones.contact.compliance);
+        let [by_load, by_flat] = zones.size_slopes();
+        let slope = self.reference_slope;
+        let reference = slope * by_load * tau;
+        let stuck = load.remaining * moments.increase;
+        let of_contact = full_stick + moments.increase;
+        let mut shares = if load.remaining <= 0.0 && self.flat_half_width <= 0.0 {
+            [1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0]
+        } else {
+            let shares = [
+                moments.increase - reference,
+                moments.first,
+                moments.by_flat - tau * slope * by_flat,
+                moments.complement - reference,
+                tau * (full_stick - 1.0 + slope * (1.0 + by_load)) - stuck,
+                tau * full_stick - stuck + reference,
+                0.0,
+            ];
+            times(1.0 / of_contact, shares)
+        };
+        if zones.has_layer() {
             shares = times(1.0 / (1.0 + layer.compliance(load.remaining) / of_contact), shares);
             let [by_normal_force, by_friction] = layer.shares(load, of_contact);
             shares[0] += by_normal_force;
@@ -68,23 +89,10 @@ impl Contact {
         shares
     }
 
-    /// The load at a displacement, and the derivatives over the scales and the compliance Λ + λ of the contact alone under this load.
-    fn shares_of_contact(&self, displacement: f64) -> (Complement, Sensitivity, f64) {
-        let (load, increase) = self.load_and_increase(displacement);
-        if self.is_ellipse() {
-            let size = load.remaining.cbrt();
-            let shares = elliptic_shares(size, ellipse::consumed_at(load));
-            return (load, shares, 1.0 / size.max(f64::MIN_POSITIVE));
-        }
-        let zones = &self.layered_zones().flat;
-        let increase = increase - self.layered_zones().layer().increase(load);
-        (load, self.rounded_flat_shares(load, increase), zones.small_load().compliance + increase)
-    }
-
     /// Load and λ at a displacement >= 0 up to that of gross slip.
     #[inline(always)]
     fn load_and_increase(&self, displacement: f64) -> (Complement, f64) {
-        let full_stick = self.stick_zones().small_load().compliance;
+        let full_stick = self.stick_zones().small_load.compliance;
         match self.load_at(self.before_slip(displacement)) {
             Some((load, stiffness)) => (load, self.stiffness_scale / stiffness - full_stick),
             None => {
@@ -93,37 +101,6 @@ impl Contact {
             }
         }
     }
-
-    fn rounded_flat_shares(&self, load: Complement, increase: f64) -> Sensitivity {
-        let zones = &self.layered_zones().flat;
-        let full_stick = zones.small_load().compliance;
-        if load.remaining <= 0.0 && self.flat_half_width <= 0.0 {
-            return [1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0];
-        }
-        let moments = zones.moments(load, increase);
-        let [by_load, by_flat] = zones.size_slopes();
-        let (tau, slope) = (load.consumed, self.reference_slope);
-        let reference = slope * by_load * tau;
-        let stuck = load.remaining * moments.increase;
-        let stiffness = 1.0 / (full_stick + moments.increase);
-        let shares = [
-            moments.increase - reference,
-            moments.first,
-            moments.by_flat - tau * slope * by_flat,
-            moments.complement - reference,
-            tau * (full_stick - 1.0 + slope * (1.0 + by_load)) - stuck,
-            tau * full_stick - stuck + reference,
-            0.0,
-        ];
-        times(stiffness, shares)
-    }
-}
-
-/// The derivatives over the scales, with σ the size of the stick ellipse and 1 - σ: `T/(μN) = 1 - σ³`, and `1 - σ²` is the displacement
-/// over that of gross slip.
-fn elliptic_shares(size: f64, consumed: f64) -> Sensitivity {
-    let by_modulus = size * consumed * (1.0 + size);
-    [consumed, 0.5 * consumed * consumed * (2.0 + size), 0.0, 0.5 * by_modulus, 0.0, by_modulus, 0.0]
 }
 
 #[cfg(test)]

@@ -24,7 +24,7 @@ use crate::constant_load::interpolant::{DyadicPlace, ENERGY_WEIGHTS, eighth_root
 use crate::numerics::chebyshev::{Interpolant, Polynomial, powers};
 use crate::numerics::polynomial::{Rows, rows, sum, value_and_slope};
 use crate::numerics::quadrature::gauss;
-use crate::shape::stick_zone::Complement;
+use crate::shape::Complement;
 use crate::tag::Kind;
 use core::f64::consts::PI;
 
@@ -280,7 +280,7 @@ impl StiffnessTable {
 
 fn shape_of(contact: &Contact) -> [f64; 2] {
     let zones = contact.stick_zones();
-    [zones.small_load().compliance, zones.slip_shift()]
+    [zones.small_load.compliance, zones.slip_shift]
 }
 
 #[cfg(test)]

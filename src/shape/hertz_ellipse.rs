@@ -146,9 +146,8 @@ impl Shape for HertzEllipse {
     fn pressure_between(&self, from: f64, to: f64, x: f64) -> f64 {
         // The squares of distant points are not representable.
         let x = x.abs().min(from.max(to));
-        let height = |s: f64| ((s - x) * (s + x)).max(0.0).sqrt();
-        let (inner, outer) = (height(from), height(to));
-        let difference = if inner > 0.0 { (to - from) * (to + from) / (outer + inner).max(TINY) } else { outer };
+        let square = |s: f64| (s - x) * (s + x);
+        let difference = difference_of_heights(square(to), square(from), (to - from) * (to + from));
         let area = self.semi_axis_x.max(TINY) * self.semi_axis_y.max(TINY);
         1.5 / PI * (self.normal_force / area) * (difference / self.semi_axis_x.max(TINY))
     }
@@ -171,6 +170,12 @@ impl Shape for HertzEllipse {
             [binomial(load, 1.5), identity(approach), identity(shift)]
         }
     }
+}
+
+/// The difference of the roots of two numbers, 0 of a negative one, given the difference of these.
+pub(crate) fn difference_of_heights(outer: f64, inner: f64, difference: f64) -> f64 {
+    let root = outer.max(0.0).sqrt();
+    if inner > 0.0 { difference / (root + inner.sqrt()).max(TINY) } else { root }
 }
 
 /// J and J_cos over the semi-axes along (b) and across (l) the force \[1/m\].

@@ -13,14 +13,9 @@
 
 use crate::error::Error;
 use crate::limits::in_range;
-use crate::numerics::chebyshev::{Interpolant, Tangent};
 use crate::numerics::roots::logarithmic_newton;
 use crate::parameters;
-use crate::shape::stick_zone::ellipse::EllipseZones;
-use crate::shape::stick_zone::rounded_flat::RoundedFlatZones;
-use crate::shape::stick_zone::small_load::{RETAINED_TERMS, SmallLoadSeries, curvature_series};
-use crate::shape::stick_zone::{Complement, LoadPoint, StickZone, StickZones, SurfacePoint};
-use crate::shape::{ORDER, Plane, Quantity, Reversed, Series, Shape, TINY, identity};
+use crate::shape::{Complement, ORDER, Plane, Quantity, Reversed, Series, Shape, TINY, identity};
 
 /// The layer of a contact, in absolute terms.
 #[repr(C)]
@@ -28,7 +23,7 @@ use crate::shape::{ORDER, Plane, Quantity, Reversed, Series, Shape, TINY, identi
 pub(crate) struct Layer {
     /// Normal and tangential compliance without load \[m/N\]: the compliances of the parameters times 1 + N_r/N_c.
     normal: f64,
-    tangential: f64,
+    pub tangential: f64,
     /// 1/N_c \[1/N\]; 0 for a constant stiffness.
     stiffening: f64,
 }
@@ -95,7 +90,7 @@ impl Layer {
     }
 
     /// The load at which [`Layer::extent`] has a value, at most a value of the size of the largest loads.
-    fn load_of_extent(&self, extent: f64) -> f64 {
+    pub fn load_of_extent(&self, extent: f64) -> f64 {
         let x = self.stiffening * extent;
         if x < 1e-8 { extent * (1.0 + 0.5 * x) } else { x.min(345.0).exp_m1() / self.stiffening.max(TINY) }
     }
@@ -169,7 +164,7 @@ impl Layer {
     }
 
     /// z.
-    fn lost(&self, load: Complement) -> f64 {
+    pub fn lost(&self, load: Complement) -> f64 {
         load.consumed * self.softness(load.remaining)
     }
 
@@ -178,13 +173,21 @@ impl Layer {
         self.compliance(1.0) * (self.stiffening * self.lost(load))
     }
 
-    /// dλ2/dτ.
-    fn curvature(&self, load: Complement) -> f64 {
-        self.stiffening * self.compliance(load.remaining) * self.softness(load.remaining)
+    /// dλ2/dτ and its derivative.
+    pub fn curvature(&self, load: Complement) -> [f64; 2] {
+        let rate = self.stiffening * self.softness(load.remaining);
+        let value = rate * self.compliance(load.remaining);
+        [value, 2.0 * rate * value]
+    }
+
+    /// Whether the layer bends the curve strongly near gross slip: N_c is less than a quarter of N. The curve is then singular, as a
+    /// function of the displacement, at complex displacements near gross slip.
+    pub fn has_knee(&self) -> bool {
+        self.tangential > 0.0 && self.stiffening > 4.0
     }
 
     /// `4 ∫ t (τ-t) dλ2`.
-    fn dissipation(&self, load: Complement) -> f64 {
+    pub fn dissipation(&self, load: Complement) -> f64 {
         let y = self.stiffening * self.softness(1.0) * load.consumed;
         // [(2-y) ln(1/(1-y)) - 2y]/y³, with ln(1/(1-y)) = ln(1 + σz) = 2 artanh(y/(2-y)).
         let factor = if y > 0.6 {
@@ -196,7 +199,7 @@ impl Layer {
     }
 
     /// `∫ t dλ2`.
-    fn first_moment(&self, load: Complement) -> f64 {
+    pub fn first_moment(&self, load: Complement) -> f64 {
         self.stiffening * self.potential(self.lost(load))
     }
 
@@ -209,220 +212,6 @@ impl Layer {
     /// The parts of the layer in the derivatives by N, of the same layer under another load, and by μ.
     pub fn shares(&self, load: Complement, of_contact: f64) -> [f64; 2] {
         [self.increase(load), self.first_moment(load)].map(|part| part / (of_contact + self.compliance(load.remaining)))
-    }
-
-    /// dλ2/dτ as a polynomial in τ up to 1/2, with its pole at 1 + 1/σ.
-    fn curvature_series(&self) -> [f64; RETAINED_TERMS] {
-        curvature_series(&Interpolant::at_points(|z| {
-            let consumed = 0.25 * (1.0 + z);
-            let load = Complement { consumed, remaining: 1.0 - consumed };
-            let value = self.curvature(load);
-            Tangent { value, slope: 0.5 * value * self.stiffening * self.softness(load.remaining) }
-        }))
-    }
-}
-
-/// The stick zones of a contact with a layer in series: those of the contact, at which the displacement and the compliance of the layer
-/// are added.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct LayeredZones {
-    /// The stick zones of a flat with rounded edges without the layer.
-    pub flat: RoundedFlatZones,
-    /// 1 for an ellipse.
-    elliptic: u64,
-    layer: Layer,
-    slip_shift: f64,
-    small_load: SmallLoadSeries,
-}
-
-impl LayeredZones {
-    /// A flat with rounded edges.
-    pub fn of_flat(flat: RoundedFlatZones) -> LayeredZones {
-        LayeredZones { flat, ..LayeredZones::default() }
-    }
-
-    /// An ellipse.
-    pub fn of_ellipse() -> LayeredZones {
-        LayeredZones { elliptic: 1, ..LayeredZones::default() }
-    }
-
-    /// Adds a layer, unless it has no compliance.
-    pub fn set_layer(&mut self, layer: &Layer) {
-        self.layer = *layer;
-        if self.has_layer() {
-            let contact = self.contact();
-            let slip_shift = contact.slip_shift() + layer.shift(1.0);
-            let small_load = contact.small_load().plus(layer.compliance(1.0), layer.curvature_series());
-            (self.slip_shift, self.small_load) = (slip_shift, small_load);
-        }
-    }
-
-    pub fn is_elliptic(&self) -> bool {
-        self.elliptic != 0
-    }
-
-    /// The stick zones of contact and layer.
-    pub fn both(&self) -> &dyn StickZones {
-        if self.has_layer() { self } else { self.contact() }
-    }
-
-    #[inline(always)]
-    pub fn has_layer(&self) -> bool {
-        self.layer.tangential > 0.0
-    }
-
-    /// Whether the layer bends the curve strongly near gross slip: N_c is less than a quarter of N. The curve is then singular, as a
-    /// function of the displacement, at complex displacements near gross slip.
-    pub fn has_knee(&self) -> bool {
-        self.layer.stiffening > 4.0
-    }
-
-    pub fn layer(&self) -> &Layer {
-        &self.layer
-    }
-
-    /// The stick zones of the contact alone.
-    pub fn contact(&self) -> &dyn StickZones {
-        if self.is_elliptic() { &EllipseZones } else { &self.flat }
-    }
-
-    /// The stick zone of the contact without the layer, but for its shift.
-    fn in_contact(&self, zone: &StickZone) -> StickZone {
-        let compliance_increase = match zone.size_parameter {
-            Some(_) => zone.compliance_increase - self.layer.increase(zone.load),
-            None => {
-                let contact = self.contact();
-                contact.small_load().at_load(zone.load, contact.slip_shift()).compliance_increase
-            }
-        };
-        StickZone { compliance_increase, ..*zone }
-    }
-
-    /// The remaining shift of the contact alone where that of contact and layer has a value: Newton's method in the logarithms of both,
-    /// given 1 - τ and Λ + λ of the contact alone at a remaining shift of its own. For τ >= 1/2.
-    pub fn own_shift(&self, remaining: f64, start: f64, mut in_contact: impl FnMut(f64) -> [f64; 2]) -> f64 {
-        let contact = self.contact();
-        // Both have the same load, of which half at least is consumed.
-        let largest = contact.slip_shift() - contact.small_load().half_shift;
-        logarithmic_newton(remaining, start, largest, |own| {
-            let [load, compliance] = in_contact(own);
-            let sum = own + self.layer.shift(load);
-            [sum, own / sum * (1.0 + self.layer.compliance(load) / compliance)]
-        })
-    }
-
-    /// A start of [`LayeredZones::own_shift`]. The layer alone would have more load at this displacement; a shift grows at most like the
-    /// power 2/3 of the load.
-    pub fn start(&self, remaining: f64) -> f64 {
-        let of_layer = self.layer.load_of_extent(remaining / self.layer.tangential);
-        remaining.min(self.contact().slip_shift() * of_layer.cbrt().powi(2)).max(f64::MIN_POSITIVE)
-    }
-
-    /// A stick zone of the contact alone with the layer.
-    fn with_layer(&self, zone: StickZone) -> StickZone {
-        let Complement { consumed, remaining } = zone.shift;
-        StickZone {
-            shift: Complement {
-                consumed: consumed + self.layer.shift(self.layer.lost(zone.load)),
-                remaining: remaining + self.layer.shift(zone.load.remaining),
-            },
-            compliance_increase: zone.compliance_increase + self.layer.increase(zone.load),
-            ..zone
-        }
-    }
-
-    /// Finds the points of the curve at a sequence of decreasing remaining shifts, the first of which is close to x_s, each from its
-    /// tangent at the point before.
-    pub fn sequence(&self) -> impl FnMut(f64) -> LoadPoint {
-        let mut in_contact = self.sequence_of_contact();
-        let contact = self.contact();
-        let (shift, full_stick) = (contact.slip_shift(), contact.small_load().compliance);
-        // Remaining shift of the contact, and of contact and layer; d(ln of the second)/d(ln of the first).
-        let mut last = [shift, self.slip_shift, 1.0];
-        move |remaining| {
-            let consumed = self.slip_shift - remaining;
-            if consumed <= self.small_load.half_shift {
-                // For Λ near 0 the remaining shift of the contact has too few digits for a small load.
-                let zone = self.small_load.at_shift(Complement { consumed, remaining });
-                return LoadPoint {
-                    remaining: zone.load.remaining,
-                    compliance_increase: zone.compliance_increase,
-                    curvature: self.small_load.evaluate(zone.load.consumed).curvature,
-                };
-            }
-            let [of_contact, of_both, power] = last;
-            let start = of_contact * ((remaining / of_both).ln() / power).exp();
-            let own = self.own_shift(remaining, start, |own| {
-                let LoadPoint { remaining, compliance_increase, .. } = in_contact(own);
-                [remaining, full_stick + compliance_increase]
-            });
-            let found = in_contact(own);
-            let (load, compliance) = (found.load(), full_stick + found.compliance_increase);
-            last = [own, remaining, own / remaining * (1.0 + self.layer.compliance(load.remaining) / compliance)];
-            LoadPoint {
-                compliance_increase: found.compliance_increase + self.layer.increase(load),
-                curvature: found.curvature + self.layer.curvature(load),
-                ..found
-            }
-        }
-    }
-
-    /// Finds the points of the curve of the contact alone at a sequence of decreasing remaining shifts, the first of which is close to the
-    /// shift of gross slip.
-    pub fn sequence_of_contact(&self) -> impl FnMut(f64) -> LoadPoint {
-        let mut of_flat = self.flat.sequence();
-        move |remaining| if self.is_elliptic() { EllipseZones::at(remaining) } else { of_flat(remaining) }
-    }
-}
-
-impl StickZones for LayeredZones {
-    fn small_load(&self) -> &SmallLoadSeries {
-        &self.small_load
-    }
-
-    fn slip_shift(&self) -> f64 {
-        self.slip_shift
-    }
-
-    fn at_load_remaining(&self, remaining: f64) -> StickZone {
-        self.with_layer(self.contact().at_load_remaining(remaining))
-    }
-
-    fn at_shift_remaining(&self, remaining: f64) -> StickZone {
-        if remaining <= 0.0 {
-            return self.at_load_remaining(0.0);
-        }
-        let contact = self.contact();
-        let own = self.own_shift(remaining, self.start(remaining), |own| {
-            let zone = contact.at_shift_remaining(own);
-            [zone.load.remaining, contact.compliance(&zone)]
-        });
-        let zone = self.with_layer(contact.at_shift_remaining(own));
-        StickZone { shift: Complement { consumed: self.slip_shift - remaining, remaining }, ..zone }
-    }
-
-    fn dissipation_beyond_half(&self, remaining: f64, compliance_increase: f64) -> (f64, f64) {
-        let load = Complement { consumed: 1.0 - remaining, remaining };
-        let increase = compliance_increase - self.layer.increase(load);
-        let (energy, slope) = self.contact().dissipation_beyond_half(remaining, increase);
-        (energy + self.layer.dissipation(load), slope + 4.0 * self.layer.first_moment(load))
-    }
-
-    fn size(&self, zone: &StickZone) -> f64 {
-        self.contact().size(&self.in_contact(zone))
-    }
-
-    fn pressure(&self, point: &SurfacePoint) -> f64 {
-        self.contact().pressure(point)
-    }
-
-    fn shear(&self, point: &SurfacePoint, zone: &StickZone) -> f64 {
-        self.contact().shear(point, &self.in_contact(zone))
-    }
-
-    fn slip(&self, point: &SurfacePoint, zone: &StickZone) -> Option<f64> {
-        self.contact().slip(point, &self.in_contact(zone))
     }
 }
 

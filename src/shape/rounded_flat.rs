@@ -19,7 +19,7 @@ use crate::numerics::const_math::tabulate;
 use crate::numerics::roots::logarithmic_newton;
 use crate::parameters::{CENTRE_POINT, Pair, Parameters};
 use crate::shape::rounded_punch::{RoundedPunch, TINY};
-use crate::shape::stick_zone::SurfacePoint;
+use crate::shape::tractions::SurfacePoint;
 use crate::shape::{Layer, ORDER, Plane, Quantity, Reversed, Series, Shape, identity, tractions};
 use core::array::from_fn;
 use core::f64::consts::{LN_2, PI};
@@ -218,12 +218,7 @@ impl Shape for RoundedFlat {
     fn pressure_between(&self, from: f64, to: f64, x: f64) -> f64 {
         let half_width = Shape::half_width(self, to);
         let unit = half_width.max(TINY);
-        let x = x.abs().min(2.0 * half_width);
-        let point = SurfacePoint {
-            x: x / unit,
-            past_flat: (x - self.flat.min(x + unit)) / unit,
-            from_edge: (half_width - x) / unit,
-        };
+        let point = SurfacePoint::new(x, half_width, self.flat);
         let squares = ((to - from) / unit) * ((to + from) / unit);
         let integral = tractions::pressure_between(self.flat / unit, from / unit, to / unit, squares, &point);
         4.0 / PI * (self.load_scale / self.length) * unit * integral

@@ -8,7 +8,7 @@
 //!
 //! with the load P(c) and the tangential shift S(c) of size c (Cattaneo; Jäger and Ciavarella, 1998). Every tangential state under
 //! that load is a signed sum of such differences. Nondimensionally, with loads in P(b), sizes in b and shifts in a unit that
-//! depends on the shape, a stick zone is described by
+//! depends on the shape, 2μP/(πE*) or C_t μN, a stick zone is described by
 //!
 //! ```text
 //! τ = 1 - P(c)/P(b)         the tangential force over mu N
@@ -18,19 +18,33 @@
 //!
 //! τ and x are stored with their complements 1 - τ and x_s - x, the distances to gross slip: whichever is smaller is computed
 //! directly, so that neither end suffers cancellation.
+//!
+//! A size is a punch with the parameter w; its load g, λ and the means β and γ of load and squared load over the compliance are
+//!
+//! ```text
+//! flat with rounded edges   those of the rounded punch,   λ = ln(b/c),   Λ = ln(2L/b) + ν/(1-ν)                 Eq. 8-10
+//! ellipse, w = c/b          g = w³,   β = 1/(2w),   γ = 1/(5w),   λ = 1/w - 1,   Λ = 1, the same for all ellipses
+//! ```
+//!
+//! With the index c for a stick zone and b for the contact, and `s = g_c/g_b = 1 - τ`,
+//!
+//! ```text
+//! remaining shift  x_s - x = s (Λ + λ + β_c)               x = Λ τ + β_b - s (λ + β_c)
+//! energy           e = 4 [(1+s)(β_b - s β_c) - s λ - (γ_b - s² γ_c)]                          Eq. 13-16
+//! ```
+//!
+//! A layer adds its shift, compliance and energy. These formulas are evaluated for τ >= 1/2; for smaller τ they suffer cancellation
+//! and are replaced by the expansion of `small_load`.
 
-pub(crate) mod ellipse;
-pub(crate) mod rounded_flat;
 pub(crate) mod small_load;
 
-use small_load::SmallLoadSeries;
-
-/// A complementary pair of amounts, `consumed + remaining`. Neither is computed from the other if it is the smaller.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Complement {
-    pub consumed: f64,
-    pub remaining: f64,
-}
+use crate::numerics::chebyshev::{Interpolant, Tangent};
+use crate::shape::hertz_ellipse::difference_of_heights;
+use crate::shape::rounded_punch::{InversePower, RoundedPunch, TINY};
+use crate::shape::tractions::{self, SurfacePoint};
+use crate::shape::{Complement, Layer};
+use core::f64::consts::PI;
+use small_load::{RETAINED_TERMS, SmallLoadSeries};
 
 /// A stick zone.
 #[derive(Debug, Clone, Copy)]
@@ -39,22 +53,10 @@ pub(crate) struct StickZone {
     pub load: Complement,
     /// x and x_s - x.
     pub shift: Complement,
-    /// λ; infinite for the point to which the stick zone of an ellipse or a cylinder shrinks.
+    /// λ of contact and layer; infinite for the point to which the stick zone of an ellipse or a cylinder shrinks.
     pub compliance_increase: f64,
-    /// Size parameter σ if the zone was found by it; otherwise it follows from λ.
+    /// The ratio of its w to that of b if the zone was found by it; otherwise it follows from the load.
     pub size_parameter: Option<f64>,
-}
-
-/// A point along the width. The differences are computed from the dimensional lengths: for a nearly flat contact the rounding error of
-/// x/b may exceed the distance from flat to edge.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct SurfacePoint {
-    /// |x|/b.
-    pub x: f64,
-    /// (|x| - a)/b.
-    pub past_flat: f64,
-    /// (b - |x|)/b.
-    pub from_edge: f64,
 }
 
 /// A point of the monotonic curve.
@@ -68,74 +70,426 @@ pub(crate) struct LoadPoint {
     pub curvature: f64,
 }
 
-impl LoadPoint {
-    /// τ and 1 - τ.
-    pub fn load(&self) -> Complement {
-        Complement { consumed: 1.0 - self.remaining, remaining: self.remaining }
-    }
+/// Moments of the curvature h'' of the contact without its layer over the load t from 0 to τ, each free of cancellation.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Moments {
+    /// ∫ h'' dt = λ.
+    pub increase: f64,
+    /// ∫ t h'' dt = τ λ - h.
+    pub first: f64,
+    /// ∫ (1-t) h'' dt = β_b - s β_c.
+    pub complement: f64,
+    /// ∫ (4w/g_b) h'' dt; not used for an ellipse.
+    pub by_flat: f64,
 }
 
-/// The stick zones of a contact under its load.
-pub(crate) trait StickZones {
-    /// The expansion for τ <= 1/2.
-    fn small_load(&self) -> &SmallLoadSeries;
-
+/// The stick zones of a contact under its load, with a layer in series or without; lengths in units of b.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct StickZones {
+    /// b, a flat of 0 for an ellipse; its load g, β and γ.
+    b: RoundedPunch,
+    load: f64,
+    beta: f64,
+    gamma: f64,
+    /// 1 for an ellipse.
+    elliptic: u64,
     /// x_s, the shift at the onset of gross slip.
-    fn slip_shift(&self) -> f64;
+    pub slip_shift: f64,
+    /// The layer in series.
+    pub layer: Layer,
+    /// The expansion for τ <= 1/2 of the contact without its layer.
+    pub contact: SmallLoadSeries,
+    /// The expansion for τ <= 1/2.
+    pub small_load: SmallLoadSeries,
+}
 
-    /// The stick zone at `1 - τ = remaining`, from 0 to 1/2.
-    fn at_load_remaining(&self, remaining: f64) -> StickZone;
+impl StickZones {
+    /// The stick zones of a flat with rounded edges: the sizes below the contact `b` (lengths in units of its half-width), with the
+    /// compliance Λ of full stick.
+    pub fn of_flat(b: &RoundedPunch, compliance: f64, layer: Layer) -> StickZones {
+        StickZones { b: *b, ..StickZones::default() }.with_layer(compliance, layer)
+    }
 
-    /// The stick zone at `x_s - x = remaining`, for τ >= 1/2.
-    fn at_shift_remaining(&self, remaining: f64) -> StickZone;
+    /// The stick zones of every ellipse.
+    pub fn of_ellipse(layer: Layer) -> StickZones {
+        let b = RoundedPunch::new(0.0, 1.0);
+        StickZones { b, elliptic: 1, ..StickZones::default() }.with_layer(1.0, layer)
+    }
 
-    /// [`StickZones::dissipation`] for τ >= 1/2, at the stick zone with `1 - τ = remaining`.
-    fn dissipation_beyond_half(&self, remaining: f64, compliance_increase: f64) -> (f64, f64);
+    fn with_layer(mut self, compliance: f64, layer: Layer) -> StickZones {
+        self.load = self.load_of(&self.b);
+        [self.beta, self.gamma] = [self.beta_of(&self.b, self.load), self.gamma_of(&self.b, self.load)];
+        self.slip_shift = compliance + self.beta + layer.shift(1.0);
+        self.contact = SmallLoadSeries::new(compliance, &self.curvatures());
+        self.layer = layer;
+        self.small_load = self.contact;
+        if self.has_layer() {
+            self.small_load = SmallLoadSeries::new(compliance + layer.compliance(1.0), &self.curvatures());
+        }
+        self
+    }
 
-    /// c/b.
-    fn size(&self, zone: &StickZone) -> f64;
+    fn is_elliptic(&self) -> bool {
+        self.elliptic != 0
+    }
 
-    /// Pressure in units of N/(bL) or, for an ellipse, of N over the product of the semi-axes.
-    fn pressure(&self, point: &SurfacePoint) -> f64;
+    /// Whether there is a layer that is compliant in the tangential direction.
+    #[inline(always)]
+    pub fn has_layer(&self) -> bool {
+        self.layer.tangential > 0.0
+    }
 
-    /// Shear traction over μ in those units under a monotonically increased force: the pressure of b less that of the stick zone
-    /// (Eq. 21).
-    fn shear(&self, point: &SurfacePoint, zone: &StickZone) -> f64;
+    /// The size of a w.
+    fn punch(&self, w: f64) -> RoundedPunch {
+        if self.is_elliptic() { RoundedPunch { w, half_width: w, ..self.b } } else { RoundedPunch::new(self.b.flat, w) }
+    }
 
-    /// Relative slip (Eq. 15) in units of shift; `None` if there is no closed form.
-    fn slip(&self, point: &SurfacePoint, zone: &StickZone) -> Option<f64>;
+    /// g of a size.
+    #[inline(always)]
+    fn load_of(&self, punch: &RoundedPunch) -> f64 {
+        if self.is_elliptic() { punch.w * punch.w * punch.w } else { punch.load() }
+    }
+
+    /// β of a size, given its load g.
+    #[inline(always)]
+    fn beta_of(&self, punch: &RoundedPunch, load: f64) -> f64 {
+        if self.is_elliptic() { 0.5 / punch.w.max(TINY) } else { punch.beta(load) }
+    }
+
+    /// γ of a size, given its load g.
+    fn gamma_of(&self, punch: &RoundedPunch, load: f64) -> f64 {
+        if self.is_elliptic() { 0.2 / punch.w.max(TINY) } else { punch.gamma(load) }
+    }
+
+    /// λ of a size of the contact without its layer, accurate also for c close to b.
+    #[inline(always)]
+    fn increase_of(&self, punch: &RoundedPunch) -> f64 {
+        let size = punch.half_width * punch.half_width;
+        if self.is_elliptic() {
+            1.0 / punch.w.max(TINY) - 1.0
+        } else if size < 0.5 {
+            -0.5 * size.max(TINY).ln()
+        } else {
+            -0.5 * (-(self.b.w - punch.w) * (self.b.w + punch.w)).max(-0.5).ln_1p()
+        }
+    }
+
+    /// Derivative of g with respect to ln w.
+    fn load_slope(&self, punch: &RoundedPunch) -> f64 {
+        let square = punch.w * punch.w;
+        if self.is_elliptic() { 3.0 * square * punch.w } else { 4.0 * square * punch.psi }
+    }
+
+    /// `h'' = dλ/dτ` of a size of the contact without its layer: `g_b/(4 c² ψ_c)`, or `1/(3w⁴)`.
+    fn curvature_of(&self, punch: &RoundedPunch) -> f64 {
+        let square = punch.half_width * punch.half_width;
+        self.load / if self.is_elliptic() { 3.0 * square * square } else { 4.0 * square * punch.psi }.max(TINY)
+    }
+
+    /// Values and slopes of h'' over z at τ = (1+z)/4: positive, with its singularity as far beyond as the interval is long.
+    fn curvatures(&self) -> [Tangent; RETAINED_TERMS / 2] {
+        let mut last: Option<InversePower> = None;
+        let mut tangents = Interpolant::<{ RETAINED_TERMS / 2 }>::at_points(|z| {
+            let load = Complement::of_remaining(0.75 + 0.25 * z);
+            let punch = if self.is_elliptic() {
+                self.size_under(load.remaining)
+            } else {
+                let w = last.as_ref().map_or(self.b.w, |last| last.w(load.remaining * self.load));
+                let start = RoundedPunch::new(self.b.flat, w);
+                let (punch, inverse) = RoundedPunch::refine_from(start, load.remaining * self.load);
+                last = Some(inverse);
+                punch
+            };
+            let RoundedPunch { flat, w, psi, half_width } = punch;
+            let value = self.curvature_of(&punch);
+            // Logarithmic derivative of h'' with respect to ln w.
+            let decrease =
+                if self.is_elliptic() { 4.0 } else { w * (2.0 * w + flat / psi) / (half_width * half_width) };
+            let slope = value * decrease * self.load / self.load_slope(&punch);
+            let [layer, layer_slope] = self.layer.curvature(load);
+            Tangent { value: value + layer, slope: 0.25 * (slope + layer_slope) }
+        });
+        // From τ = 0 on; the points are symmetric.
+        tangents.reverse();
+        tangents
+    }
+
+    /// The size with `1 - τ = remaining`.
+    fn size_under(&self, remaining: f64) -> RoundedPunch {
+        if self.is_elliptic() {
+            self.punch(remaining.cbrt())
+        } else {
+            RoundedPunch::from_load(self.b.flat, remaining * self.load)
+        }
+    }
+
+    /// The size with `1 - τ = remaining`, given λ of contact and layer to the rounding of Λ + λ, and its load g.
+    #[inline(always)]
+    fn size_near(&self, remaining: f64, compliance_increase: f64) -> (RoundedPunch, f64) {
+        let load = remaining * self.load;
+        if self.is_elliptic() {
+            return (self.size_under(remaining), load);
+        }
+        let of_layer = if self.has_layer() { self.layer.increase(Complement::of_remaining(remaining)) } else { 0.0 };
+        let own = compliance_increase - of_layer;
+        let w = (self.b.w * self.b.w + (-2.0 * own).exp_m1()).max(0.25 * self.b.w * self.b.w * remaining).sqrt();
+        (RoundedPunch::newton_step_from(RoundedPunch::new(self.b.flat, w), load), load)
+    }
+
+    /// The stick zone of a size with the load g and `s = g/g_b`. In the form Λ τ + h the consumed shift is no difference of two large
+    /// terms if the curve is nearly straight.
+    #[inline(always)]
+    fn zone(&self, punch: &RoundedPunch, load: f64, remaining: f64) -> StickZone {
+        let (full_stick, beta) = (self.contact.compliance, self.beta_of(punch, load));
+        let (load, increase) = (Complement::of_remaining(remaining), self.increase_of(punch));
+        let mut zone = StickZone {
+            load,
+            shift: Complement {
+                consumed: full_stick * load.consumed + ((self.beta - remaining * beta) - remaining * increase),
+                remaining: remaining * (full_stick + increase + beta),
+            },
+            compliance_increase: increase,
+            size_parameter: Some(punch.w / self.b.w),
+        };
+        if self.has_layer() {
+            zone.shift.consumed += self.layer.shift(self.layer.lost(load));
+            zone.shift.remaining += self.layer.shift(remaining);
+            zone.compliance_increase += self.layer.increase(load);
+        }
+        zone
+    }
+
+    /// A size close to that at a remaining shift. The shift of the contact alone is at most the sum, and at most about the power 2/3 of
+    /// the load that the layer alone would have; then with Λ + λ + β constant, first at its smallest value.
+    fn initial_guess(&self, remaining: f64) -> RoundedPunch {
+        let slip_shift = self.contact.compliance + self.beta;
+        let mut own = remaining;
+        if self.has_layer() {
+            let of_layer = self.layer.load_of_extent(remaining / self.layer.tangential);
+            own = own.min(slip_shift * of_layer.cbrt().powi(2)).max(f64::MIN_POSITIVE);
+        }
+        if self.is_elliptic() {
+            return self.punch((own / slip_shift).sqrt());
+        }
+        let w = RoundedPunch::initial_guess_w(self.b.flat, own / slip_shift * self.load);
+        let increase = -0.5 * (self.b.flat * self.b.flat + w * w).clamp(TINY, 1.0).ln();
+        let load = own / (slip_shift + increase) * self.load;
+        self.punch(RoundedPunch::initial_guess_w(self.b.flat, load))
+    }
+
+    /// The stick zone at a remaining shift, from a size close to it; its size, and the inverse of the remaining shift close to it.
+    ///
+    /// The iteration raises an error to its fourth power. The last step is an expansion in which fourth powers of 2e-5, over the
+    /// cube of the compliance if that is small, are below rounding. Third powers are not: those of the load, `dg/dw = 4 w ψ`, are included.
+    fn refine(&self, remaining: f64, start: RoundedPunch) -> (StickZone, RoundedPunch, InversePower) {
+        let is_ellipse = self.is_elliptic();
+        if is_ellipse && !self.has_layer() {
+            let punch = self.initial_guess(remaining);
+            let zone = self.zone(&punch, self.load_of(&punch), self.load_of(&punch));
+            let shift = Complement { consumed: self.slip_shift - remaining, remaining };
+            return (StickZone { shift, ..zone }, punch, InversePower::default());
+        }
+        let mut punch = start;
+        let mut iterations_left = 8;
+        loop {
+            let (w, c2) = (punch.w, (punch.half_width * punch.half_width).max(TINY));
+            let load = self.load_of(&punch);
+            let now = self.zone(&punch, load, load / self.load);
+            let compliance = self.compliance(&now);
+            let slope = self.load_slope(&punch);
+            // Decrease of the compliance with ln w, its derivative, and the rates of the load.
+            let (mut decrease, mut change, rho) = if is_ellipse {
+                (1.0 / w.max(TINY), -1.0 / w.max(TINY), [1.0, 0.0])
+            } else {
+                (w * w / c2, 2.0 * (w * w / c2) * (1.0 - w * w / c2), punch.rates())
+            };
+            if self.has_layer() {
+                let ([of_layer, rate], slope) = (self.layer.curvature(now.load), slope / self.load);
+                decrease += of_layer * slope;
+                change += slope * (of_layer * (2.0 + rho[0]) - rate * slope);
+            }
+            let per_compliance = 1.0 / compliance;
+            let kappa = decrease * per_compliance;
+            let power = slope * compliance / (now.shift.remaining * self.load).max(TINY);
+            let rates = [kappa, change * per_compliance + kappa * kappa];
+            let inverse = punch.inverse(now.shift.remaining, power, rho, rates);
+            let step = inverse.step(remaining);
+            iterations_left -= 1;
+            if step.abs() <= 2e-5 * compliance.min(1.0) * w || iterations_left == 0 {
+                let moved = punch.moved(step);
+                let (rise, increase) = if is_ellipse {
+                    let square = moved.w * moved.w;
+                    (step * (square + w * (moved.w + w)), self.increase_of(&moved) - self.increase_of(&punch))
+                } else {
+                    // Relative change of c², and -½ ln(1 + change).
+                    let change = step * (2.0 * w + step) / c2;
+                    let per_size = self.b.flat / c2;
+                    let square =
+                        2.0 * (punch.psi + w * per_size) + step * (4.0 / 3.0) * self.b.flat * per_size * per_size;
+                    (
+                        step * (4.0 * w * punch.psi + step * square),
+                        -0.5 * change * (1.0 - change * (0.5 - change * (1.0 / 3.0))),
+                    )
+                };
+                let load = Complement::of_remaining(now.load.remaining + rise / self.load.max(TINY));
+                let rise_of_layer =
+                    if self.has_layer() { self.layer.increase(load) - self.layer.increase(now.load) } else { 0.0 };
+                let zone = StickZone {
+                    load,
+                    shift: Complement { consumed: self.slip_shift - remaining, remaining },
+                    compliance_increase: now.compliance_increase + increase + rise_of_layer,
+                    size_parameter: Some(moved.w / self.b.w),
+                };
+                return (zone, moved, inverse);
+            }
+            punch = self.punch((w + step).max(0.0));
+        }
+    }
+
+    /// Finds the points of the curve at a sequence of decreasing remaining shifts, the first of which is close to x_s. Each starts from
+    /// the expansion about the one before, so that the closed forms are nearly always evaluated once.
+    pub fn sequence(&self) -> impl FnMut(f64) -> LoadPoint {
+        let mut last: Option<InversePower> = None;
+        move |remaining| {
+            let w = last.as_ref().map_or(self.b.w, |last| last.w(remaining));
+            let (zone, punch, inverse) = self.refine(remaining, self.punch(w));
+            last = Some(inverse);
+            let [of_layer, _] = self.layer.curvature(zone.load);
+            LoadPoint {
+                remaining: zone.load.remaining,
+                compliance_increase: zone.compliance_increase,
+                curvature: self.curvature_of(&punch) + of_layer,
+            }
+        }
+    }
 
     /// The stick zone at a load.
-    fn at_load(&self, load: Complement) -> StickZone {
+    pub fn at_load(&self, load: Complement) -> StickZone {
         if load.consumed <= 0.5 {
-            self.small_load().at_load(load, self.slip_shift())
-        } else {
-            self.at_load_remaining(load.remaining)
+            return self.small_load.at_load(load, self.slip_shift);
         }
+        let zone = self.zone(&self.size_under(load.remaining), load.remaining * self.load, load.remaining);
+        let vanishes = load.remaining <= 0.0 && self.b.flat <= 0.0;
+        StickZone { compliance_increase: if vanishes { f64::INFINITY } else { zone.compliance_increase }, ..zone }
     }
 
     /// The stick zone at a shift: the inverse of the monotonic curve.
-    fn at_shift(&self, shift: Complement) -> StickZone {
-        let series = self.small_load();
-        if shift.consumed <= series.half_shift {
-            series.at_shift(shift)
+    pub fn at_shift(&self, shift: Complement) -> StickZone {
+        if shift.consumed <= self.small_load.half_shift {
+            self.small_load.at_shift(shift)
+        } else if shift.remaining <= 0.0 {
+            self.at_load(Complement::of_remaining(0.0))
         } else {
-            self.at_shift_remaining(shift.remaining)
-        }
-    }
-
-    /// Energy dissipated per cycle between ±τ, in units of force times shift (Eq. 13-16), and its derivative with respect to τ; λ is
-    /// given to the rounding of Λ + λ.
-    fn dissipation(&self, load: Complement, compliance_increase: f64) -> (f64, f64) {
-        if load.consumed <= 0.5 {
-            self.small_load().dissipation(load.consumed)
-        } else {
-            self.dissipation_beyond_half(load.remaining, compliance_increase)
+            self.refine(shift.remaining, self.initial_guess(shift.remaining)).0
         }
     }
 
     /// dx/dτ = Λ + λ.
-    fn compliance(&self, zone: &StickZone) -> f64 {
-        self.small_load().compliance + zone.compliance_increase
+    pub fn compliance(&self, zone: &StickZone) -> f64 {
+        self.small_load.compliance + zone.compliance_increase
+    }
+
+    /// Energy dissipated per cycle between ±τ, in units of force times shift (Eq. 13-16), and its derivative with respect to τ, which is
+    /// `4 (τ λ - h)` with `h = β_b - s (λ + β_c)`; λ is given to the rounding of Λ + λ.
+    pub fn dissipation(&self, load: Complement, compliance_increase: f64) -> (f64, f64) {
+        if load.consumed <= 0.5 {
+            return self.small_load.dissipation(load.consumed);
+        }
+        let remaining = load.remaining;
+        let (punch, load_c) = self.size_near(remaining, compliance_increase);
+        let (beta, gamma) = (self.beta_of(&punch, load_c), self.gamma_of(&punch, load_c));
+        let increase = self.increase_of(&punch);
+        let squares = self.gamma - remaining * remaining * gamma;
+        let energy = 4.0 * ((1.0 + remaining) * (self.beta - remaining * beta) - remaining * increase - squares);
+        let slope = 4.0 * (increase - self.beta + remaining * beta);
+        if !self.has_layer() {
+            return (energy, slope);
+        }
+        (energy + self.layer.dissipation(load), slope + 4.0 * self.layer.first_moment(load))
+    }
+
+    /// The moments at a load; λ of contact and layer, to the rounding of Λ + λ, is used for τ > 1/2.
+    ///
+    /// With C(w) = w - a ψ the fourth is 4 (C_b - C_c)/g_b, because dc/da at a constant load is w/(c ψ).
+    pub fn moments(&self, load: Complement, compliance_increase: f64) -> Moments {
+        let RoundedPunch { flat, w, .. } = self.b;
+        let tau = load.consumed;
+        let (increase, first, complement, w_difference) = if tau <= 0.5 {
+            let [increase, first] = self.contact.moments(tau);
+            let squares = -(-2.0 * increase).exp_m1();
+            (increase, first, increase - first, squares / (w + (w * w - squares).max(0.0).sqrt()))
+        } else {
+            let (punch, load_c) = self.size_near(load.remaining, compliance_increase);
+            let increase = self.increase_of(&punch);
+            let complement = self.beta - load.remaining * self.beta_of(&punch, load_c);
+            (increase, increase - complement, complement, w - punch.w)
+        };
+        let by_flat = if w * w <= 3.0 * flat * flat {
+            // 2 ∫ (1-t) h'' dt + a ∫ 4w/g_b h'' dt = τ; the first term is the smaller one.
+            (tau - 2.0 * complement) / flat
+        } else {
+            let angle = (flat * w_difference).atan2(flat * flat + w * (w - w_difference));
+            4.0 / self.load * (w_difference - flat * angle)
+        };
+        Moments { increase, first, complement, by_flat }
+    }
+
+    /// d(ln b)/d(ln g_b), and db/da at a constant load.
+    pub fn size_slopes(&self) -> [f64; 2] {
+        [self.contact.initial_curvature(), self.b.w / self.b.psi]
+    }
+
+    /// w² of a stick zone, and `w_b² - w²` free of cancellation.
+    fn squares(&self, zone: &StickZone) -> [f64; 2] {
+        if let Some(sigma) = zone.size_parameter {
+            let w = self.b.w * sigma;
+            return [w * w, (self.b.w - w) * (self.b.w + w)];
+        }
+        let increase =
+            if self.has_layer() { self.contact.moments(zone.load.consumed)[0] } else { zone.compliance_increase };
+        let consumed = increase / (1.0 + increase);
+        let squares = if self.is_elliptic() { consumed * (2.0 - consumed) } else { -(-2.0 * increase).exp_m1() };
+        [(self.b.w * self.b.w - squares).max(0.0), squares]
+    }
+
+    /// c/b.
+    pub fn size(&self, zone: &StickZone) -> f64 {
+        let [square, _] = self.squares(zone);
+        (self.b.flat * self.b.flat + square).sqrt().max(self.b.flat)
+    }
+
+    /// Pressure, less that of the size with `[w², w_b² - w²]`.
+    fn pressure_beyond(&self, [square, squares]: [f64; 2], point: &SurfacePoint) -> f64 {
+        let w = square.sqrt();
+        if self.is_elliptic() {
+            let outer = point.from_edge * (1.0 + point.x);
+            1.5 / PI * difference_of_heights(outer, (w - point.x) * (w + point.x), squares)
+        } else {
+            tractions::pressure_between(self.b.flat, w, self.b.w, squares, point) * self.traction_scale() / PI
+        }
+    }
+
+    /// Factor of the integrals of `tractions`.
+    fn traction_scale(&self) -> f64 {
+        4.0 / self.load.max(TINY)
+    }
+
+    /// Pressure in units of N/(bL) or, for an ellipse, of N over the product of the semi-axes.
+    pub fn pressure(&self, point: &SurfacePoint) -> f64 {
+        self.pressure_beyond([0.0, self.b.w * self.b.w], point)
+    }
+
+    /// Shear traction over μ in those units under a monotonically increased force: the pressure of b less that of the stick zone
+    /// (Eq. 21).
+    pub fn shear(&self, point: &SurfacePoint, zone: &StickZone) -> f64 {
+        self.pressure_beyond(self.squares(zone), point)
+    }
+
+    /// Relative slip (Eq. 15) in units of shift; `None` for an ellipse, for which there is no closed form.
+    pub fn slip(&self, point: &SurfacePoint, zone: &StickZone) -> Option<f64> {
+        let [square, _] = self.squares(zone);
+        let slip = || tractions::slip_beyond(&self.punch(square.sqrt()), point) * self.traction_scale();
+        (!self.is_elliptic()).then(slip)
     }
 }

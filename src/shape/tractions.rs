@@ -14,7 +14,26 @@
 
 use crate::numerics::quadrature::gauss;
 use crate::shape::rounded_punch::{RoundedPunch, TINY};
-use crate::shape::stick_zone::SurfacePoint;
+
+/// A point along the width. The differences are computed from the dimensional lengths: for a nearly flat contact the rounding error of
+/// x/b may exceed the distance from flat to edge.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct SurfacePoint {
+    /// |x|/b.
+    pub x: f64,
+    /// (|x| - a)/b.
+    pub past_flat: f64,
+    /// (b - |x|)/b.
+    pub from_edge: f64,
+}
+
+impl SurfacePoint {
+    /// The point x in units of the half-width b, at most 2: all points outside the contact are equivalent.
+    pub fn new(x: f64, half_width: f64, flat: f64) -> SurfacePoint {
+        let (x, unit) = (x.abs().min(2.0 * half_width), half_width.max(f64::MIN_POSITIVE));
+        SurfacePoint { x: x / unit, past_flat: (x - flat.min(x + unit)) / unit, from_edge: (half_width - x) / unit }
+    }
+}
 
 /// Ratio of a sum to its terms below which quadrature is used: six bits lost to cancellation.
 const CANCELLATION_LIMIT: f64 = 1.0 / 64.0;

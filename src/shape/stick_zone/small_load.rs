@@ -9,47 +9,16 @@
 //!
 //! Each is `Σ c_m f_m τᵐ` times a power of τ, with factors f_m independent of the shape.
 
-use crate::numerics::chebyshev::{Interpolant, Tangent, monic_powers};
+use crate::numerics::chebyshev::{Interpolant, Tangent};
 use crate::numerics::const_math::tabulate;
 use crate::numerics::polynomial::{self, Rows, rows};
-use crate::shape::stick_zone::{Complement, StickZone};
+use crate::shape::Complement;
+use crate::shape::stick_zone::StickZone;
 
-/// Terms of the power series: its radius of convergence is 1, and the coefficients of h'' stay bounded.
-pub(crate) const TERMS: usize = 48;
-
-/// Terms of the polynomial that replaces it up to τ = 1/2, with a relative error of 5.8⁻²⁰.
+/// Terms of the polynomial up to τ = 1/2.
 pub(crate) const RETAINED_TERMS: usize = 20;
 
 type Terms = Rows<{ RETAINED_TERMS / 4 }>;
-
-/// The Chebyshev polynomials T_n(4τ - 1), n from [`RETAINED_TERMS`].
-const CHEBYSHEV: [[f64; TERMS]; TERMS - RETAINED_TERMS] = monic_powers(-1.0, 4.0);
-
-/// Economizes a power series on 0 <= τ <= 1/2 (Lanczos): from the highest power on, a multiple of the Chebyshev polynomial with that
-/// leading power is subtracted.
-pub(crate) const fn economized(mut series: [f64; TERMS]) -> [f64; RETAINED_TERMS] {
-    let mut n = TERMS;
-    while n > RETAINED_TERMS {
-        n -= 1;
-        let leading = series[n];
-        let mut k = 0;
-        while k < n {
-            series[k] -= leading * CHEBYSHEV[n - RETAINED_TERMS][k];
-            k += 1;
-        }
-    }
-    tabulate!(RETAINED_TERMS, |k| series[k])
-}
-
-/// Coefficients of h'' from values and slopes over z at τ = (1+z)/4.
-pub(crate) fn curvature_series(tangents: &[Tangent; RETAINED_TERMS / 2]) -> [f64; RETAINED_TERMS] {
-    let mut scale = 1.0;
-    Interpolant::<RETAINED_TERMS>::osculating(tangents).powers_from_end().map(|power| {
-        let coefficient = scale * power;
-        scale *= 2.0;
-        coefficient
-    })
-}
 
 // The factors f_m of integrals of τᵐ.
 const COMPLIANCE: Terms = rows(&tabulate!(RETAINED_TERMS, |m| 1.0 / (m + 1) as f64));
@@ -81,22 +50,17 @@ pub(crate) struct SeriesValues {
 }
 
 impl SmallLoadSeries {
-    /// The series from the coefficients of its curvature.
-    pub(crate) const fn new(compliance: f64, curvature: [f64; RETAINED_TERMS]) -> SmallLoadSeries {
-        let mut half_shift = 0.0;
-        let mut m = RETAINED_TERMS;
-        while m > 0 {
-            m -= 1;
-            half_shift = 0.5 * half_shift + curvature[m] * SHIFT[m / 4][m % 4];
-        }
-        let half_shift = 0.5 * compliance + 0.25 * half_shift;
-        SmallLoadSeries { compliance, half_shift, curvature: rows(&curvature) }
-    }
-
-    /// The series with another compliance and curvature added.
-    pub(crate) fn plus(&self, compliance: f64, mut curvature: [f64; RETAINED_TERMS]) -> SmallLoadSeries {
-        curvature.iter_mut().zip(self.curvature.as_flattened()).for_each(|(sum, term)| *sum += term);
-        SmallLoadSeries::new(self.compliance + compliance, curvature)
+    /// The series from values and slopes of its curvature over z at τ = (1+z)/4.
+    pub(crate) fn new(compliance: f64, curvature: &[Tangent; RETAINED_TERMS / 2]) -> SmallLoadSeries {
+        let mut scale = 1.0;
+        let curvature = Interpolant::<RETAINED_TERMS>::osculating(curvature).powers_from_end().map(|power| {
+            let coefficient = scale * power;
+            scale *= 2.0;
+            coefficient
+        });
+        let mut series = SmallLoadSeries { compliance, half_shift: 0.0, curvature: rows(&curvature) };
+        series.half_shift = 0.5 * compliance + 0.25 * series.sum(&SHIFT, 0.5);
+        series
     }
 
     /// h'' at τ = 0.
