@@ -1,8 +1,8 @@
 //! Batches of contacts and of elements: all items are checked before the first output is written.
 
 use super::pointers::{
-    self, call, check_alignment, check_length, input, item, new_state, optional_input, output, outputs, state_input,
-    with_law, write,
+    self, call, check_alignment, check_length, input, item, new_state, optional_input, output, outputs, requested,
+    state_input, with_law, write,
 };
 use super::{mslip_contact, mslip_element};
 use crate::constant_load::ConstantLoad;
@@ -95,7 +95,7 @@ pub(super) unsafe fn path<L: Law>(
 
 /// Items of a batch: their contacts or elements, and the flags of the active items.
 #[derive(Clone, Copy)]
-struct Items<'a, T> {
+pub(super) struct Items<'a, T> {
     n: usize,
     laws: &'a [T],
     index: Option<&'a [i32]>,
@@ -103,6 +103,10 @@ struct Items<'a, T> {
 }
 
 impl<'a, T: Copy> Items<'a, T> {
+    pub unsafe fn one(law: *const T) -> Result<Items<'a, T>, Error> {
+        Items::new(1, 1, law, ptr::null(), ptr::null())
+    }
+
     #[inline(never)]
     unsafe fn new(
         n: usize,
@@ -234,42 +238,20 @@ unsafe fn harmonic_forces<L: Law, W>(
     check: impl Fn(&mut W, &L::Item, &[f64]) -> Result<(), Error>,
     compute: impl Fn(&L::Item, &mut W, &[f64], HarmonicOutput) -> Result<(), Error>,
 ) -> Result<(), Error> {
-    let (all, square) = (items.n.checked_mul(one), items.n.checked_mul(one * one));
-    let (all, square) = (all.ok_or(Error::BadArraySize)?, square.ok_or(Error::BadArraySize)?);
-    let (force, jacobian, displacement) = (output(force, all)?, output(jacobian, square)?, input(displacement, all)?);
-    let [dissipated, drift] = self::outputs([dissipated, drift], items.n)?;
-    let mut outputs = Outputs { force, jacobian, dissipated, drift };
+    check_length::<f64>(items.n.checked_mul(one * one).ok_or(Error::BadArraySize)?)?;
+    [force, jacobian, dissipated, drift].iter().try_for_each(|output| check_alignment(*output))?;
+    let displacement = input(displacement, items.n * one)?;
     let displacement_of = |i: usize| displacement.get(i * one..(i + 1) * one);
     items.check::<L>(|i, law| check(workspace, law, displacement_of(i).unwrap_or(&[])))?;
-    let mut active = items.with(displacement_of);
-    active.try_for_each(|(i, law, displacement)| compute(law, workspace, displacement, outputs.of_item(i, one)))
-}
-
-/// Outputs of a batch of harmonic forces.
-struct Outputs<'a> {
-    force: Option<&'a mut [f64]>,
-    jacobian: Option<&'a mut [f64]>,
-    dissipated: Option<&'a mut [f64]>,
-    drift: Option<&'a mut [f64]>,
-}
-
-impl Outputs<'_> {
-    /// Outputs of item i. Not inlined, to keep the loop over the items small.
-    #[inline(never)]
-    fn of_item(&mut self, i: usize, coefficients: usize) -> HarmonicOutput<'_> {
-        let Outputs { force, jacobian, dissipated, drift } = self;
-        HarmonicOutput {
-            force: part(force, i, coefficients),
-            jacobian: part(jacobian, i, coefficients * coefficients),
-            dissipated: part(dissipated, i, 1).and_then(<[f64]>::first_mut),
-            drift: part(drift, i, 1).and_then(<[f64]>::first_mut),
-        }
-    }
-}
-
-/// Part of item i of an output of `length` values per item.
-fn part<'a>(output: &'a mut Option<&mut [f64]>, i: usize, length: usize) -> Option<&'a mut [f64]> {
-    output.as_mut()?.get_mut(i * length..(i + 1) * length)
+    items.with(displacement_of).try_for_each(|(i, law, displacement)| {
+        let output = HarmonicOutput {
+            force: requested(item_of(force, i * one), one),
+            jacobian: requested(item_of(jacobian, i * one * one), one * one),
+            dissipated: item_of(dissipated, i).as_mut(),
+            drift: item_of(drift, i).as_mut(),
+        };
+        compute(law, workspace, displacement, output)
+    })
 }
 
 /// mslip_complex_stiffness for n items, one amplitude each. Item i uses contacts\[index\[i\]\], or contacts\[i\] if index is NULL.
@@ -324,14 +306,8 @@ pub unsafe extern "C" fn mslip_batch_masing_update(
 ) -> i32 {
     call(|| {
         let items = Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?;
-        update::<ConstantLoad>(
-            items,
-            state_length,
-            states_old,
-            displacement,
-            states_new,
-            [force, stiffness, dissipated],
-        )
+        let outputs = [force, stiffness, dissipated];
+        update::<ConstantLoad>(items, state_length, states_old, displacement, states_new, outputs)
     })
 }
 
@@ -415,16 +391,25 @@ pub unsafe extern "C" fn mslip_batch_element_harmonic_force(
     drift: *mut f64,
 ) -> i32 {
     call(|| {
-        let items = Items::new(n, n_elements, elements.cast::<Element>(), index, active)?;
-        let outputs = [force, jacobian, dissipated, drift];
-        let (directions, size, extent) = pointers::element_workspace_size(workspace)?;
-        with_law!(directions, L, law => {
-            let mut workspace = law::Workspace::open(output(workspace, extent)?.ok_or(Error::BadWorkspace)?)?;
-            let one = (directions as usize + 1) * size.coefficients();
-            // The arrays of an element with another number of directions are shorter: no reference to them is created.
-            items.check::<L>(|_, _| Ok(()))?;
-            let (check, compute) = (law::Workspace::check, law::harmonic_force);
-            harmonic_forces::<L, _>(items, &mut workspace, one, displacement, outputs, check, compute)
-        })
+        let items = Items::new(n, n_elements, elements.cast(), index, active)?;
+        element_harmonic_forces(items, workspace, displacement, [force, jacobian, dissipated, drift])
+    })
+}
+
+/// Harmonic forces of all active elements.
+pub(super) unsafe fn element_harmonic_forces(
+    items: Items<Element>,
+    workspace: *mut f64,
+    displacement: *const f64,
+    outputs: [*mut f64; 4],
+) -> Result<(), Error> {
+    let (directions, size, extent) = pointers::element_workspace_size(workspace)?;
+    with_law!(directions, L, law => {
+        let mut workspace = law::Workspace::open(output(workspace, extent)?.ok_or(Error::BadWorkspace)?)?;
+        let one = (directions as usize + 1) * size.coefficients();
+        // The arrays of an element with another number of directions are shorter: no reference to them is created.
+        items.check::<L>(|_, _| Ok(()))?;
+        let (check, compute) = (law::Workspace::check, law::harmonic_force);
+        harmonic_forces::<L, _>(items, &mut workspace, one, displacement, outputs, check, compute)
     })
 }

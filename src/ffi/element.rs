@@ -2,7 +2,7 @@
 
 use super::batch::{path, update_one};
 use super::pointers::{
-    self, call, check_alignment, input, item, memory, output, outputs, set, state_input, status, with_law,
+    self, call, check_alignment, each, input, item, memory, outputs, place, set, state_input, sum, with_law,
 };
 use super::{MSLIP_INPUT_APPROACH, MSLIP_INPUT_NORMAL_FORCE, mslip_element};
 use crate::element::{Directions, Element, NormalInput, NormalPoint};
@@ -43,7 +43,7 @@ unsafe fn initialise<P>(
             _ => return Err(Error::BadNormalInput),
         };
         init(element, parameters, directions, normal_input)?;
-        pointers::set_checksum(element);
+        element.checksum = sum(element).wrapping_neg();
         Ok(())
     })
 }
@@ -91,7 +91,7 @@ pub unsafe extern "C" fn mslip_element_init_elliptic(
 /// Returns MSLIP_NULL_POINTER or MSLIP_BAD_ELEMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_check(element: *const mslip_element) -> i32 {
-    status(pointers::element(element).and_then(pointers::check_element))
+    call(|| if sum(pointers::element(element)?) == 0 { Ok(()) } else { Err(Error::BadElement) })
 }
 
 /// The normal law: normal force \[N\], normal stiffness \[N/m\] and half-width of the contact \[m\] at approach\[n\] \[m\]. An
@@ -108,15 +108,7 @@ pub unsafe extern "C" fn mslip_normal_force(
     stiffness: *mut f64,
     half_width: *mut f64,
 ) -> i32 {
-    normal_law(
-        element,
-        n,
-        approach,
-        [normal_force, stiffness, half_width],
-        Element::check_approach,
-        Element::normal_forces::<4>,
-        |_, value| value,
-    )
+    normal_law::<false>(element, n, approach, [normal_force, stiffness, half_width])
 }
 
 /// The inverse normal law: approach \[m\], compliance \[m/N\] and half-width \[m\] under normal_force\[n\] \[N\]. At 0 the
@@ -133,15 +125,7 @@ pub unsafe extern "C" fn mslip_normal_approach(
     compliance: *mut f64,
     half_width: *mut f64,
 ) -> i32 {
-    normal_law(
-        element,
-        n,
-        normal_force,
-        [approach, compliance, half_width],
-        Element::check_normal_force,
-        |element, given| given.map(|force| element.approach_under(force)),
-        |given, _| given,
-    )
+    normal_law::<true>(element, n, normal_force, [approach, compliance, half_width])
 }
 
 /// The monotonic curve of an element at a constant normal force: the displacement \[m\] that carries force\[n\] \[N\], at most mu N
@@ -164,45 +148,42 @@ pub unsafe extern "C" fn mslip_element_displacement(
 ) -> i32 {
     call(|| {
         let (element, force, normal_force) = (pointers::element(element)?, input(force, n)?, input(normal_force, n)?);
-        let [mut displacements, mut compliances] = outputs([displacement, compliance], n)?;
+        let outputs = outputs([displacement, compliance], n)?;
         let direction = usize::try_from(direction).map_err(|_| Error::BadDirections)?;
         element.check_direction(direction)?;
-        let pairs = || force.iter().zip(normal_force).enumerate();
-        pairs().try_for_each(|(_, (&force, &normal_force))| element.check_static(force, normal_force))?;
-        for (i, (&force, &normal_force)) in pairs() {
+        let pairs = force.iter().zip(normal_force);
+        pairs.clone().try_for_each(|(&force, &normal_force)| element.check_static(force, normal_force))?;
+        for ((&force, &normal_force), [displacement, compliance]) in each(pairs, outputs) {
             let NormalPoint { value, slope } = element.displacement_under(direction, force, normal_force);
-            set(&mut displacements, i, || value);
-            set(&mut compliances, i, || slope);
+            set(displacement, || value);
+            set(compliance, || slope);
         }
         Ok(())
     })
 }
 
-/// One direction of the normal law, four values at a time; `normal_force` selects the normal force from the given quantity and the
-/// one that is computed.
-#[inline(always)]
-unsafe fn normal_law(
+/// The normal law, or its inverse, four values at a time.
+unsafe fn normal_law<const INVERSE: bool>(
     element: *const mslip_element,
     n: usize,
     given: *const f64,
     results: [*mut f64; 3],
-    check: impl Fn(&Element, f64) -> Result<(), Error>,
-    law: impl Fn(&Element, &[f64; 4]) -> [NormalPoint; 4],
-    normal_force: impl Fn(f64, f64) -> f64,
 ) -> i32 {
     call(|| {
-        let (element, given, [mut values, mut slopes, mut half_widths]) =
-            (pointers::element(element)?, input(given, n)?, outputs(results, n)?);
+        let (element, given, results) = (pointers::element(element)?, input(given, n)?, outputs(results, n)?);
+        let check = if INVERSE { Element::check_normal_force } else { Element::check_approach };
         given.iter().try_for_each(|given| check(element, *given))?;
-        for (block, given) in given.chunks(4).enumerate() {
-            let mut four = [given.first().copied().unwrap_or(0.0); 4];
-            four.iter_mut().zip(given).for_each(|(place, given)| *place = *given);
-            for (i, (given, point)) in (4 * block..).zip(given.iter().zip(law(element, &four))) {
-                let NormalPoint { value, slope } = point;
-                set(&mut values, i, || value);
-                set(&mut slopes, i, || slope);
-                set(&mut half_widths, i, || element.half_width_under(normal_force(*given, value)));
-            }
+        let [mut values, mut slopes, mut half_widths] = results.map(|result| result.unwrap_or_default().chunks_mut(4));
+        for block in given.chunks(4) {
+            let mut four = [block.first().copied().unwrap_or(0.0); 4];
+            four.iter_mut().zip(block).for_each(|(place, given)| *place = *given);
+            let points =
+                if INVERSE { four.map(|force| element.approach_under(force)) } else { element.normal_forces(&four) };
+            values.next().into_iter().flatten().zip(points).for_each(|(place, point)| *place = point.value);
+            slopes.next().into_iter().flatten().zip(points).for_each(|(place, point)| *place = point.slope);
+            let forces = if INVERSE { four } else { points.map(|point| point.value) };
+            let places = half_widths.next().into_iter().flatten().zip(forces);
+            places.for_each(|(place, force)| *place = element.half_width_under(force));
         }
         Ok(())
     })
@@ -260,10 +241,10 @@ pub unsafe extern "C" fn mslip_element_state_error(
 ) -> i32 {
     call(|| {
         let directions = directions_of(directions)?;
-        let (state, mut force_error) = (state_input(state_length, state)?, output(force_error, 1)?);
+        let (state, force_error) = (state_input(state_length, state)?, place(force_error)?);
         with_law!(directions, L => {
             L::check_header(state)?;
-            set(&mut force_error, 0, || L::force_error(state));
+            set(force_error, || L::force_error(state));
             Ok(())
         })
     })

@@ -1,8 +1,8 @@
 //! Harmonic balance: workspaces and harmonic force.
 
-use super::batch::{mslip_batch_element_harmonic_force, mslip_batch_harmonic_force};
+use super::batch::{Items, element_harmonic_forces, mslip_batch_harmonic_force};
 use super::element::directions_of;
-use super::pointers::{self, call, check_alignment, input, memory, output, with_law};
+use super::pointers::{self, call, input, memory, output, place, set, with_law};
 use super::{MSLIP_EVENT_DRIVEN, MSLIP_UNIFORM_SAMPLING, mslip_contact, mslip_element};
 use crate::constant_load::harmonic_force::{self, HarmonicOutput, Rule, harmonic_sensitivity, workspace_size};
 use crate::element::Directions;
@@ -63,12 +63,11 @@ pub unsafe extern "C" fn mslip_harmonic_workspace_size(
 ) -> i32 {
     call(|| {
         let header = pointers::workspace_header(workspace)?;
-        [harmonics, samples].iter().try_for_each(|output| check_alignment(*output))?;
-        check_alignment(rule)?;
+        let (harmonics, samples, rule) = (place(harmonics)?, place(samples)?, place(rule)?);
         let (found, size, _) = workspace_size(&header)?;
-        pointers::write(harmonics, size.harmonics);
-        pointers::write(samples, size.samples);
-        pointers::write(rule, found as i32);
+        set(harmonics, || size.harmonics);
+        set(samples, || size.samples);
+        set(rule, || found as i32);
         Ok(())
     })
 }
@@ -135,14 +134,14 @@ pub unsafe extern "C" fn mslip_element_workspace_size(
     periods: *mut size_t,
 ) -> i32 {
     call(|| {
-        [harmonics, samples, periods].iter().try_for_each(|output| check_alignment(*output))?;
-        [directions, rule].iter().try_for_each(|output| check_alignment(*output))?;
+        let (directions, harmonics, samples) = (place(directions)?, place(harmonics)?, place(samples)?);
+        let (rule, periods) = (place(rule)?, place(periods)?);
         let (found, size, _) = pointers::element_workspace_size(workspace)?;
-        pointers::write(directions, found as i32);
-        pointers::write(harmonics, size.harmonics);
-        pointers::write(samples, size.samples);
-        pointers::write(rule, MSLIP_UNIFORM_SAMPLING);
-        pointers::write(periods, size.periods);
+        set(directions, || found as i32);
+        set(harmonics, || size.harmonics);
+        set(samples, || size.samples);
+        set(rule, || MSLIP_UNIFORM_SAMPLING);
+        set(periods, || size.periods);
         Ok(())
     })
 }
@@ -176,20 +175,8 @@ pub unsafe extern "C" fn mslip_element_harmonic_force(
     dissipated: *mut f64,
     drift: *mut f64,
 ) -> i32 {
-    let (one, all) = (1, ptr::null());
-    mslip_batch_element_harmonic_force(
-        one,
-        one,
-        element,
-        all,
-        all,
-        workspace,
-        displacement,
-        force,
-        jacobian,
-        dissipated,
-        drift,
-    )
+    let outputs = [force, jacobian, dissipated, drift];
+    call(|| element_harmonic_forces(Items::one(element.cast())?, workspace, displacement, outputs))
 }
 
 /// Harmonic force in steady state (the second of two periods from the initial, unloaded state), by alternating frequency/time (AFT)

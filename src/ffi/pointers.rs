@@ -12,20 +12,13 @@ use crate::constant_load::stiffness_table::{StiffnessTable, TABLE_LENGTH};
 use crate::element::{Directions, Element};
 use crate::error::Error;
 use crate::fourier::workspace::{Layout, Size, TAGS};
-use core::mem::{self, MaybeUninit};
+use core::mem::MaybeUninit;
 use core::{ptr, slice};
-
-pub fn status(result: Result<(), Error>) -> i32 {
-    match result {
-        Ok(()) => MSLIP_OK,
-        Err(error) => error.code(),
-    }
-}
 
 /// The status of a call.
 #[inline(always)]
 pub fn call(call: impl FnOnce() -> Result<(), Error>) -> i32 {
-    status(call())
+    call().map_or_else(Error::code, |()| MSLIP_OK)
 }
 
 /// Rejects lengths that exceed the address space.
@@ -96,6 +89,13 @@ pub unsafe fn output<'a, T>(pointer: *mut T, n: usize) -> Result<Option<&'a mut 
     Ok(requested(pointer, n))
 }
 
+/// An output of one value; `None` if it is not requested.
+#[inline(always)]
+pub unsafe fn place<'a, T>(pointer: *mut T) -> Result<Option<&'a mut T>, Error> {
+    check_alignment(pointer)?;
+    Ok(pointer.as_mut())
+}
+
 /// Memory of the given number of doubles to be initialised; not NULL.
 pub unsafe fn memory<'a>(length: usize, pointer: *mut f64) -> Result<&'a mut [f64], Error> {
     check_length::<f64>(length)?;
@@ -127,41 +127,17 @@ pub unsafe fn contact<'a>(pointer: *const mslip_contact) -> Result<&'a Contact, 
     contact.check().map(|()| contact)
 }
 
-/// Rejects a contact that was modified after its initialisation.
-pub fn check_contact(contact: &Contact) -> Result<(), Error> {
-    // SAFETY: a contact consists of doubles and 64-bit words, without padding.
-    if unsafe { sum(contact) } == 0 { Ok(()) } else { Err(Error::BadContact) }
-}
-
-/// Rejects an element that was modified after its initialisation.
-pub fn check_element(element: &Element) -> Result<(), Error> {
-    // SAFETY: an element consists of doubles, 64-bit words and two 32-bit words, without padding.
-    if unsafe { sum(element) } == 0 { Ok(()) } else { Err(Error::BadElement) }
-}
-
-/// Sets the checksum of an element: the sum of all words is 0.
-pub fn set_checksum(element: &mut Element) {
-    element.checksum = 0;
-    // SAFETY: as in `check_element`.
-    element.checksum = unsafe { sum(element) }.wrapping_neg();
-}
-
-/// The C type of a contact, with its checksum: the sum of all words is 0.
-impl From<Contact> for mslip_contact {
-    fn from(mut contact: Contact) -> mslip_contact {
-        contact.checksum = 0;
-        // SAFETY: as in `check_contact`.
-        contact.checksum = unsafe { sum(&contact) }.wrapping_neg();
-        // SAFETY: both types consist of the same doubles and 64-bit words.
-        unsafe { mem::transmute(contact) }
-    }
-}
-
-/// Sum of all 64-bit words.
-unsafe fn sum<T>(value: &T) -> u64 {
-    let words = slice::from_raw_parts(ptr::from_ref(value).cast::<u64>(), size_of::<T>() / size_of::<u64>());
+/// Sum of all 64-bit words of a contact or an element, which is 0 with its checksum.
+pub fn sum<T: Checked>(value: &T) -> u64 {
+    // SAFETY: the type consists of whole 64-bit words without padding.
+    let words = unsafe { slice::from_raw_parts(ptr::from_ref(value).cast::<u64>(), size_of::<T>() / size_of::<u64>()) };
     words.iter().fold(0, |sum, word| sum.wrapping_add(*word))
 }
+
+/// Types that consist of doubles, 64-bit words and pairs of 32-bit words, without padding.
+pub trait Checked {}
+impl Checked for Contact {}
+impl Checked for Element {}
 
 /// An initialised element.
 #[inline(always)]
@@ -183,13 +159,8 @@ pub unsafe fn stiffness_table_output<'a>(
     length: usize,
     pointer: *mut f64,
 ) -> Result<&'a mut MaybeUninit<StiffnessTable>, Error> {
-    check_length::<f64>(length)?;
-    check_alignment(pointer)?;
-    not_null(pointer)?;
-    if length < TABLE_LENGTH {
-        return Err(Error::TableTooShort);
-    }
-    Ok(&mut *pointer.cast())
+    let table = memory(length, pointer)?.get_mut(..TABLE_LENGTH).ok_or(Error::TableTooShort)?;
+    Ok(&mut *table.as_mut_ptr().cast())
 }
 
 /// Writes one value whose alignment is checked, if requested.
@@ -200,11 +171,22 @@ pub unsafe fn write<T>(output: *mut T, value: T) {
     }
 }
 
-/// Sets element i of an output, if requested.
+/// The items of an input with their places in the outputs that are requested; no items if none is.
 #[inline(always)]
-pub fn set(output: &mut Option<&mut [f64]>, i: usize, value: impl FnOnce() -> f64) {
-    if let Some(element) = output.as_mut().and_then(|output| output.get_mut(i)) {
-        *element = value();
+pub fn each<T, const K: usize>(
+    inputs: impl IntoIterator<Item = T>,
+    outputs: [Option<&mut [f64]>; K],
+) -> impl Iterator<Item = (T, [Option<&mut f64>; K])> {
+    let most = if outputs.iter().any(Option::is_some) { usize::MAX } else { 0 };
+    let mut places = outputs.map(|output| output.unwrap_or_default().iter_mut());
+    inputs.into_iter().take(most).map(move |input| (input, places.each_mut().map(Iterator::next)))
+}
+
+/// Sets a value, if requested.
+#[inline(always)]
+pub fn set<T>(place: Option<&mut T>, value: impl FnOnce() -> T) {
+    if let Some(place) = place {
+        *place = value();
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::constant_load::contact::Contact;
 use crate::error::Error;
 use crate::ffi::mslip_contact;
-use crate::ffi::pointers::{self, call, check_alignment, input, item, not_null, output, outputs, set, status};
+use crate::ffi::pointers::{self, call, check_alignment, each, input, item, not_null, output, outputs, set, sum};
 use crate::limits::{check_displacement, check_positions};
 use crate::parameters::PARAMETERS;
 use crate::parameters::{EllipticParameters, Parameters};
@@ -65,7 +65,9 @@ unsafe fn initialise<P>(
         let parameters = item(parameters)?;
         not_null(contact)?;
         check_alignment(contact)?;
-        contact.write(construct(parameters)?.into());
+        let mut constructed = construct(parameters)?;
+        constructed.checksum = sum(&constructed).wrapping_neg();
+        contact.cast::<Contact>().write(constructed);
         Ok(())
     })
 }
@@ -94,7 +96,7 @@ pub unsafe extern "C" fn mslip_contact_init_elliptic(p: *const EllipticParameter
 /// Returns MSLIP_NULL_POINTER or MSLIP_BAD_CONTACT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_contact_check(contact: *const mslip_contact) -> i32 {
-    status(pointers::contact(contact).and_then(pointers::check_contact))
+    call(|| if sum(pointers::contact(contact)?) == 0 { Ok(()) } else { Err(Error::BadContact) })
 }
 
 /// Tractions \[Pa\] at x\[n\] \[m\] along the width, under a monotonically increasing force \[N\] (Eq. 17, 21-24); 0 outside the
@@ -111,13 +113,12 @@ pub unsafe extern "C" fn mslip_tractions(
     shear: *mut f64,
 ) -> i32 {
     call(|| {
-        let (contact, x, [mut pressure, mut shear]) =
-            (pointers::contact(contact)?, input(x, n)?, outputs([pressure, shear], n)?);
+        let (contact, x, outputs) = (pointers::contact(contact)?, input(x, n)?, outputs([pressure, shear], n)?);
         let point = contact.curve_at_force(force)?;
         check_positions(x)?;
-        for (i, &x) in x.iter().enumerate() {
-            set(&mut pressure, i, || contact.pressure(x));
-            set(&mut shear, i, || point.shear(x));
+        for (&x, [pressure, shear]) in each(x, outputs) {
+            set(pressure, || contact.pressure(x));
+            set(shear, || point.shear(x));
         }
         Ok(())
     })
@@ -138,18 +139,14 @@ pub unsafe extern "C" fn mslip_slip(
     damage: *mut f64,
 ) -> i32 {
     call(|| {
-        let (contact, x, [mut slip, mut damage]) =
-            (pointers::contact(contact)?, input(x, n)?, outputs([slip, damage], n)?);
+        let (contact, x, outputs) = (pointers::contact(contact)?, input(x, n)?, outputs([slip, damage], n)?);
         let point = contact.curve_at_force(force)?;
         check_positions(x)?;
         point.slip(0.0)?;
-        if slip.is_none() && damage.is_none() {
-            return Ok(());
-        }
-        for (i, &x) in x.iter().enumerate() {
+        for (&x, [slip, damage]) in each(x, outputs) {
             let local_slip = point.slip(x)?;
-            set(&mut slip, i, || local_slip);
-            set(&mut damage, i, || point.damage_of(x, local_slip));
+            set(slip, || local_slip);
+            set(damage, || point.damage_of(x, local_slip));
         }
         Ok(())
     })
@@ -170,17 +167,14 @@ pub unsafe extern "C" fn mslip_monotonic_displacement(
     stick_half_width: *mut f64,
 ) -> i32 {
     call(|| {
-        let (contact, force, [mut displacement, mut compliance, mut stick_half_width]) =
+        let (contact, force, outputs) =
             (pointers::contact(contact)?, input(force, n)?, outputs([displacement, compliance, stick_half_width], n)?);
         force.iter().try_for_each(|&force| contact.check_force(force))?;
-        if displacement.is_none() && compliance.is_none() && stick_half_width.is_none() {
-            return Ok(());
-        }
-        for (i, &force) in force.iter().enumerate() {
+        for (&force, [displacement, compliance, stick_half_width]) in each(force, outputs) {
             let point = contact.curve_at_force(force)?;
-            set(&mut displacement, i, || point.displacement());
-            set(&mut compliance, i, || point.compliance());
-            set(&mut stick_half_width, i, || point.stick_half_width());
+            set(displacement, || point.displacement());
+            set(compliance, || point.compliance());
+            set(stick_half_width, || point.stick_half_width());
         }
         Ok(())
     })
@@ -205,10 +199,9 @@ pub unsafe extern "C" fn mslip_monotonic_force(
             (pointers::contact(contact)?, input(displacement, n)?, outputs([force, stiffness, stick_half_width], n)?);
         displacement.iter().try_for_each(|&displacement| check_displacement(displacement))?;
         contact.responses(displacement, force, stiffness);
-        if let Some(stick_half_width) = stick_half_width {
-            for (c, &displacement) in stick_half_width.iter_mut().zip(displacement) {
-                *c = contact.curve_at_displacement(displacement)?.stick_half_width();
-            }
+        for (&displacement, [stick_half_width]) in each(displacement, [stick_half_width]) {
+            let point = contact.curve_at_displacement(displacement)?;
+            set(stick_half_width, || point.stick_half_width());
         }
         Ok(())
     })

@@ -5,7 +5,7 @@ use crate::constant_load::equivalents;
 use crate::constant_load::stiffness_table::{StiffnessTable, TABLE_LENGTH};
 use crate::error::Error;
 use crate::ffi::mslip_contact;
-use crate::ffi::pointers::{self, call, input, output, outputs, set};
+use crate::ffi::pointers::{self, call, each, input, output, outputs, place, set};
 use libc::size_t;
 
 /// Hysteresis loop of the displacement amplitude cos(t), amplitude in \[m\]: displacement\[n\] \[m\] and force\[n\] \[N\] at n uniformly
@@ -21,15 +21,11 @@ pub unsafe extern "C" fn mslip_hysteresis_loop(
     force: *mut f64,
 ) -> i32 {
     call(|| {
-        let (contact, [mut displacement, mut force]) =
-            (pointers::contact(contact)?, outputs([displacement, force], n)?);
+        let (contact, outputs) = (pointers::contact(contact)?, outputs([displacement, force], n)?);
         let cycle = contact.hysteresis_loop(amplitude)?;
-        if displacement.is_none() && force.is_none() {
-            return Ok(());
-        }
-        for i in 0..n {
-            set(&mut displacement, i, || cycle.displacement(i, n));
-            set(&mut force, i, || cycle.force(i, n));
+        for (i, [displacement, force]) in each(0..n, outputs) {
+            set(displacement, || cycle.displacement(i, n));
+            set(force, || cycle.force(i, n));
         }
         Ok(())
     })
@@ -49,9 +45,9 @@ pub unsafe extern "C" fn mslip_dissipated_energy(
         let (contact, amplitude, energy) =
             (pointers::contact(contact)?, input(force_amplitude, n)?, output(energy, n)?);
         amplitude.iter().try_for_each(|&amplitude| contact.check_force_amplitude(amplitude))?;
-        let Some(energy) = energy else { return Ok(()) };
-        for (energy, &amplitude) in energy.iter_mut().zip(amplitude) {
-            *energy = contact.dissipated_energy(amplitude)?;
+        for (&amplitude, [energy]) in each(amplitude, [energy]) {
+            let dissipated = contact.dissipated_energy(amplitude)?;
+            set(energy, || dissipated);
         }
         Ok(())
     })
@@ -146,11 +142,10 @@ pub unsafe extern "C" fn mslip_jenkins_equivalent(
     slip_force: *mut f64,
 ) -> i32 {
     call(|| {
-        let (contact, [mut stiffness, mut slip_force]) =
-            (pointers::contact(contact)?, outputs([stiffness, slip_force], 1)?);
+        let (contact, stiffness, slip_force) = (pointers::contact(contact)?, place(stiffness)?, place(slip_force)?);
         let slider = equivalents::jenkins(contact, amplitude)?;
-        set(&mut stiffness, 0, || slider.stiffness);
-        set(&mut slip_force, 0, || slider.slip_force);
+        set(stiffness, || slider.stiffness);
+        set(slip_force, || slider.slip_force);
         Ok(())
     })
 }
@@ -173,15 +168,15 @@ pub unsafe extern "C" fn mslip_iwan_equivalent(
         pointers::check_length::<f64>(n)?;
         // Before arrays of that length are assumed.
         equivalents::check_count(n)?;
-        let (contact, [mut stiffness, mut slip_force], mut force_error) =
-            (pointers::contact(contact)?, outputs([stiffness, slip_force], n)?, output(force_error, 1)?);
-        let mut i = 0;
+        let (contact, outputs, force_error) =
+            (pointers::contact(contact)?, outputs([stiffness, slip_force], n)?, place(force_error)?);
+        let mut places = each(0..n, outputs).map(|(_, places)| places);
         let error = equivalents::iwan(contact, n, |slider| {
-            set(&mut stiffness, i, || slider.stiffness);
-            set(&mut slip_force, i, || slider.slip_force);
-            i += 1;
+            let [stiffness, slip_force] = places.next().unwrap_or_default();
+            set(stiffness, || slider.stiffness);
+            set(slip_force, || slider.slip_force);
         })?;
-        set(&mut force_error, 0, || error);
+        set(force_error, || error);
         Ok(())
     })
 }

@@ -3,7 +3,7 @@
 use crate::constant_load::{ConstantLoad, Law, masing, state};
 use crate::ffi::batch::{path, update_one};
 use crate::ffi::mslip_contact;
-use crate::ffi::pointers::{self, call, input, memory, output, outputs, set, state_input, status};
+use crate::ffi::pointers::{self, call, each, input, memory, outputs, place, set, state_input};
 use crate::limits::check_positions;
 use libc::size_t;
 
@@ -19,7 +19,7 @@ pub extern "C" fn mslip_state_length(reversals: size_t) -> size_t {
 /// Returns MSLIP_NULL_POINTER or MSLIP_STATE_TOO_SHORT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_state_init(state_length: size_t, state: *mut f64) -> i32 {
-    status(memory(state_length, state).and_then(ConstantLoad::state_init))
+    call(|| ConstantLoad::state_init(memory(state_length, state)?))
 }
 
 /// Validates a state that was read from a file or a message: all values must be finite and the reversals nested. Other functions only
@@ -28,7 +28,7 @@ pub unsafe extern "C" fn mslip_state_init(state_length: size_t, state: *mut f64)
 /// Returns MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or MSLIP_BAD_STATE.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_state_check(state_length: size_t, state: *const f64) -> i32 {
-    status(state_input(state_length, state).and_then(ConstantLoad::state_check))
+    call(|| ConstantLoad::state_check(state_input(state_length, state)?))
 }
 
 /// Bound on the error \[N\] of the force due to removed reversals: 0 if none was removed since the last gross slip.
@@ -37,9 +37,9 @@ pub unsafe extern "C" fn mslip_state_check(state_length: size_t, state: *const f
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_state_error(state_length: size_t, state: *const f64, force_error: *mut f64) -> i32 {
     call(|| {
-        let (state, mut force_error) = (state_input(state_length, state)?, output(force_error, 1)?);
+        let (state, force_error) = (state_input(state_length, state)?, place(force_error)?);
         ConstantLoad::check_header(state)?;
-        set(&mut force_error, 0, || ConstantLoad::force_error(state));
+        set(force_error, || ConstantLoad::force_error(state));
         Ok(())
     })
 }
@@ -104,10 +104,10 @@ pub unsafe extern "C" fn mslip_masing_tractions(
 ) -> i32 {
     call(|| {
         let (contact, state, x) = (pointers::contact(contact)?, state_input(state_length, state)?, input(x, n)?);
-        let [mut pressure, shear] = outputs([pressure, shear], n)?;
+        let [pressure, shear] = outputs([pressure, shear], n)?;
         check_positions(x)?;
         masing::shear_tractions(contact, state, x, shear.unwrap_or(&mut []))?;
-        x.iter().enumerate().for_each(|(i, &x)| set(&mut pressure, i, || contact.pressure(x)));
+        each(x, [pressure]).for_each(|(&x, [pressure])| set(pressure, || contact.pressure(x)));
         Ok(())
     })
 }
