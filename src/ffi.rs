@@ -35,7 +35,6 @@ pub use harmonic_force::*;
 use crate::constant_load::contact::Contact;
 use crate::element::Element;
 use crate::error::Error;
-use crate::parameters::{EllipticParameters, Parameters};
 use core::ffi::c_char;
 
 /// Version of this interface: incremented whenever a name, a meaning or a size changes.
@@ -124,21 +123,15 @@ pub struct mslip_element {
 }
 
 const _: () = {
-    use core::mem::offset_of;
-    assert!(size_of::<mslip_element>() == size_of::<Element>() && align_of::<mslip_element>() == align_of::<Element>());
-    assert!(offset_of!(Element, composite_modulus) == 0 && offset_of!(Element, friction_coefficient) == 8);
-    assert!(offset_of!(Element, normal_force) == 16 && offset_of!(Element, half_width) == 24);
-    assert!(offset_of!(Element, approach) == 32 && offset_of!(Element, normal_stiffness) == 40);
-    assert!(offset_of!(Element, tangential_stiffness) == 48 && offset_of!(Element, directions) == 56);
-    assert!(offset_of!(Element, normal_input) == 60);
-    assert!(size_of::<mslip_contact>() == size_of::<Contact>() && align_of::<mslip_contact>() == align_of::<Contact>());
-    assert!(offset_of!(Contact, composite_modulus) == 0 && offset_of!(Contact, half_width) == 8);
-    assert!(offset_of!(Contact, slip_force) == 16 && offset_of!(Contact, slip_displacement) == 24);
-    assert!(offset_of!(Contact, initial_stiffness) == 32 && offset_of!(Contact, slip_energy) == 40);
-    assert!(size_of::<Parameters>() == 112 && size_of::<EllipticParameters>() == 96);
-    assert!(offset_of!(Parameters, material) == 40 && offset_of!(Parameters, layer) == 72);
-    assert!(offset_of!(Parameters, reserved) == 108);
-    assert!(offset_of!(EllipticParameters, material) == 32 && offset_of!(EllipticParameters, layer) == 64);
+    macro_rules! is_laid_out_as {
+        ($public:ty, $own:ty: $($field:ident),*) => {
+            assert!(size_of::<$public>() == size_of::<$own>() && align_of::<$public>() == align_of::<$own>());
+            $(assert!(core::mem::offset_of!($public, $field) == core::mem::offset_of!($own, $field));)*
+        };
+    }
+    is_laid_out_as!(mslip_contact, Contact: composite_modulus, half_width, slip_force, slip_displacement, initial_stiffness, slip_energy);
+    is_laid_out_as!(mslip_element, Element: composite_modulus, friction_coefficient, normal_force, half_width, approach);
+    is_laid_out_as!(mslip_element, Element: normal_stiffness, tangential_stiffness, directions, normal_input);
 };
 
 /// Version of the library, "1.2.3".

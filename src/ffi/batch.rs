@@ -17,6 +17,12 @@ use crate::limits::check_coefficients;
 use core::{ptr, slice};
 use libc::size_t;
 
+/// Length of a state, the old state and the new one.
+type States = (usize, *const f64, *mut f64);
+
+/// Force, tangent and dissipated energy.
+type Outputs = [*mut f64; 3];
+
 /// Evaluates and writes one step with checked arguments.
 #[inline(never)]
 unsafe fn step<L: Law>(
@@ -25,7 +31,7 @@ unsafe fn step<L: Law>(
     state_old: *const f64,
     displacement: &L::Vector,
     state_new: *mut f64,
-    [force, tangent, dissipated]: [*mut f64; 3],
+    [force, tangent, dissipated]: Outputs,
 ) {
     let requested = Requested { tangent: !tangent.is_null(), energy: !dissipated.is_null() };
     // No reference to the old state is left when the new one, which may be the same memory, is written.
@@ -47,11 +53,9 @@ unsafe fn step<L: Law>(
 #[inline(always)]
 pub(super) unsafe fn update_one<L: Law>(
     law: &L::Item,
-    state_length: usize,
-    state_old: *const f64,
+    (state_length, state_old, state_new): States,
     displacement: *const f64,
-    state_new: *mut f64,
-    outputs: [*mut f64; 3],
+    outputs: Outputs,
 ) -> Result<(), Error> {
     let displacement = item(displacement.cast::<L::Vector>())?;
     check_alignment(state_new)?;
@@ -65,12 +69,10 @@ pub(super) unsafe fn update_one<L: Law>(
 /// Advances the state of a contact or element, which is checked, along a path.
 pub(super) unsafe fn path<L: Law>(
     law: &L::Item,
-    state_length: usize,
-    state_old: *const f64,
+    (state_length, state_old, state_new): States,
     n: usize,
     displacement: *const f64,
-    state_new: *mut f64,
-    [force, tangent, dissipated]: [*mut f64; 3],
+    [force, tangent, dissipated]: Outputs,
 ) -> Result<(), Error> {
     let path = input(displacement.cast::<L::Vector>(), n)?;
     let output = PathOutput {
@@ -164,11 +166,9 @@ impl Items<'_, Element> {
 #[inline(never)]
 unsafe fn update<L: Law>(
     items: Items<L::Item>,
-    state_length: usize,
-    states_old: *const f64,
+    (state_length, states_old, states_new): States,
     displacement: *const f64,
-    states_new: *mut f64,
-    outputs: [*mut f64; 3],
+    outputs: Outputs,
 ) -> Result<(), Error> {
     let length = items.n.checked_mul(state_length).ok_or(Error::BadArraySize)?;
     check_length::<L::Tangent>(items.n)?;
@@ -306,8 +306,8 @@ pub unsafe extern "C" fn mslip_batch_masing_update(
 ) -> i32 {
     call(|| {
         let items = Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?;
-        let outputs = [force, stiffness, dissipated];
-        update::<ConstantLoad>(items, state_length, states_old, displacement, states_new, outputs)
+        let states = (state_length, states_old, states_new);
+        update::<ConstantLoad>(items, states, displacement, [force, stiffness, dissipated])
     })
 }
 
@@ -363,10 +363,8 @@ pub unsafe extern "C" fn mslip_batch_element_update(
 ) -> i32 {
     call(|| {
         let items = Items::new(n, n_elements, elements.cast::<Element>(), index, active)?;
-        let outputs = [force, tangent, dissipated];
-        with_law!(items.directions(), L => {
-            update::<L>(items, state_length, states_old, displacement, states_new, outputs)
-        })
+        let (states, outputs) = ((state_length, states_old, states_new), [force, tangent, dissipated]);
+        with_law!(items.directions(), L => update::<L>(items, states, displacement, outputs))
     })
 }
 

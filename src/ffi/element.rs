@@ -206,11 +206,7 @@ pub extern "C" fn mslip_element_state_length(directions: i32, pieces: size_t) ->
 /// Returns MSLIP_BAD_DIRECTIONS, MSLIP_NULL_POINTER or MSLIP_STATE_TOO_SHORT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_state_init(directions: i32, state_length: size_t, state: *mut f64) -> i32 {
-    call(|| {
-        let directions = directions_of(directions)?;
-        let state = memory(state_length, state)?;
-        with_law!(directions, L => L::state_init(state))
-    })
+    call(|| with_law!(directions_of(directions)?, L => L::state_init(memory(state_length, state)?)))
 }
 
 /// Validates the state of an element that was read from a file or a message: all values must be finite and possible, for one
@@ -220,11 +216,7 @@ pub unsafe extern "C" fn mslip_element_state_init(directions: i32, state_length:
 /// MSLIP_BAD_STATE.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_state_check(directions: i32, state_length: size_t, state: *const f64) -> i32 {
-    call(|| {
-        let directions = directions_of(directions)?;
-        let state = state_input(state_length, state)?;
-        with_law!(directions, L => L::state_check(state))
-    })
+    call(|| with_law!(directions_of(directions)?, L => L::state_check(state_input(state_length, state)?)))
 }
 
 /// Bound on the error \[N\] of the tangential force due to merged pieces: 0 if none was merged since the last gross slip or
@@ -272,10 +264,9 @@ pub unsafe extern "C" fn mslip_element_update(
     dissipated: *mut f64,
 ) -> i32 {
     call(|| {
-        let (element, outputs) = (pointers::element(element)?, [force, tangent, dissipated]);
-        with_law!(element.tangential_directions(), L => {
-            update_one::<L>(element, state_length, state_old, displacement, state_new, outputs)
-        })
+        let element = pointers::element(element)?;
+        let (states, outputs) = ((state_length, state_old, state_new), [force, tangent, dissipated]);
+        with_law!(element.tangential_directions(), L => update_one::<L>(element, states, displacement, outputs))
     })
 }
 
@@ -298,10 +289,9 @@ pub unsafe extern "C" fn mslip_element_path(
     dissipated: *mut f64,
 ) -> i32 {
     call(|| {
-        let (element, outputs) = (pointers::element(element)?, [force, tangent, dissipated]);
-        with_law!(element.tangential_directions(), L => {
-            path::<L>(element, state_length, state_old, n, displacement, state_new, outputs)
-        })
+        let element = pointers::element(element)?;
+        let (states, outputs) = ((state_length, state_old, state_new), [force, tangent, dissipated]);
+        with_law!(element.tangential_directions(), L => path::<L>(element, states, n, displacement, outputs))
     })
 }
 

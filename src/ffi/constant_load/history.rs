@@ -60,8 +60,8 @@ pub unsafe extern "C" fn mslip_masing_update(
     dissipated: *mut f64,
 ) -> i32 {
     call(|| {
-        let (contact, outputs) = (pointers::contact(contact)?, [force, stiffness, dissipated]);
-        update_one::<ConstantLoad>(contact, state_length, state_old, &raw const displacement, state_new, outputs)
+        let (states, outputs) = ((state_length, state_old, state_new), [force, stiffness, dissipated]);
+        update_one::<ConstantLoad>(pointers::contact(contact)?, states, &raw const displacement, outputs)
     })
 }
 
@@ -83,8 +83,8 @@ pub unsafe extern "C" fn mslip_masing_path(
     dissipated: *mut f64,
 ) -> i32 {
     call(|| {
-        let (contact, outputs) = (pointers::contact(contact)?, [force, stiffness, dissipated]);
-        path::<ConstantLoad>(contact, state_length, state_old, n, displacement, state_new, outputs)
+        let (states, outputs) = ((state_length, state_old, state_new), [force, stiffness, dissipated]);
+        path::<ConstantLoad>(pointers::contact(contact)?, states, n, displacement, outputs)
     })
 }
 
