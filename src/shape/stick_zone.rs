@@ -455,8 +455,11 @@ impl StickZones {
 
     /// c/b.
     pub fn size(&self, zone: &StickZone) -> f64 {
-        let [square, _] = self.squares(zone);
-        (self.b.flat * self.b.flat + square).sqrt().max(self.b.flat)
+        match (zone.size_parameter, self.squares(zone)) {
+            (Some(_), [square, _]) => (self.b.flat * self.b.flat + square).sqrt().max(self.b.flat),
+            // The size b at no load.
+            (None, [_, squares]) => (1.0 - squares).sqrt(),
+        }
     }
 
     /// Pressure, less that of the size with `[w², w_b² - w²]`.
