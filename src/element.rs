@@ -333,13 +333,22 @@ impl Element {
         [quantity, argument]: [Quantity; 2],
         x: &[f64; L],
     ) -> ([f64; L], [f64; L]) {
-        table.and_then(|table| table.at::<SLOPES, L>(x)).unwrap_or_else(|| {
-            let (mut values, mut slopes) = ([0.0; L], [0.0; L]);
-            for ((value, slope), &x) in values.iter_mut().zip(&mut slopes).zip(x) {
-                (*value, *slope) = self.one(table, [quantity, argument], x);
-            }
-            (values, slopes)
-        })
+        match table.and_then(|table| table.at::<SLOPES, L>(x)) {
+            Some(results) => results,
+            None => self.one_by_one(table, [quantity, argument], *x),
+        }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn one_by_one<const L: usize>(
+        &self,
+        table: Option<&Table>,
+        quantities: [Quantity; 2],
+        x: [f64; L],
+    ) -> ([f64; L], [f64; L]) {
+        let results = x.map(|x| self.one(table, quantities, x));
+        (results.map(|(value, _)| value), results.map(|(_, slope)| slope))
     }
 
     #[inline(never)]

@@ -9,6 +9,7 @@
 use crate::numerics::chebyshev::monic_powers;
 use crate::numerics::const_math::tabulate;
 use crate::shape::{ORDER, Series};
+use core::hint::black_box;
 use wide::f64x2;
 
 /// Coefficients of a quarter.
@@ -104,6 +105,13 @@ impl Table {
                 let high = rows[k][4 + c] + last;
                 cubics[k][c] = rows[k][c] + power * high;
                 by_blocks[k][c] = high + last;
+            }
+        }
+        if L > 1 {
+            // In memory, so that the compiler combines the coefficients of a row in vectors, not those of all rows.
+            cubics = black_box(cubics);
+            if SLOPES {
+                by_blocks = black_box(by_blocks);
             }
         }
         let (mut values, mut slopes) = ([0.0; L], [0.0; L]);
