@@ -1,8 +1,8 @@
 //! Fourier synthesis and sums over uniformly spaced samples, folded by symmetry.
 //!
 //! With `t = 2π n/N`, cosines keep and sines change their sign under n -> N - n. If N is even, moreover, even orders keep and odd
-//! orders change their sign under n -> n + N/2. So four (two if N is odd) partial series over the positions 0 <= n <= N/4 (N/2)
-//! give all samples, and four folded sums of the samples give all Fourier sums.
+//! orders change their sign under n -> n + N/2. So four (two if N is odd or 4) partial series over the positions 0 <= n <= N/4 (N/2)
+//! give all samples, and four folded sums of the samples give all Fourier sums. All blocks of four positions are inside the arrays.
 //!
 //! Arrays of samples have [`sample_length`] values: some beyond the period, where they are continued periodically.
 
@@ -17,9 +17,15 @@ pub(crate) fn sample_length(samples: usize) -> usize {
     padded(samples + 1)
 }
 
+/// Whether the samples are folded twice, to a quarter of the period.
+#[inline(always)]
+fn folds_twice(samples: usize) -> bool {
+    samples.is_multiple_of(2) && samples > 4
+}
+
 /// Blocks of four positions.
 fn position_blocks(samples: usize) -> usize {
-    let positions = if samples.is_multiple_of(2) { samples / 4 + 1 } else { samples / 2 + 1 };
+    let positions = if folds_twice(samples) { samples / 4 + 1 } else { samples / 2 + 1 };
     positions.div_ceil(4)
 }
 
@@ -28,10 +34,10 @@ const SYMMETRIES: usize = 4;
 
 /// Weight of a position in the folded sums: 1/2 if a fold maps its samples onto themselves, 0 beyond the last position.
 fn weight(n: usize, samples: usize) -> f64 {
-    let (is_even, twice) = (samples.is_multiple_of(2), 4 * n);
-    if n == 0 || (is_even && twice == samples) {
+    let unfolded = if folds_twice(samples) { 4 * n } else { 2 * n };
+    if n == 0 || unfolded == samples {
         0.5
-    } else if (is_even && twice > samples) || 2 * n > samples {
+    } else if unfolded > samples {
         0.0
     } else {
         1.0
@@ -88,7 +94,7 @@ impl<'a> FoldedFourier<'a> {
         let Some((&constant, pairs)) = coefficients.split_first() else { return };
         let (quads, last) = pairs.as_chunks::<4>();
         let (samples, half) = (self.samples, self.samples / 2);
-        for (first, row_quads) in (0..).step_by(4).zip(self.quads.chunks_exact((self.orders / 2).max(1))) {
+        for (block, row_quads) in self.quads.chunks_exact((self.orders / 2).max(1)).enumerate() {
             let (mut odd_cosines, mut odd_sines) = ([0.0; 4], [0.0; 4]);
             let (mut even_cosines, mut even_sines) = ([constant; 4], [0.0; 4]);
             for (&[a, b, c, d], rows) in quads.iter().zip(row_quads) {
@@ -105,18 +111,18 @@ impl<'a> FoldedFourier<'a> {
                     odd_sines[k] += b * rows[1][k];
                 }
             }
-            if samples.is_multiple_of(2) {
+            if folds_twice(samples) {
                 let (even, odd) = (add(even_cosines, even_sines), add(odd_cosines, odd_sines));
                 let (even_mirrored, odd_mirrored) =
                     (subtract(even_cosines, even_sines), subtract(odd_cosines, odd_sines));
-                store(values, first, add(even, odd));
-                store(values, half + first, subtract(even, odd));
-                store_reversed(values, half.checked_sub(first), subtract(even_mirrored, odd_mirrored));
-                store_reversed(values, samples.checked_sub(first), add(even_mirrored, odd_mirrored));
+                store(values, 0, block, add(even, odd));
+                store(values, half, block, subtract(even, odd));
+                store_reversed(values, half, block, subtract(even_mirrored, odd_mirrored));
+                store_reversed(values, samples, block, add(even_mirrored, odd_mirrored));
             } else {
                 let (cosines, sines) = (add(even_cosines, odd_cosines), add(even_sines, odd_sines));
-                store(values, first, add(cosines, sines));
-                store_reversed(values, samples.checked_sub(first), subtract(cosines, sines));
+                store(values, 0, block, add(cosines, sines));
+                store_reversed(values, samples, block, subtract(cosines, sines));
             }
         }
         continue_periodically(values, samples);
@@ -138,11 +144,13 @@ impl<'a> FoldedFourier<'a> {
         self.sum(values.get_mut(..sample_length(samples)).unwrap_or(&mut []), sums);
     }
 
-    /// Sums of the samples times 1, cos t, sin t, cos 2t, ..., one for each of `sums`. Continues the values periodically.
+    /// Sums of the samples times 1, cos t, sin t, cos 2t, ..., one for each of `sums`. The first value is repeated after the period.
     #[inline(always)]
     pub fn sum(&mut self, values: &mut [f64], sums: &mut [f64]) {
         dispatch!({
-            continue_periodically(values, self.samples);
+            if let Some(([first, ..], [next, ..])) = values.split_at_mut_checked(self.samples) {
+                *next = *first;
+            }
             self.fold(values);
             let FoldedFourier { quads, folded, totals, .. } = self;
             let stride = (self.orders / 2).max(1);
@@ -182,24 +190,19 @@ impl<'a> FoldedFourier<'a> {
     #[inline(always)]
     fn fold(&mut self, values: &[f64]) {
         let (samples, half) = (self.samples, self.samples / 2);
-        let upwards = |first: usize| values.get(first..).unwrap_or(&[]).as_chunks::<4>().0.iter();
-        let downwards = |first: usize| values.get(..=first).unwrap_or(&[]).as_rchunks::<4>().1.iter().rev();
-        let mut blocks = upwards(0).zip(downwards(samples)).zip(upwards(half)).zip(downwards(half));
-        for ((first, weights), folded) in (0..).step_by(4).zip(self.weights.iter()).zip(self.folded.iter_mut()) {
-            if samples.is_multiple_of(2) {
-                // Checked one by one only if there are few samples.
+        let upwards = |from: usize| values.get(from..).unwrap_or(&[]).as_chunks::<4>().0;
+        let downwards = |from: usize| values.get(..=from).unwrap_or(&[]).as_rchunks::<4>().1;
+        let [here, opposite] = [upwards(0), upwards(half)];
+        let [mirrored, mirrored_opposite] = [downwards(samples), downwards(half)];
+        for (block, (weights, folded)) in self.weights.iter().zip(self.folded.iter_mut()).enumerate() {
+            let (Some(a), Some(b)) = (here.get(block), mirrored.iter().nth_back(block)) else { return };
+            if folds_twice(samples) {
+                let (Some(c), Some(d)) = (opposite.get(block), mirrored_opposite.iter().nth_back(block)) else {
+                    return;
+                };
                 // In memory, so that the compiler combines the values in vectors.
-                let [here, mirrored, opposite, mirrored_opposite] = *black_box(&match blocks.next() {
-                    Some((((a, b), c), d)) => [*a, reversed(*b), *c, reversed(*d)],
-                    None => [
-                        load(values, first),
-                        load_reversed(values, samples.checked_sub(first)),
-                        load(values, half + first),
-                        load_reversed(values, half.checked_sub(first)),
-                    ],
-                });
-                let (e, o) = (add(here, opposite), subtract(here, opposite));
-                let (em, om) = (add(mirrored, mirrored_opposite), subtract(mirrored, mirrored_opposite));
+                let [a, b, c, d] = *black_box(&[*a, reversed(*b), *c, reversed(*d)]);
+                let (e, o, em, om) = (add(a, c), subtract(a, c), add(b, d), subtract(b, d));
                 *folded = [
                     times(*weights, add(o, om)),
                     times(*weights, subtract(o, om)),
@@ -207,9 +210,8 @@ impl<'a> FoldedFourier<'a> {
                     times(*weights, subtract(e, em)),
                 ];
             } else {
-                let (here, mirrored) = (load(values, first), load_reversed(values, samples.checked_sub(first)));
-                let (cosines, sines) =
-                    (times(*weights, add(here, mirrored)), times(*weights, subtract(here, mirrored)));
+                let (a, b) = (*a, reversed(*b));
+                let (cosines, sines) = (times(*weights, add(a, b)), times(*weights, subtract(a, b)));
                 *folded = [cosines, sines, cosines, sines];
             }
         }
@@ -221,7 +223,9 @@ impl<'a> FoldedFourier<'a> {
 pub(crate) fn continue_periodically(values: &mut [f64], samples: usize) {
     let (period, beyond) = values.split_at_mut_checked(samples).unwrap_or((&mut [], &mut []));
     for beyond in beyond.chunks_mut(samples.max(1)) {
-        beyond.iter_mut().zip(period.iter()).for_each(|(value, continued)| *value = *continued);
+        if let Some(continued) = period.get(..beyond.len()) {
+            beyond.copy_from_slice(continued);
+        }
     }
 }
 
@@ -264,49 +268,26 @@ fn sum_of([a, b, c, d]: [f64; 4]) -> f64 {
     (a + c) + (b + d)
 }
 
-/// Four consecutive values; those outside the array are 0, with the sign that keeps compilers from an instruction that valgrind does
-/// not know.
-#[inline(always)]
-fn load(values: &[f64], first: usize) -> [f64; 4] {
-    match values.get(first..).and_then(<[f64]>::first_chunk) {
-        Some(block) => *block,
-        None => [0, 1, 2, 3].map(|k| values.get(first + k).copied().unwrap_or(-0.0)),
-    }
-}
-
 #[inline(always)]
 fn reversed([a, b, c, d]: [f64; 4]) -> [f64; 4] {
     [d, c, b, a]
 }
 
-/// Four consecutive values downwards from `first`.
+/// Stores a block upwards from a value, after the given number of blocks.
 #[inline(always)]
-fn load_reversed(values: &[f64], first: Option<usize>) -> [f64; 4] {
-    let Some(first) = first else { return [0.0; 4] };
-    match first.checked_sub(3).and_then(|last| values.get(last..)).and_then(<[f64]>::first_chunk) {
-        Some(&[a, b, c, d]) => [d, c, b, a],
-        None => [0, 1, 2, 3].map(|k| first.checked_sub(k).and_then(|at| values.get(at)).copied().unwrap_or(-0.0)),
+fn store(values: &mut [f64], from: usize, before: usize, block: [f64; 4]) {
+    if let Some(place) = values.get_mut(from..).and_then(|values| values.as_chunks_mut().0.get_mut(before)) {
+        *place = block;
     }
 }
 
+/// Stores a block downwards from a value, after the given number of blocks.
 #[inline(always)]
-fn store(values: &mut [f64], first: usize, block: [f64; 4]) {
-    match values.get_mut(first..).and_then(<[f64]>::first_chunk_mut) {
-        Some(place) => *place = block,
-        None => values.iter_mut().skip(first).zip(block).for_each(|(place, value)| *place = value),
-    }
-}
-
-#[inline(always)]
-fn store_reversed(values: &mut [f64], first: Option<usize>, block: [f64; 4]) {
-    let Some(first) = first else { return };
-    match first.checked_sub(3).and_then(|last| values.get_mut(last..)).and_then(<[f64]>::first_chunk_mut) {
-        Some(place) => *place = [block[3], block[2], block[1], block[0]],
-        None => {
-            for (place, value) in values.iter_mut().take(first + 1).rev().zip(block) {
-                *place = value;
-            }
-        }
+fn store_reversed(values: &mut [f64], from: usize, before: usize, block: [f64; 4]) {
+    if let Some(place) =
+        values.get_mut(..=from).and_then(|values| values.as_rchunks_mut().1.iter_mut().nth_back(before))
+    {
+        *place = reversed(block);
     }
 }
 

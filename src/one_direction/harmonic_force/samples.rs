@@ -1,7 +1,6 @@
 //! Normal states and characteristic coordinates of the samples.
 
 use crate::element::{Element, Normal};
-use crate::fourier::folded::continue_periodically;
 use crate::simd::dispatch;
 
 /// Arrays over the samples of a period, continued periodically to whole blocks of four.
@@ -107,8 +106,6 @@ impl Samples<'_> {
                     *stiffness = quotients;
                 }
             }
-            // The values beyond the period, which the characteristic coordinates are computed from.
-            continue_periodically(self.shift, self.count);
         });
     }
 
