@@ -107,12 +107,9 @@ impl Table {
                 by_blocks[k][c] = high + last;
             }
         }
-        if L > 1 {
+        if L > 1 && !SLOPES {
             // In memory, so that the compiler combines the coefficients of a row in vectors, not those of all rows.
             cubics = black_box(cubics);
-            if SLOPES {
-                by_blocks = black_box(by_blocks);
-            }
         }
         let (mut values, mut slopes) = ([0.0; L], [0.0; L]);
         for k in 0..L {

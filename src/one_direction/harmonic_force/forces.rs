@@ -39,13 +39,10 @@ impl Forces<'_> {
     /// `[N, T]` at the end of a piece.
     #[inline(always)]
     fn at_place(&self, samples: &Samples, place: Place) -> [f64; 2] {
-        if place == Place::CENTRE {
-            [0.0; 2]
-        } else if place.is_end() {
-            [at(samples.load, place.sample()), at(self.force, place.sample())]
-        } else {
-            [at(self.last_cut_load, place.sample()), at(self.last_cut_force, place.sample())]
-        }
+        let (sample, is_end) = (place.sample(), place.is_end());
+        let loads = if is_end { &*samples.load } else { &*self.last_cut_load };
+        let forces = if is_end { &*self.force } else { &*self.last_cut_force };
+        [at(loads, sample), at(forces, sample)]
     }
 
     /// Evaluates the forces of all runs, from the shifts at the boundaries, and what their derivatives need if `SLOPES`.

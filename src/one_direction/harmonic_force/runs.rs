@@ -29,33 +29,35 @@ impl Kind {
 }
 
 record! {
-    /// End of a piece of the diagram: twice the sample, and one more for the whole contact than for the boundary of the slip zone.
+    /// End of a piece of the diagram: 0 for the centre of the contact; otherwise twice the number of samples up to one, and one more
+    /// for the whole contact than for the boundary of the slip zone.
     #[derive(PartialEq)]
     pub(super) struct Place {
-        code: f64,
+        code: u64,
     }
 }
 
 impl Place {
     /// The centre of the contact.
-    pub const CENTRE: Place = Place { code: -1.0 };
+    pub const CENTRE: Place = Place { code: 0 };
 
     /// The whole contact at a sample.
     fn end(sample: usize) -> Place {
-        Place { code: (2 * sample as u32 + 1).into() }
+        Place { code: 2 * sample as u64 + 3 }
     }
 
     /// The boundary of the slip zone at a sample.
     fn cut(sample: usize) -> Place {
-        Place { code: (2 * sample as u32).into() }
+        Place { code: 2 * sample as u64 + 2 }
     }
 
     pub fn is_end(self) -> bool {
-        self.code as u32 % 2 == 1
+        self.code % 2 == 1
     }
 
+    /// The sample; no sample has the index of the centre.
     pub fn sample(self) -> usize {
-        (self.code as u32 / 2) as usize
+        (self.code as usize / 2).wrapping_sub(1)
     }
 }
 
@@ -127,7 +129,7 @@ impl Knot {
 
     /// A knot as in other diagrams, which have forces.
     fn numbers(&self) -> [f64; 4] {
-        [self.xi, self.eta, self.place.code, 0.0]
+        [self.xi, self.eta, f64::from_bits(self.place.code), 0.0]
     }
 }
 
@@ -147,23 +149,16 @@ pub(super) struct Extent {
     pub cuts: usize,
 }
 
-/// The stack of knots.
-struct Stack<'a> {
+/// A walk along samples: the stack of knots, and the runs so far.
+struct Walk<'a> {
     knots: &'a mut [[f64; 4]],
     depth: usize,
+    runs: &'a mut [Run],
+    cut_shift: &'a mut [f64],
+    extent: Extent,
 }
 
-impl<'a> Stack<'a> {
-    /// The diagram before the first sample of a part.
-    fn new(knots: &'a mut [[f64; 4]], part: &Part) -> Stack<'a> {
-        let mut stack = Stack { knots, depth: 0 };
-        stack.restart(0.0);
-        if !part.opens {
-            stack.push(Knot::CORE);
-        }
-        stack
-    }
-
+impl Walk<'_> {
     /// Starts anew from the displacement of the centre.
     fn restart(&mut self, displacement: f64) {
         self.depth = 0;
@@ -174,38 +169,9 @@ impl<'a> Stack<'a> {
         self.knots.get(..self.depth).unwrap_or(&[])
     }
 
-    /// Advances along the leading samples of a range that change the diagram in the same way; `cuts` receives the boundaries of their
-    /// slip zones.
-    fn advance(
-        &mut self,
-        element: &Element,
-        samples: &Samples,
-        part: &Part,
-        range: Range<usize>,
-        cuts: &mut [f64],
-    ) -> Run {
-        let (first, span) = (range.start, Span::of(samples, range));
-        let run = if part.opens && samples.is_open(first) {
-            let closes = span.inputs.iter().position(|input| *input > 0.0);
-            Run { count: closes.unwrap_or(span.inputs.len()) as u64, ..Run::EMPTY }
-        } else {
-            if part.opens && samples.is_open(samples.before(first)) {
-                self.restart(closing(samples, element, first).displacement);
-            }
-            if !self.close_loops(at(span.xi, 0), at(span.eta, 0)) {
-                stick(self, span)
-            } else if self.depth == 0 {
-                slip_grossly(self, span)
-            } else {
-                slip(self, span, element.per_two_mu, cuts)
-            }
-        };
-        Run { first: first as u64, ..run }
-    }
-
     fn knot(&self, index: usize) -> Knot {
         let [xi, eta, code, _] = self.knots.get(index).copied().unwrap_or([0.0; 4]);
-        Knot { xi, eta, place: Place { code } }
+        Knot { xi, eta, place: Place { code: code.to_bits() } }
     }
 
     fn push(&mut self, knot: Knot) {
@@ -215,8 +181,47 @@ impl<'a> Stack<'a> {
         }
     }
 
+    /// Advances along samples, run by run.
+    #[inline(always)]
+    fn advance(&mut self, element: &Element, samples: &Samples, part: &Part, range: Range<usize>) {
+        let end = range.end;
+        let (Some(xi), Some(eta), Some(inputs)) =
+            (samples.xi.get(..end), samples.eta.get(..end), samples.input.get(..end))
+        else {
+            return;
+        };
+        let mut next = range.start;
+        while let (Some(&x), Some(&y), Some(&input)) = (xi.get(next), eta.get(next), inputs.get(next))
+            && self.extent.runs < self.runs.len()
+        {
+            let mut run = if part.opens && input <= 0.0 {
+                let closes = inputs.iter().skip(next).position(|input| *input > 0.0);
+                Run { count: closes.unwrap_or(end - next) as u64, ..Run::EMPTY }
+            } else {
+                if part.opens && samples.is_open(samples.before(next)) {
+                    self.restart(closing(samples, element, next).displacement);
+                }
+                if !self.close_loops(x, y) {
+                    self.stick(next, [xi, eta])
+                } else if self.depth == 0 {
+                    self.slip_grossly(next, x, [xi, eta, inputs])
+                } else {
+                    self.slip(next, [xi, eta], [x, y], element.per_two_mu)
+                }
+            };
+            (run.first, run.packed) = (next as u64, self.extent.cuts as u64);
+            next += run.count as usize;
+            self.extent.cuts += if run.kind == Kind::SLIP { run.count as usize } else { 0 };
+            if let Some(place) = self.runs.get_mut(self.extent.runs) {
+                *place = run;
+                self.extent.runs += 1;
+            }
+        }
+    }
+
     /// Closes the loops that a step to ξ = x, η = y passes: removes the knots outside the quadrant ξ > x, η < y. Returns whether
     /// one was removed.
+    #[inline(always)]
     fn close_loops(&mut self, x: f64, y: f64) -> bool {
         let before = self.depth;
         while let Some(&[xi, eta, ..]) = self.depth.checked_sub(1).and_then(|top| self.knots.get(top))
@@ -226,24 +231,96 @@ impl<'a> Stack<'a> {
         }
         self.depth < before
     }
-}
 
-/// Samples that follow each other in memory.
-#[derive(Clone, Copy)]
-struct Span<'a> {
-    first: usize,
-    xi: &'a [f64],
-    eta: &'a [f64],
-    inputs: &'a [f64],
-}
+    /// Samples that stick.
+    #[inline(always)]
+    fn stick(&mut self, first: usize, [xi, eta]: [&[f64]; 2]) -> Run {
+        let kept = self.depth;
+        let inner = self.knot(kept - 1);
+        let (mut last, mut sample) = (inner, first);
+        while let (Some(&x), Some(&y)) = (xi.get(sample), eta.get(sample))
+            && x < last.xi
+            && y > last.eta
+        {
+            last = Knot { xi: x, eta: y, place: Place::end(sample) };
+            self.push(last);
+            sample += 1;
+        }
+        Run {
+            kind: Kind::STUCK,
+            count: (self.depth - kept) as u64,
+            kept: kept as u64,
+            inner: inner.place,
+            parameter: inner.xi,
+            ..Run::EMPTY
+        }
+    }
 
-impl<'a> Span<'a> {
-    fn of(samples: &'a Samples, range: Range<usize>) -> Span<'a> {
-        let [xi, eta, inputs] =
-            [&*samples.xi, samples.eta, samples.input].map(|values| values.get(range.clone()).unwrap_or(&[]));
-        Span { first: range.start, xi, eta, inputs }
+    /// Samples of gross slip in one direction, from an empty stack that still holds the centre in its memory.
+    #[inline(always)]
+    fn slip_grossly(&mut self, first: usize, x: f64, [xi, eta, inputs]: [&[f64]; 3]) -> Run {
+        let (sign, moving) = if self.knot(0).xi <= x { (1.0, xi) } else { (-1.0, eta) };
+        let later = |values| <[f64]>::get(values, first + 1..).unwrap_or(&[]).iter();
+        let mut before = sign * at(moving, first);
+        let continues = |(moving, input): &(&f64, &f64)| {
+            let continues = sign * *moving >= before && **input > 0.0;
+            before = sign * *moving;
+            continues
+        };
+        let last = first + later(moving).zip(later(inputs)).take_while(continues).count();
+        self.push(Knot::centre(at(moving, last)));
+        self.push(Knot { xi: at(xi, last), eta: at(eta, last), place: Place::end(last) });
+        Run { kind: Kind::GROSS_SLIP, count: (last + 1 - first) as u64, sign, ..Run::EMPTY }
+    }
+
+    /// Samples whose slip zone grows in one direction, along the piece above the last knot that stays.
+    #[inline(always)]
+    fn slip(&mut self, first: usize, [xi, eta]: [&[f64]; 2], [x, y]: [f64; 2], per_two_mu: f64) -> Run {
+        let kept = self.depth;
+        let (inner, outer) = (self.knot(kept - 1), self.knot(kept));
+        let (falling, rising) = (inner.xi - outer.xi, outer.eta - inner.eta);
+        // The piece leaves the quadrant through ξ = x unless it crosses η = y first: the quotient is at most 1.
+        let is_forward =
+            outer.xi <= x && (rising <= 0.0 || inner.eta + rising * ((inner.xi - x) / falling.max(SMALLEST)) <= y);
+        // Coordinates such that slip in either direction is forward slip, and the change of the other coordinate along the piece, which
+        // is 0 for a slip zone.
+        let (sign, [moving, other], [inner_x, inner_y], [by, change]) = if is_forward {
+            (1.0, [xi, eta], [inner.xi, inner.eta], [falling, rising])
+        } else {
+            (-1.0, [eta, xi], [-inner.eta, -inner.xi], [rising, falling])
+        };
+        let ratio = if change > 0.0 { change / by.max(SMALLEST) } else { 0.0 };
+        let (mut sample, mut last, mut last_cut) = (first, [f64::MIN; 2], 0.0);
+        let places = self.cut_shift.get_mut(self.extent.cuts..).unwrap_or(&mut []);
+        for place in places {
+            let (Some(moving), Some(other)) = (moving.get(sample), other.get(sample)) else { break };
+            let (x, y) = (sign * moving, sign * other);
+            let cut = inner_y + ratio * (inner_x - x);
+            if sample > first && (x < last[0] || x >= inner_x || cut > y) {
+                break;
+            }
+            *place = ((cut - x) * per_two_mu).max(0.0);
+            (last, last_cut) = ([x, y], cut);
+            sample += 1;
+        }
+        let [x, y] = last;
+        let [cut, end] = [[x, last_cut], [x, y]].map(|[x, y]| if is_forward { [x, y] } else { [-y, -x] });
+        self.push(Knot { xi: cut[0], eta: cut[1], place: Place::cut(sample - 1) });
+        self.push(Knot { xi: end[0], eta: end[1], place: Place::end(sample - 1) });
+        Run {
+            kind: Kind::SLIP,
+            count: (sample - first) as u64,
+            kept: kept as u64,
+            inner: inner.place,
+            sign,
+            parameter: slope(falling, rising),
+            ..Run::EMPTY
+        }
     }
 }
+
+/// Lower bound of divisors: compilers may divide before they compare.
+const SMALLEST: f64 = 1e-150;
 
 impl PeriodicPath<'_> {
     /// The packed boundaries in blocks of four.
@@ -251,24 +328,25 @@ impl PeriodicPath<'_> {
         self.cut_shift.as_chunks().0.get(..extent.cuts.div_ceil(4)).unwrap_or(&[])
     }
 
+    /// A walk from the diagram before the first sample of a part.
+    fn walk(&mut self, part: &Part) -> Walk<'_> {
+        let PeriodicPath { knots, runs, cut_shift } = self;
+        let mut walk = Walk { knots, depth: 0, runs, cut_shift, extent: Extent { runs: 0, cuts: 0 } };
+        walk.restart(0.0);
+        if !part.opens {
+            walk.push(Knot::CORE);
+        }
+        walk
+    }
+
     /// Finds the runs along a part of the period.
     #[inline(never)]
     pub fn evaluate(&mut self, element: &Element, samples: &Samples, part: &Part) -> Extent {
-        let mut stack = Stack::new(self.knots, part);
-        let mut runs = self.runs.iter_mut();
-        let mut extent = Extent { runs: 0, cuts: 0 };
+        let mut walk = self.walk(part);
         for range in ranges(part, samples.count) {
-            let mut next = range.start;
-            while next < range.end {
-                let Some(place) = runs.next() else { break };
-                let cuts = self.cut_shift.get_mut(extent.cuts..).unwrap_or(&mut []);
-                let run = stack.advance(element, samples, part, next..range.end, cuts);
-                *place = Run { packed: extent.cuts as u64, ..run };
-                extent.cuts += if run.kind == Kind::SLIP { run.count as usize } else { 0 };
-                extent.runs += 1;
-                next += run.count as usize;
-            }
+            walk.advance(element, samples, part, range);
         }
+        let extent = walk.extent;
         // Fills the last block of four.
         let last = extent.cuts.checked_sub(1).map_or(0.0, |last| at(self.cut_shift, last));
         self.cut_shift.iter_mut().skip(extent.cuts).take(3).for_each(|place| *place = last);
@@ -278,7 +356,7 @@ impl PeriodicPath<'_> {
     /// Energy \[J\] dissipated in the steps along a part of the period.
     #[inline(never)]
     pub fn dissipated(&mut self, element: &Element, samples: &Samples, part: &Part) -> f64 {
-        let mut stack = Stack::new(self.knots, part);
+        let mut walk = self.walk(part);
         let mut energy = 0.0;
         // The step to the first sample (or to its counterpart half a period later) is the last.
         let steps = ranges(&Part { length: part.length + 1, ..*part }, samples.count).into_iter().flatten();
@@ -290,130 +368,20 @@ impl PeriodicPath<'_> {
                 let shift = [before, sample].map(|sample| at(samples.shift, sample));
                 if was_open {
                     start = closing(samples, element, sample).displacement;
-                    stack.restart(start);
+                    walk.restart(start);
                 } else if is_open {
                     end = closing(samples, element, sample).displacement;
                 }
-                energy += energy::dissipated(element, stack.used(), &Path { shift, displacement: end - start });
+                energy += energy::dissipated(element, walk.used(), &Path { shift, displacement: end - start });
             }
-            stack.advance(element, samples, part, sample..sample + 1, self.cut_shift);
+            walk.extent = Extent { runs: 0, cuts: 0 };
+            walk.advance(element, samples, part, sample..sample + 1);
         }
         energy
-    }
-}
-
-/// Samples that stick.
-fn stick(stack: &mut Stack, span: Span) -> Run {
-    let kept = stack.depth;
-    let inner = stack.knot(kept.saturating_sub(1));
-    let (mut xi, mut eta, mut count) = (inner.xi, inner.eta, 0);
-    let places = stack.knots.get_mut(kept..).unwrap_or(&mut []);
-    for ((&x, &y), place) in span.xi.iter().zip(span.eta).zip(places) {
-        if x >= xi || y <= eta {
-            break;
-        }
-        *place = Knot { xi: x, eta: y, place: Place::end(span.first + count) }.numbers();
-        (xi, eta) = (x, y);
-        count += 1;
-    }
-    stack.depth += count;
-    Run {
-        kind: Kind::STUCK,
-        count: count as u64,
-        kept: kept as u64,
-        inner: inner.place,
-        parameter: inner.xi,
-        ..Run::EMPTY
-    }
-}
-
-/// Samples of gross slip in one direction, from an empty stack that still holds the centre in its memory.
-fn slip_grossly(stack: &mut Stack, span: Span) -> Run {
-    let is_forward = span.xi.first().is_some_and(|x| stack.knot(0).xi <= *x);
-    let (count, [xi, eta]) = if is_forward { count_gross_slip::<true>(span) } else { count_gross_slip::<false>(span) };
-    stack.push(Knot::centre(if is_forward { xi } else { eta }));
-    stack.push(Knot { xi, eta, place: Place::end(span.first + count - 1) });
-    Run { kind: Kind::GROSS_SLIP, count: count as u64, sign: if is_forward { 1.0 } else { -1.0 }, ..Run::EMPTY }
-}
-
-/// Lower bound of divisors: compilers may divide before they compare.
-const SMALLEST: f64 = 1e-150;
-
-/// Samples whose slip zone grows in one direction, along the piece above the last knot that stays.
-fn slip(stack: &mut Stack, span: Span, per_two_mu: f64, places: &mut [f64]) -> Run {
-    let kept = stack.depth;
-    let (inner, outer) = (stack.knot(kept - 1), stack.knot(kept));
-    let (falling, rising) = (inner.xi - outer.xi, outer.eta - inner.eta);
-    let (x, y) = (span.xi.first().copied().unwrap_or(0.0), span.eta.first().copied().unwrap_or(0.0));
-    // The piece leaves the quadrant through ξ = x unless it crosses η = y first: the quotient is at most 1.
-    let is_forward =
-        outer.xi <= x && (rising <= 0.0 || inner.eta + rising * ((inner.xi - x) / falling.max(SMALLEST)) <= y);
-    // Changes of the other coordinate along the piece; 0 for a slip zone.
-    let ratio = |change: f64, by: f64| if change > 0.0 { change / by.max(SMALLEST) } else { 0.0 };
-    let (count, [xi, eta], cut) = if is_forward {
-        count_slip::<true>(span, &inner, ratio(rising, falling), per_two_mu, places)
-    } else {
-        count_slip::<false>(span, &inner, ratio(falling, rising), per_two_mu, places)
-    };
-    let last = span.first + count - 1;
-    stack.push(Knot { xi: cut[0], eta: cut[1], place: Place::cut(last) });
-    stack.push(Knot { xi, eta, place: Place::end(last) });
-    Run {
-        kind: Kind::SLIP,
-        count: count as u64,
-        kept: kept as u64,
-        inner: inner.place,
-        sign: if is_forward { 1.0 } else { -1.0 },
-        parameter: slope(falling, rising),
-        ..Run::EMPTY
     }
 }
 
 /// Where the path from the open sample before a sample closes the contact.
 pub(super) fn closing(samples: &Samples, element: &Element, sample: usize) -> Crossing {
     Crossing::between(element, samples.motion(samples.before(sample)), samples.motion(sample))
-}
-
-/// Coordinates such that slip in either direction is forward slip.
-fn mirrored<const FORWARD: bool>(xi: f64, eta: f64) -> [f64; 2] {
-    if FORWARD { [xi, eta] } else { [-eta, -xi] }
-}
-
-/// Number of samples of a run of gross slip, and the coordinates of the last.
-fn count_gross_slip<const FORWARD: bool>(span: Span) -> (usize, [f64; 2]) {
-    let mut count = 0;
-    let (mut end, mut last) = ([0.0; 2], f64::MIN);
-    for ((&xi, &eta), &input) in span.xi.iter().zip(span.eta).zip(span.inputs) {
-        let [x, _] = mirrored::<FORWARD>(xi, eta);
-        if count > 0 && (x < last || input <= 0.0) {
-            break;
-        }
-        (last, end) = (x, [xi, eta]);
-        count += 1;
-    }
-    (count, end)
-}
-
-/// Number of samples of a run of slip that cut one piece, the coordinates of the last, and its cut.
-fn count_slip<const FORWARD: bool>(
-    span: Span,
-    inner: &Knot,
-    ratio: f64,
-    per_two_mu: f64,
-    places: &mut [f64],
-) -> (usize, [f64; 2], [f64; 2]) {
-    let [inner_x, inner_y] = mirrored::<FORWARD>(inner.xi, inner.eta);
-    let mut count = 0;
-    let (mut end, mut last, mut last_cut) = ([0.0; 2], f64::MIN, 0.0);
-    for ((&xi, &eta), place) in span.xi.iter().zip(span.eta).zip(places) {
-        let [x, y] = mirrored::<FORWARD>(xi, eta);
-        let cut = inner_y + ratio * (inner_x - x);
-        if count > 0 && (x < last || x >= inner_x || cut > y) {
-            break;
-        }
-        *place = ((cut - x) * per_two_mu).max(0.0);
-        (last, last_cut, end) = (x, cut, [xi, eta]);
-        count += 1;
-    }
-    (count, end, mirrored::<FORWARD>(last, last_cut))
 }
