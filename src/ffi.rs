@@ -14,23 +14,24 @@
     reason = "one contract, above; other reasons stand at their blocks"
 )]
 
-mod pointers;
+mod contact;
+mod history;
 
-mod constant_load;
-
+mod cycle;
 mod harmonic_force;
 
 mod element;
 
 mod batch;
+mod pointers;
 
 pub use crate::error::constants::*;
 pub use batch::*;
-pub use constant_load::contact::*;
-pub use constant_load::cycle::*;
-pub use constant_load::history::*;
+pub use contact::*;
+pub use cycle::*;
 pub use element::*;
 pub use harmonic_force::*;
+pub use history::*;
 
 use crate::constant_load::contact::Contact;
 use crate::element::Element;

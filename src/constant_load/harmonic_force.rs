@@ -43,7 +43,7 @@ impl Rule {
     /// Number of doubles in a workspace for the given number of harmonics and of samples, or nodes, per period; 0 if these are not
     /// allowed.
     pub fn workspace_length(self, harmonics: usize, samples: usize) -> usize {
-        let size = Size::new(harmonics, samples);
+        let size = Size { harmonics, samples, periods: 0 };
         match self {
             Rule::UniformSampling => uniform_sampling::Workspace::length_or_zero(size),
             Rule::EventDriven => event_driven::Workspace::length_or_zero(size),
@@ -54,9 +54,10 @@ impl Rule {
     /// Errors: `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24;
     /// `WorkspaceTooShort`.
     pub fn workspace_init(self, harmonics: usize, samples: usize, workspace: &mut [f64]) -> Result<(), Error> {
+        let size = Size { harmonics, samples, periods: 0 };
         match self {
-            Rule::UniformSampling => uniform_sampling::Workspace::init(Size::new(harmonics, samples), workspace),
-            Rule::EventDriven => event_driven::Workspace::init(Size::new(harmonics, samples), workspace),
+            Rule::UniformSampling => uniform_sampling::Workspace::init(size, workspace),
+            Rule::EventDriven => event_driven::Workspace::init(size, workspace),
         }
     }
 

@@ -1,8 +1,7 @@
 //! Batches of contacts and of elements: all items are checked before the first output is written.
 
 use super::pointers::{
-    self, call, check_alignment, check_length, input, item, new_state, optional_input, output, outputs, requested,
-    state_input, with_law, write,
+    self, call, check_alignment, check_length, input, item, output, outputs, requested, set, state_input, with_law,
 };
 use super::{mslip_contact, mslip_element};
 use crate::constant_load::ConstantLoad;
@@ -44,9 +43,9 @@ unsafe fn step<L: Law>(
         }
         L::advance(item, state, *displacement, requested)
     };
-    write(force.cast(), step.force);
-    write(tangent.cast(), step.tangent);
-    write(dissipated, step.dissipated);
+    set(force.cast::<L::Vector>().as_mut(), || step.force);
+    set(tangent.cast::<L::Tangent>().as_mut(), || step.tangent);
+    set(dissipated.as_mut(), || step.dissipated);
 }
 
 /// Advances the state of one contact or element, which is checked.
@@ -91,7 +90,10 @@ pub(super) unsafe fn path<L: Law>(
             return Ok(());
         }
     }
-    L::path(law, new_state(state_length, state_old, state_new)?, path, output);
+    if !ptr::eq(state_old, state_new) {
+        ptr::copy(state_old, state_new, state_length);
+    }
+    L::path(law, slice::from_raw_parts_mut(state_new, state_length), path, output);
     Ok(())
 }
 
@@ -119,8 +121,8 @@ impl<'a, T: Copy> Items<'a, T> {
     ) -> Result<Items<'a, T>, Error> {
         // Of the largest items, before arrays of that length are assumed.
         check_length::<f64>(n)?;
-        let (laws, index, active) = (input(laws, n_laws)?, optional_input(index, n)?, optional_input(active, n)?);
-        Ok(Items { n, laws, index, active })
+        let optional = |flags: *const i32| if flags.is_null() { Ok(None) } else { input(flags, n).map(Some) };
+        Ok(Items { n, laws: input(laws, n_laws)?, index: optional(index)?, active: optional(active)? })
     }
 
     /// Checks the contacts or elements of all active items, and with each what else belongs to the item.

@@ -1,10 +1,10 @@
 //! Friction contact elements: initialisation, the normal law, load histories and tractions under a normal force that varies.
 
 use super::batch::{path, update_one};
+use super::mslip_element;
 use super::pointers::{
     self, call, check_alignment, each, input, item, memory, outputs, place, set, state_input, sum, with_law,
 };
-use super::{MSLIP_INPUT_APPROACH, MSLIP_INPUT_NORMAL_FORCE, mslip_element};
 use crate::element::{Directions, Element, NormalInput, NormalPoint};
 use crate::error::Error;
 use crate::law::Law;
@@ -16,11 +16,8 @@ use libc::size_t;
 
 /// The number of tangential directions of a constant of the C interface.
 pub(super) fn directions_of(constant: i32) -> Result<Directions, Error> {
-    match constant {
-        1 => Ok(Directions::One),
-        2 => Ok(Directions::Two),
-        _ => Err(Error::BadDirections),
-    }
+    let all = [Directions::One, Directions::Two];
+    all.into_iter().find(|directions| *directions as i32 == constant).ok_or(Error::BadDirections)
 }
 
 /// Initialises an element in place.
@@ -37,12 +34,8 @@ unsafe fn initialise<P>(
         // It may be uninitialised, and is written before it is read.
         let element = element.cast::<Element>().as_mut().ok_or(Error::NullPointer)?;
         let directions = directions_of(directions)?;
-        let normal_input = match normal_input {
-            MSLIP_INPUT_APPROACH => NormalInput::Approach,
-            MSLIP_INPUT_NORMAL_FORCE => NormalInput::Force,
-            _ => return Err(Error::BadNormalInput),
-        };
-        init(element, parameters, directions, normal_input)?;
+        let input = [NormalInput::Approach, NormalInput::Force].into_iter().find(|input| *input as i32 == normal_input);
+        init(element, parameters, directions, input.ok_or(Error::BadNormalInput)?)?;
         element.checksum = sum(element).wrapping_neg();
         Ok(())
     })

@@ -3,7 +3,7 @@
 use super::batch::{Items, element_harmonic_forces, mslip_batch_harmonic_force};
 use super::element::directions_of;
 use super::pointers::{self, call, input, memory, output, place, set, with_law};
-use super::{MSLIP_EVENT_DRIVEN, MSLIP_UNIFORM_SAMPLING, mslip_contact, mslip_element};
+use super::{mslip_contact, mslip_element};
 use crate::constant_load::harmonic_force::{self, HarmonicOutput, Rule, harmonic_sensitivity, workspace_size};
 use crate::element::Directions;
 use crate::error::Error;
@@ -14,11 +14,7 @@ use libc::size_t;
 
 /// The rule of a constant of the C interface.
 fn rule_of(constant: i32) -> Result<Rule, Error> {
-    match constant {
-        MSLIP_UNIFORM_SAMPLING => Ok(Rule::UniformSampling),
-        MSLIP_EVENT_DRIVEN => Ok(Rule::EventDriven),
-        _ => Err(Error::BadRule),
-    }
+    [Rule::UniformSampling, Rule::EventDriven].into_iter().find(|rule| *rule as i32 == constant).ok_or(Error::BadRule)
 }
 
 /// Number of doubles in a workspace for H harmonics, H >= 1, more than 2H samples per period, and a rule, MSLIP_UNIFORM_SAMPLING or
@@ -90,7 +86,7 @@ pub extern "C" fn mslip_element_workspace_length(
     samples: size_t,
     rule: i32,
 ) -> size_t {
-    let size = Size::new(harmonics, samples);
+    let size = Size { harmonics, samples, periods: 0 };
     let length =
         |directions| with_law!(directions, _L, harmonic_force => harmonic_force::Workspace::length_or_zero(size));
     check_element_rule(directions, rule).map_or(0, length)
@@ -115,7 +111,7 @@ pub unsafe extern "C" fn mslip_element_workspace_init(
     call(|| {
         let directions = check_element_rule(directions, rule)?;
         let memory = memory(workspace_length, workspace)?;
-        let size = Size::new(harmonics, samples).with_periods(periods);
+        let size = Size { harmonics, samples, periods };
         with_law!(directions, _L, harmonic_force => harmonic_force::Workspace::init(size, memory))
     })
 }
@@ -140,7 +136,7 @@ pub unsafe extern "C" fn mslip_element_workspace_size(
         set(directions, || found as i32);
         set(harmonics, || size.harmonics);
         set(samples, || size.samples);
-        set(rule, || MSLIP_UNIFORM_SAMPLING);
+        set(rule, || Rule::UniformSampling as i32);
         set(periods, || size.periods);
         Ok(())
     })

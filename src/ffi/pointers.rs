@@ -8,11 +8,10 @@
 use super::{MSLIP_OK, mslip_contact, mslip_element};
 use crate::constant_load::contact::Contact;
 use crate::constant_load::harmonic_force::{Workspace, workspace_size};
-use crate::constant_load::stiffness_table::{StiffnessTable, TABLE_LENGTH};
+use crate::constant_load::stiffness_table::StiffnessTable;
 use crate::element::{Directions, Element};
 use crate::error::Error;
 use crate::fourier::workspace::{Layout, Size, TAGS};
-use core::mem::MaybeUninit;
 use core::{ptr, slice};
 
 /// The status of a call.
@@ -58,27 +57,11 @@ pub unsafe fn input<'a, T>(pointer: *const T, n: usize) -> Result<&'a [T], Error
     Ok(slice::from_raw_parts(pointer, n))
 }
 
-/// An optional input of n items.
-pub unsafe fn optional_input<'a, T>(pointer: *const T, n: usize) -> Result<Option<&'a [T]>, Error> {
-    if pointer.is_null() {
-        return Ok(None);
-    }
-    input(pointer, n).map(Some)
-}
-
 /// A state as an input; not NULL.
 #[inline(always)]
 pub unsafe fn state_input<'a>(state_length: usize, state: *const f64) -> Result<&'a [f64], Error> {
     not_null(state)?;
     input(state, state_length)
-}
-
-/// The new state, which is checked and not NULL, with the values of the old one, which it may be.
-pub unsafe fn new_state<'a>(length: usize, old: *const f64, new: *mut f64) -> Result<&'a mut [f64], Error> {
-    if !ptr::eq(old, new) {
-        ptr::copy(old, new, length);
-    }
-    requested(new, length).ok_or(Error::StateTooShort)
 }
 
 /// An output of n items; `None` if it is not requested. It may be uninitialised, and is not read.
@@ -152,23 +135,6 @@ pub unsafe fn stiffness_table<'a>(pointer: *const f64) -> Result<&'a StiffnessTa
         return Err(Error::BadTable);
     }
     item(pointer.cast())
-}
-
-/// Memory for a table of the complex stiffness.
-pub unsafe fn stiffness_table_output<'a>(
-    length: usize,
-    pointer: *mut f64,
-) -> Result<&'a mut MaybeUninit<StiffnessTable>, Error> {
-    let table = memory(length, pointer)?.get_mut(..TABLE_LENGTH).ok_or(Error::TableTooShort)?;
-    Ok(&mut *table.as_mut_ptr().cast())
-}
-
-/// Writes one value whose alignment is checked, if requested.
-#[inline(always)]
-pub unsafe fn write<T>(output: *mut T, value: T) {
-    if !output.is_null() {
-        output.write(value);
-    }
 }
 
 /// The items of an input with their places in the outputs that are requested; no items if none is.

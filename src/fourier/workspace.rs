@@ -27,15 +27,6 @@ pub(crate) struct Size {
 }
 
 impl Size {
-    /// With the default number of periods.
-    pub fn new(harmonics: usize, samples: usize) -> Size {
-        Size { harmonics, samples, periods: 0 }
-    }
-
-    pub fn with_periods(self, periods: usize) -> Size {
-        Size { periods, ..self }
-    }
-
     /// 2H + 1.
     pub fn coefficients(&self) -> usize {
         2 * self.harmonics + 1

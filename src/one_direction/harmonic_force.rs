@@ -34,13 +34,13 @@ use samples::{Part, Samples};
 
 /// Number of doubles in a workspace for the given number of harmonics and of samples per period; 0 if these are not allowed.
 pub fn workspace_length(harmonics: usize, samples: usize) -> usize {
-    Workspace::length_or_zero(Size::new(harmonics, samples))
+    Workspace::length_or_zero(Size { harmonics, samples, periods: 0 })
 }
 
 /// Initialises a workspace: tables for the given harmonics and samples, and scratch memory.
 /// Errors: `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24; `WorkspaceTooShort`.
 pub fn workspace_init(harmonics: usize, samples: usize, workspace: &mut [f64]) -> Result<(), Error> {
-    Workspace::init(Size::new(harmonics, samples), workspace)
+    Workspace::init(Size { harmonics, samples, periods: 0 }, workspace)
 }
 
 /// An opened workspace.

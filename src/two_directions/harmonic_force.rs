@@ -30,7 +30,7 @@ pub use crate::fourier::HarmonicOutput;
 
 /// Number of doubles in a workspace for the given number of harmonics and of samples per period; 0 if these are not allowed.
 pub fn workspace_length(harmonics: usize, samples: usize) -> usize {
-    Workspace::length_or_zero(Size::new(harmonics, samples))
+    Workspace::length_or_zero(Size { harmonics, samples, periods: 0 })
 }
 
 /// Initialises a workspace: tables for the given harmonics and samples, the number of periods before the one that counts (0: the
@@ -38,7 +38,7 @@ pub fn workspace_length(harmonics: usize, samples: usize) -> usize {
 /// Errors: `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24, `BadPeriods` for more
 /// than 65536; `WorkspaceTooShort`.
 pub fn workspace_init(harmonics: usize, samples: usize, periods: usize, workspace: &mut [f64]) -> Result<(), Error> {
-    Workspace::init(Size::new(harmonics, samples).with_periods(periods), workspace)
+    Workspace::init(Size { harmonics, samples, periods }, workspace)
 }
 
 /// Relative distance of the sizes whose tables are differentiated: the error is the square of it times the third derivative, up to 1e5 where

@@ -5,7 +5,7 @@ use crate::constant_load::equivalents;
 use crate::constant_load::stiffness_table::{StiffnessTable, TABLE_LENGTH};
 use crate::error::Error;
 use crate::ffi::mslip_contact;
-use crate::ffi::pointers::{self, call, each, input, output, outputs, place, set};
+use crate::ffi::pointers::{self, call, each, input, memory, output, outputs, place, set};
 use libc::size_t;
 
 /// Hysteresis loop of the displacement amplitude cos(t), amplitude in \[m\]: displacement\[n\] \[m\] and force\[n\] \[N\] at n uniformly
@@ -93,8 +93,12 @@ pub unsafe extern "C" fn mslip_stiffness_table_init(
     table: *mut f64,
 ) -> i32 {
     call(|| {
-        let (contact, table) = (pointers::contact(contact)?, pointers::stiffness_table_output(table_length, table)?);
-        table.write(StiffnessTable::default()).init(contact);
+        let (contact, memory) = (pointers::contact(contact)?, memory(table_length, table)?);
+        let table = memory.get_mut(..TABLE_LENGTH).ok_or(Error::TableTooShort)?.as_mut_ptr();
+        let table = table.cast::<StiffnessTable>();
+        // SAFETY: the table has this many doubles.
+        table.write(StiffnessTable::default());
+        (*table).init(contact);
         Ok(())
     })
 }
