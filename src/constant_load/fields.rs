@@ -61,7 +61,7 @@ impl Contact {
 
 #[cfg(test)]
 mod tests {
-    use crate::constant_load::contact::tests::{FLATS, contact};
+    use crate::constant_load::contact::tests::{FLATS, contact, ellipse, layered};
 
     #[test]
     fn shear_is_mu_p_under_mu_n_and_zero_without_force() {
@@ -78,6 +78,23 @@ mod tests {
                 assert!(slip <= 0.0);
                 // mu p |s|, with the rounding errors of two products.
                 assert!((end.damage(x).unwrap() + limit * slip).abs() <= 4e-16 * (limit * slip).abs());
+            }
+        }
+    }
+
+    /// Contact and layer carry the same force.
+    #[test]
+    fn a_layer_changes_no_field_under_a_force() {
+        let alone = [contact(0.0), contact(50e-6), contact(5e-3), ellipse(1e-4, 2e-4)];
+        for (both, alone) in layered(1.0, 0.3).iter().zip(&alone) {
+            for share in [0.1, 0.6, 0.95] {
+                let [one, other] =
+                    [both, alone].map(|contact| contact.curve_at_force(share * alone.slip_force).unwrap());
+                for x in [0.0, 0.5, 0.9, 0.99].map(|share| share * alone.half_width) {
+                    assert!((one.shear(x) - other.shear(x)).abs() < 1e-15 * alone.pressure(0.0), "{share} {x}");
+                    let [one, other] = [&one, &other].map(|point| point.slip(x).unwrap_or(0.0));
+                    assert!((one - other).abs() <= 1e-13 * alone.slip_displacement, "{share} {x}: {one} {other}");
+                }
             }
         }
     }
