@@ -7,7 +7,7 @@ use common::Random;
 use common::two_directions::Contact;
 use microslip::element::{Directions, Element, NormalInput};
 use microslip::one_direction::{self, OneDirection};
-use microslip::parameters::{CENTRE_POINT, EllipticParameters, Layer, Material, Parameters};
+use microslip::parameters::{CENTRE_POINT, EllipticParameters, Layer, Material, Parameters, RIGID_STRIP};
 use microslip::two_directions::harmonic_force::{
     HarmonicOutput, Workspace, harmonic_force, workspace_init, workspace_length,
 };
@@ -110,19 +110,14 @@ fn unit(element: &Element) -> f64 {
 #[test]
 fn tangents_are_derivatives() {
     let mut random = Random(1);
-    let elements = vec![
+    for element in &[
         flat(0.0, NormalInput::Force, Directions::Two),
         flat(2e-4, NormalInput::Force, Directions::Two),
         flat(3e-3, NormalInput::Approach, Directions::Two),
         ellipse(1.0),
         ellipse(3.0),
-    ];
-    let (mut errors, mut beyond) = (Vec::new(), 0);
-    for element in &elements {
-        let (unit, full) = (
-            unit(element),
-            if element.normal_input == NormalInput::Force as i32 { element.normal_force } else { element.approach },
-        );
+    ] {
+        let (unit, full) = (unit(element), normal_input(element, 1.0));
         let mut contact = Contact::new(element);
         let mut at = [0.0, 0.0, full];
         contact.to(at);
@@ -134,7 +129,7 @@ fn tangents_are_derivatives() {
             let next = if k % 10 < 2 { [next[0], at[1], next[2]] } else { next };
             let step = contact.trial(next);
             for column in 0..3 {
-                if column == 2 && (next[2] <= 0.0 || next[2] == at[2]) {
+                if column == 2 && next[2] <= 0.0 {
                     continue;
                 }
                 let h = if column < 2 { 1e-6 * unit } else { 1e-6 * full };
@@ -153,18 +148,8 @@ fn tangents_are_derivatives() {
                 for row in 0..2 {
                     let scale = element.tangential_stiffness * if column < 2 { 1.0 } else { unit / full };
                     let tangent = step.tangent[3 * column + row];
-                    let errors_of = [wide, narrow].map(|difference| ((difference[row] - tangent) / scale).abs());
-                    let (error, difference) = (errors_of[0].min(errors_of[1]), wide[row] / scale);
-                    if error > 1e-4 {
-                        beyond += 1;
-                        println!(
-                            "{k} {row} {column}: {difference:.6} {:.6} load {:.3}->{:.3}",
-                            step.tangent[3 * column + row] / scale,
-                            at[2] / full,
-                            next[2] / full
-                        );
-                    }
-                    errors.push(error);
+                    let [wide, narrow] = [wide, narrow].map(|difference| (difference[row] - tangent).abs() / scale);
+                    assert!(wide.min(narrow) < 1e-4, "{k} {row} {column}: {wide:e} {narrow:e}, {at:?} -> {next:?}");
                 }
             }
             at = next;
@@ -172,9 +157,6 @@ fn tangents_are_derivatives() {
             TwoDirections::state_check(&contact.state).unwrap();
         }
     }
-    errors.sort_by(f64::total_cmp);
-    println!("median {:.1e}, {} of {} beyond 1e-4", errors[errors.len() / 2], beyond, errors.len());
-    assert!(beyond == 0);
 }
 
 /// The normal component of a share of the normal force of the parameters.
@@ -240,7 +222,6 @@ fn motion_along_x_is_that_of_one_direction() {
                 energies = [energies[0] + step.dissipated, energies[1] + expected.dissipated];
             }
             let energy = energies[0] / energies[1] - 1.0;
-            println!("line: {worst:.1e} mu N, energy {energy:+.1e}");
             assert!(worst < LINE_ERROR && energy.abs() < 0.01, "{worst:e} {energy:e}");
         }
     }
@@ -425,6 +406,32 @@ fn steps_satisfy_coulomb_and_states_restart() {
     }
 }
 
+/// The springs of another element relax where they are: elements of the same normal force differ in any one parameter.
+#[test]
+fn springs_of_another_element_relax() {
+    let own = parameters(1e-4);
+    let of = |own: Parameters| Element::rounded_flat(&own, Directions::Two, NormalInput::Force).unwrap();
+    let first = of(own);
+    let (mut contact, place) = (Contact::new(&first), [0.6 * unit(&first), 0.2 * unit(&first), first.normal_force]);
+    contact.to(place);
+    for other in [
+        Parameters { friction_coefficient: 0.5, ..own },
+        Parameters { edge_radius: 0.06, ..own },
+        Parameters { length: 0.03, ..own },
+        Parameters { displacement_reference: RIGID_STRIP, ..own },
+        Parameters { layer: layer_of(&first, (1.0, 0.3)), ..own },
+    ] {
+        let element = &of(other);
+        let mut relaxed = Contact { element, state: contact.state.clone() };
+        assert_eq!(relaxed.to(place).force, [0.0, 0.0, own.normal_force]);
+        let mut new = Contact::new(element);
+        new.to([place[0], place[1], 0.0]);
+        new.to(place);
+        let next = [-place[0], place[1], 0.5 * place[2]];
+        assert_eq!(relaxed.to(next), new.to(next));
+    }
+}
+
 /// Work and dissipation in the last of 20 periods of n steps: u = A (cos, sin), or an ellipse; both over `mu N` times the unit.
 fn orbit(element: &Element, n: usize, [a, b]: [f64; 2], swing: f64) -> [f64; 2] {
     let unit = unit(element);
@@ -601,6 +608,9 @@ fn nothing_drifts_after_separation() {
         assert_eq!((more.drift, more.force, more.dissipated), (0.0, one.force, one.dissipated));
         assert_eq!(more.jacobian, one.jacobian);
     }
+    // A sample of the normal force that is negative by rounding is open.
+    let rounded = from_fn(|c| if c == 2 * ROW + 1 { (1.0 + 1e-15) * opening[c] } else { opening[c] });
+    assert_eq!(harmonic(&element, 1, &rounded).drift, 0.0);
     // By steps, the first period of the opening contact contains the first loading, all others are equal.
     let [[one, before], [last, other]] = [1, 2].map(|periods| walked(&element, periods, &opening));
     assert!(one != before && one == last && last == other);
