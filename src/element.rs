@@ -235,17 +235,9 @@ impl Element {
         self.layer = *layer;
         let ratio = plane.per_approach[1] / plane.per_approach[0];
         let own = [plane.per_load[1] - ratio * plane.per_load[0], (1.0 - ratio) * layer.compliance(0.0)];
-        self.lateral = [ratio, if layer.is_linear() { own[0] + own[1] } else { own[0] }];
-        self.key = key_of(&[
-            normal_force,
-            friction_coefficient,
-            w,
-            approach,
-            shift,
-            plane.flat,
-            self.lateral[0],
-            self.lateral[1],
-        ]);
+        let per_load = if layer.is_linear() { own[0] + own[1] } else { own[0] };
+        self.lateral = [ratio, per_load];
+        self.key = key_of(&[normal_force, friction_coefficient, w, approach, shift, plane.flat, ratio, per_load]);
         self.fill_tables(shape, input, [normal_force, approach, shift]);
         Ok(())
     }
@@ -602,7 +594,7 @@ impl Element {
     pub(crate) fn potential_at_shift(&self, shift: f64) -> f64 {
         match self.load_of_shift.position(shift) {
             Some(at) => {
-                let middle = self.potential.0.get(at.index()).copied().unwrap_or(0.0);
+                let middle = self.potential.0.get(at.index).copied().unwrap_or(0.0);
                 middle + self.load_of_shift.integral_from_middle(at)
             }
             None => self.potential_outside(shift),
@@ -620,10 +612,7 @@ impl Element {
 
 /// Bits of the tag.
 const fn tag_of(directions: Directions) -> u64 {
-    match directions {
-        Directions::One => 0,
-        Directions::Two => TWO_DIRECTIONS,
-    }
+    (directions as u64 - 1) * TWO_DIRECTIONS
 }
 
 /// E* of parameters that were checked.

@@ -27,7 +27,6 @@ mod trial;
 use crate::law::{Requested, StepResult};
 
 pub use crate::law::Law;
-pub use state::state_length;
 
 /// Result of a step: forces `[Tx, Ty, N]`, tangent 3 x 3 (column-major), 0 unless requested, and dissipated energy.
 pub type Step = StepResult<[f64; 3], [f64; 9]>;

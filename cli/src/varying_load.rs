@@ -14,7 +14,7 @@ use crate::units::Quantity::{Angle, Energy, Force, Length, Stiffness};
 use microslip::Error;
 use microslip::element::{Directions, Element, NormalInput};
 use microslip::one_direction::{OneDirection, state_length};
-use microslip::two_directions::{self, Law, TwoDirections};
+use microslip::two_directions::{Law, TwoDirections};
 
 const NORMAL_FORCE: Axis = Axis::linear("normal force", Force);
 
@@ -150,7 +150,7 @@ pub fn history_in_two_directions(
     let of_normal = if by_approach { element.approach } else { element.normal_force };
     let along = spec.contact.slip_displacement;
     let factors = if options.relative { [along, along, of_normal] } else { [1.0; 3] };
-    let mut state = vec![0.0; two_directions::state_length()];
+    let mut state = vec![0.0; TwoDirections::STATE_LENGTH];
     TwoDirections::state_init(&mut state).map_err(|error| CliError::in_file(path, error))?;
     let parts = parts_of_step(TRIALS_PER_POINT * table.rows.len());
     let (mut rows, mut points, mut from): (_, Vec<Point>, _) = (Vec::new(), vec![[[0.0; 3]; 2]], [0.0; 3]);

@@ -5,7 +5,7 @@ use microslip::constant_load::state::state_length;
 use microslip::constant_load::{ConstantLoad, Law};
 use microslip::element::{Directions, Element, NormalInput};
 use microslip::one_direction::{self as element_state, OneDirection};
-use microslip::two_directions::{self, TwoDirections};
+use microslip::two_directions::TwoDirections;
 use microslip::{Contact, EllipticParameters, Error, Material, Parameters};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -332,7 +332,7 @@ fn histories_of_elements_equal_those_of_the_library() {
     {
         let by_approach = input == NormalInput::Approach;
         let element = Element::rounded_flat(&flat_parameters(), directions, input).unwrap();
-        let mut memory = [vec![0.0; element_state::state_length(7)], vec![0.0; two_directions::state_length()]];
+        let mut memory = [vec![0.0; element_state::state_length(7)], vec![0.0; TwoDirections::STATE_LENGTH]];
         OneDirection::state_init(&mut memory[0]).unwrap();
         TwoDirections::state_init(&mut memory[1]).unwrap();
         let row = |i: usize| -> Vec<f64> {

@@ -49,7 +49,8 @@ pub(crate) struct Table {
 /// Position of an argument in a table.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Position {
-    index: usize,
+    /// Number of the quarter.
+    pub index: usize,
     t: f64,
 }
 
@@ -80,11 +81,6 @@ impl Table {
         let bits = x.to_bits();
         let index = (bits >> SHIFT).wrapping_sub(self.base) as usize;
         (index < PIECES).then_some(Position { index, t: position_in(x) })
-    }
-
-    #[inline(always)]
-    fn coefficients(&self, at: Position) -> &[f64; TERMS] {
-        self.quarters.0.get(at.index).unwrap_or(&[0.0; TERMS])
     }
 
     /// y and, if requested, dy/dx at some arguments; `None` if one is outside.
@@ -165,21 +161,13 @@ impl Table {
         let t2 = powers * powers;
         let t4 = t2 * t2;
         let mut sums = f64x2::ZERO;
-        for (c, weights) in
-            self.coefficients(at).as_chunks::<4>().0.iter().zip(INTEGRAL_WEIGHTS.as_chunks::<4>().0).rev()
-        {
+        let coefficients = self.quarters.0.get(at.index).unwrap_or(&[0.0; TERMS]).as_chunks::<4>().0;
+        for (c, weights) in coefficients.iter().zip(INTEGRAL_WEIGHTS.as_chunks::<4>().0).rev() {
             let term = |k: usize| f64x2::splat(c[k]) * f64x2::new(weights[k]);
             sums = sums * t4 + ((term(0) + term(1) * powers) + t2 * (term(2) + term(3) * powers));
         }
         let [zeroth, first] = sums.to_array();
         half_length * t * (middle * zeroth + half_length * t * first)
-    }
-}
-
-impl Position {
-    /// Number of the quarter.
-    pub fn index(&self) -> usize {
-        self.index
     }
 }
 

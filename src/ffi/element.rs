@@ -11,7 +11,7 @@ use crate::law::Law;
 use crate::one_direction::tractions::tractions;
 use crate::one_direction::{self, OneDirection};
 use crate::parameters::{EllipticParameters, Parameters};
-use crate::two_directions;
+use crate::two_directions::TwoDirections;
 use libc::size_t;
 
 /// The number of tangential directions of a constant of the C interface.
@@ -189,7 +189,7 @@ unsafe fn normal_law<const INVERSE: bool>(
 pub extern "C" fn mslip_element_state_length(directions: i32, pieces: size_t) -> size_t {
     match directions_of(directions) {
         Ok(Directions::One) => one_direction::state_length(pieces),
-        Ok(Directions::Two) => two_directions::state_length(),
+        Ok(Directions::Two) => TwoDirections::STATE_LENGTH,
         Err(_) => 0,
     }
 }

@@ -9,7 +9,7 @@ use crate::constant_load::stiffness_table::StiffnessTable;
 use crate::element::{Directions, Element, NormalInput};
 use crate::law::{Law, PathOutput};
 use crate::one_direction::{self, OneDirection, harmonic_force as line};
-use crate::two_directions::{self, TwoDirections};
+use crate::two_directions::TwoDirections;
 use crate::{Contact, Material, Parameters};
 use core::cell::Cell;
 use std::prelude::rust_2024::*;
@@ -144,7 +144,7 @@ fn an_element() {
         let unit = 0.5 * one.shift_under(60.0);
         compare("steps", || {
             let mut values = Vec::new();
-            let mut memory = [vec![0.0; one_direction::state_length(32)], vec![0.0; two_directions::state_length()]];
+            let mut memory = [vec![0.0; one_direction::state_length(32)], vec![0.0; TwoDirections::STATE_LENGTH]];
             OneDirection::state_init(&mut memory[0]).unwrap();
             TwoDirections::state_init(&mut memory[1]).unwrap();
             for motion in scattered(600, 7, 1.0).as_chunks::<3>().0 {

@@ -41,11 +41,6 @@ const INVERSE_ROWS: usize = 2 * N;
 const STATE_ROWS: usize = HEADER_ROWS + EDGE_ROWS + INVERSE_ROWS + SPRINGS / N + ROWS;
 pub(super) const LENGTH: usize = N * STATE_ROWS;
 
-/// Number of doubles in a state.
-pub const fn state_length() -> usize {
-    LENGTH
-}
-
 impl Law for TwoDirections {
     type Item = Element;
     type Vector = [f64; 3];

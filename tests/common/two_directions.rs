@@ -1,7 +1,7 @@
 //! An element with two tangential directions and its state.
 
 use microslip::element::Element;
-use microslip::two_directions::{Law, Step, TwoDirections, state_length};
+use microslip::two_directions::{Law, Step, TwoDirections};
 
 #[derive(Clone)]
 pub struct Contact<'a> {
@@ -11,7 +11,7 @@ pub struct Contact<'a> {
 
 impl Contact<'_> {
     pub fn new(element: &Element) -> Contact<'_> {
-        let mut state = vec![0.0; state_length()];
+        let mut state = vec![0.0; TwoDirections::STATE_LENGTH];
         TwoDirections::state_init(&mut state).unwrap();
         Contact { element, state }
     }

@@ -4,7 +4,7 @@
 
 use crate::table::Table;
 use microslip::element::{Directions, Element, NormalInput};
-use microslip::two_directions::{Law, Step, TwoDirections, state_length};
+use microslip::two_directions::{Law, Step, TwoDirections};
 use microslip::{EllipticParameters, Material, Parameters};
 use std::f64::consts::TAU;
 use std::fmt::Write;
@@ -98,7 +98,7 @@ fn paths() -> Vec<Path> {
 
 /// The law along displacements; pressed at the first one without tangential force.
 fn drive(element: &Element, path: impl Iterator<Item = [f64; 3]>) -> Vec<Point> {
-    let mut state = vec![0.0; state_length()];
+    let mut state = vec![0.0; TwoDirections::STATE_LENGTH];
     TwoDirections::state_init(&mut state).expect("a state");
     let mut to = |displacement: [f64; 3]| TwoDirections::step(element, &mut state, displacement).expect("a step");
     let mut path = path.peekable();

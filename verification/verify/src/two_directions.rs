@@ -3,7 +3,7 @@
 use crate::call::quiet;
 use crate::sampler::{ElementCase, Sampler};
 use microslip::element::{Directions, Element, NormalInput};
-use microslip::two_directions::{self, Law, Step, TwoDirections};
+use microslip::two_directions::{Law, Step, TwoDirections};
 use reference::Input;
 
 /// Error of the force of a step that is repeated, over mu N of the parameters: where the slip converges, a rounding error.
@@ -49,7 +49,7 @@ pub fn histories(case: &ElementCase, sampler: &mut Sampler, _: &mut crate::Tally
     });
     let Ok(element) = element else { return };
     let mu = element.friction_coefficient;
-    let mut state = vec![f64::NAN; two_directions::state_length()];
+    let mut state = vec![f64::NAN; TwoDirections::STATE_LENGTH];
     TwoDirections::state_init(&mut state).expect("a state");
     let scale = sampler.power(-3.0, 1.0) * mu * element.shift_under(element.normal_force);
     let mut at = [0.0; 3];
