@@ -73,8 +73,11 @@ pub trait Law: Sized {
     fn force_error(_state: &[f64]) -> f64 {
         0.0
     }
-    /// Copies what is in use of a state whose header was checked to one of the same length.
-    fn copy_used(from: &[f64], to: &mut [f64]);
+    /// Copies at least what is in use of a state whose header was checked to one of the same length.
+    #[inline(always)]
+    fn copy_used(from: &[f64], to: &mut [f64]) {
+        to.iter_mut().zip(from).for_each(|(to, from)| *to = *from);
+    }
 
     /// A step with checked arguments whose new state is discarded.
     fn trial(item: &Self::Item, old: &[f64], displacement: Self::Vector, requested: Requested) -> StepOf<Self>;

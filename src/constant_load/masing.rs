@@ -207,13 +207,6 @@ impl Law for ConstantLoad {
     }
 
     #[inline(always)]
-    fn copy_used(from: &[f64], to: &mut [f64]) {
-        if let Some(to) = to.get_mut(..from.len()) {
-            to.copy_from_slice(from);
-        }
-    }
-
-    #[inline(always)]
     fn trial(contact: &Contact, state: &[f64], displacement: f64, requested: Requested) -> Step {
         let energy = energy_if(requested, contact, state, displacement);
         match continued(contact, state, displacement) {

@@ -94,13 +94,6 @@ impl Law for TwoDirections {
     }
 
     #[inline(always)]
-    fn copy_used(from: &[f64], to: &mut [f64]) {
-        if let (Some(from), Some(to)) = (from.first_chunk::<LENGTH>(), to.first_chunk_mut::<LENGTH>()) {
-            *to = *from;
-        }
-    }
-
-    #[inline(always)]
     fn trial(element: &Element, old: &[f64], displacement: [f64; 3], requested: Requested) -> Step {
         let mut copy = [0.0; LENGTH];
         Self::copy_used(old, &mut copy);
@@ -155,7 +148,11 @@ impl Law for TwoDirections {
                 contact = Contact::press(memory.tables, &now, from.under_flat, memory.inverse);
             }
         }
-        if same && let Some(edge) = memory.stick(&contact, &path, &mut header) {
+        // A step to a displacement under the same load, unless something slips.
+        let is_short = same && path.scale <= 1.0;
+        let by = &path.by;
+        let at_edge = is_short.then(|| stick::stick(memory.tables, &contact, by, memory.springs, &mut header.force));
+        if let Some(edge) = at_edge.flatten() {
             result.force = [force_unit * header.force[0], force_unit * header.force[1], normal.load];
             if requested.tangent {
                 let slopes = stick::tangent(memory.tables, &contact, &slopes, &edge, memory.springs);
@@ -286,14 +283,6 @@ impl Memory<'_> {
         }
         let tag = Kind::TwoDirectionsState.tag(0);
         [self.header[0][0], self.header[0][1], self.header[0][2], self.header[0][3]] = [tag, v, u, input];
-    }
-
-    /// A step to a displacement under the same load, unless something slips; the displacement of the spring at the edge.
-    fn stick(&mut self, contact: &Contact<f64>, path: &Path, header: &mut Header) -> Option<Both<f64>> {
-        if path.scale > 1.0 {
-            return None;
-        }
-        stick::stick(self.tables, contact, &path.by, self.springs, &mut header.force)
     }
 
     /// The place of a state in which nothing slipped.
