@@ -15,38 +15,32 @@ use crate::fourier::workspace::{Layout, Size, TAGS};
 use core::{ptr, slice};
 
 /// The status of a call.
-#[inline(always)]
 pub fn call(call: impl FnOnce() -> Result<(), Error>) -> i32 {
     call().map_or_else(Error::code, |()| MSLIP_OK)
 }
 
 /// Rejects lengths that exceed the address space.
-#[inline(always)]
 pub fn check_length<T>(n: usize) -> Result<(), Error> {
     if n <= isize::MAX as usize / size_of::<T>().max(1) { Ok(()) } else { Err(Error::BadArraySize) }
 }
 
 /// Rejects a misaligned pointer; NULL is aligned.
-#[inline(always)]
 pub fn check_alignment<T>(pointer: *const T) -> Result<(), Error> {
     if pointer.is_aligned() { Ok(()) } else { Err(Error::BadAlignment) }
 }
 
 /// Rejects NULL.
-#[inline(always)]
 pub fn not_null<T>(pointer: *const T) -> Result<(), Error> {
     if pointer.is_null() { Err(Error::NullPointer) } else { Ok(()) }
 }
 
 /// One item: a contact or parameters.
-#[inline(always)]
 pub unsafe fn item<'a, T>(pointer: *const T) -> Result<&'a T, Error> {
     check_alignment(pointer)?;
     pointer.as_ref().ok_or(Error::NullPointer)
 }
 
 /// An input of n items.
-#[inline(always)]
 pub unsafe fn input<'a, T>(pointer: *const T, n: usize) -> Result<&'a [T], Error> {
     check_length::<T>(n)?;
     check_alignment(pointer)?;
@@ -58,14 +52,12 @@ pub unsafe fn input<'a, T>(pointer: *const T, n: usize) -> Result<&'a [T], Error
 }
 
 /// A state as an input; not NULL.
-#[inline(always)]
 pub unsafe fn state_input<'a>(state_length: usize, state: *const f64) -> Result<&'a [f64], Error> {
     not_null(state)?;
     input(state, state_length)
 }
 
 /// An output of n items; `None` if it is not requested. It may be uninitialised, and is not read.
-#[inline(always)]
 pub unsafe fn output<'a, T>(pointer: *mut T, n: usize) -> Result<Option<&'a mut [T]>, Error> {
     check_length::<T>(n)?;
     check_alignment(pointer)?;
@@ -73,7 +65,6 @@ pub unsafe fn output<'a, T>(pointer: *mut T, n: usize) -> Result<Option<&'a mut 
 }
 
 /// An output of one value; `None` if it is not requested.
-#[inline(always)]
 pub unsafe fn place<'a, T>(pointer: *mut T) -> Result<Option<&'a mut T>, Error> {
     check_alignment(pointer)?;
     Ok(pointer.as_mut())
@@ -87,7 +78,6 @@ pub unsafe fn memory<'a>(length: usize, pointer: *mut f64) -> Result<&'a mut [f6
 }
 
 /// Outputs of n doubles each.
-#[inline(always)]
 pub unsafe fn outputs<'a, const K: usize>(
     pointers: [*mut f64; K],
     n: usize,
@@ -98,13 +88,11 @@ pub unsafe fn outputs<'a, const K: usize>(
 }
 
 /// An output of n items whose alignment and length are checked; `None` if it is NULL or empty.
-#[inline(always)]
 pub unsafe fn requested<'a, T>(pointer: *mut T, n: usize) -> Option<&'a mut [T]> {
     if pointer.is_null() || n == 0 { None } else { Some(slice::from_raw_parts_mut(pointer, n)) }
 }
 
 /// An initialised contact.
-#[inline(always)]
 pub unsafe fn contact<'a>(pointer: *const mslip_contact) -> Result<&'a Contact, Error> {
     let contact = item(pointer.cast::<Contact>())?;
     contact.check().map(|()| contact)
@@ -123,7 +111,6 @@ impl Checked for Contact {}
 impl Checked for Element {}
 
 /// An initialised element.
-#[inline(always)]
 pub unsafe fn element<'a>(pointer: *const mslip_element) -> Result<&'a Element, Error> {
     let element = item(pointer.cast::<Element>())?;
     if element.is_initialised() { Ok(element) } else { Err(Error::BadElement) }
@@ -138,7 +125,6 @@ pub unsafe fn stiffness_table<'a>(pointer: *const f64) -> Result<&'a StiffnessTa
 }
 
 /// The items of an input with their places in the outputs that are requested; no items if none is.
-#[inline(always)]
 pub fn each<T, const K: usize>(
     inputs: impl IntoIterator<Item = T>,
     outputs: [Option<&mut [f64]>; K],
@@ -149,7 +135,6 @@ pub fn each<T, const K: usize>(
 }
 
 /// Sets a value, if requested.
-#[inline(always)]
 pub fn set<T>(place: Option<&mut T>, value: impl FnOnce() -> T) {
     if let Some(place) = place {
         *place = value();
@@ -157,7 +142,6 @@ pub fn set<T>(place: Option<&mut T>, value: impl FnOnce() -> T) {
 }
 
 /// Header of a workspace.
-#[inline(always)]
 pub unsafe fn workspace_header(pointer: *const f64) -> Result<[f64; TAGS], Error> {
     check_alignment(pointer)?;
     not_null(pointer)?;
