@@ -7,14 +7,16 @@
 //! module can check that next to the call. It reads and writes no memory of its own.
 
 /// Whether kernels run on AVX2.
-#[cfg(target_arch = "x86_64")]
 #[inline(always)]
 pub(crate) fn has_avx2() -> bool {
     #[cfg(test)]
     if tests::is_baseline() {
         return false;
     }
-    std::is_x86_feature_detected!("avx2")
+    #[cfg(target_arch = "x86_64")]
+    return std::is_x86_feature_detected!("avx2");
+    #[cfg(not(target_arch = "x86_64"))]
+    false
 }
 
 /// Runs a kernel in code for AVX2; the caller checked the processor.
@@ -29,6 +31,24 @@ pub(crate) fn on_avx2<R>(kernel: impl FnOnce() -> R) -> R {
 #[inline(never)]
 pub(crate) fn on_baseline<R>(kernel: impl FnOnce() -> R) -> R {
     kernel()
+}
+
+/// The result of a call of a kernel that is compiled for AVX2 only, if the processor has it.
+macro_rules! on_avx2_only {
+    ($call:expr) => {{
+        #[cfg(target_arch = "x86_64")]
+        if $crate::simd::has_avx2() {
+            // SAFETY: the processor has AVX2.
+            #[allow(unsafe_code)]
+            return Some(unsafe {
+                $crate::simd::on_avx2(
+                    #[inline(always)]
+                    move || $call,
+                )
+            });
+        }
+        None
+    }};
 }
 
 /// Returns the result of a call of a kernel, in the variant for the present processor: `dispatch!(kernel(x, y))`. The kernel must be
@@ -53,7 +73,7 @@ macro_rules! dispatch {
     }};
 }
 
-pub(crate) use dispatch;
+pub(crate) use {dispatch, on_avx2_only};
 
 /// `target + scale row`. All values are loaded before one is stored: otherwise the compiler, which cannot exclude that they
 /// overlap, would not combine them in a vector.

@@ -23,7 +23,7 @@ use crate::error::Error;
 use crate::fourier::angle;
 use crate::fourier::workspace::{Layout, Parts, Size};
 use crate::limits::check_coefficients;
-use crate::simd::{dispatch, plus};
+use crate::simd::{dispatch, has_avx2, on_avx2_only, plus};
 use crate::tag::Kind;
 
 pub use crate::fourier::HarmonicOutput;
@@ -45,7 +45,7 @@ pub fn workspace_init(harmonics: usize, samples: usize, periods: usize, workspac
 /// nodes are close, and a rounding error over it.
 const NEIGHBOUR: f64 = 1e-6;
 
-/// Columns that are advanced at once: for one harmonic, and for more.
+/// Columns that are advanced at once: for one harmonic and without AVX2, and for more harmonics.
 const NARROW: usize = 12;
 const WIDE: usize = 36;
 
@@ -56,6 +56,8 @@ const SAMPLE: usize = 8;
 #[derive(Debug)]
 pub struct Workspace<'a> {
     size: Size,
+    /// Columns that are advanced at once.
+    lanes: usize,
     /// Values of `[1, cos t, sin t, ...]`, sample after sample.
     basis: &'a mut [f64],
     samples: &'a mut [[f64; SAMPLE]],
@@ -79,17 +81,21 @@ impl<'a> Layout<'a> for Workspace<'a> {
 
     fn take(size: Size, parts: &mut Parts<'a>) -> Result<Workspace<'a>, Error> {
         // One column for each coefficient of the motion, in whole blocks: in each, those of the normal component, of u and of v.
-        let lanes = if 3 * size.coefficients() <= NARROW { NARROW } else { WIDE };
-        let columns = lanes * size.coefficients().div_ceil(lanes / 3);
+        let columns = |lanes: usize| lanes * size.coefficients().div_ceil(lanes / 3);
+        let widest = if 3 * size.coefficients() <= NARROW { NARROW } else { WIDE };
+        let lanes = if has_avx2() { widest } else { NARROW };
+        let (reserved, columns, sums) = (columns(widest), columns(lanes), 2 * size.coefficients());
+        let first = |count: usize, values: &'a mut [f64]| values.get_mut(..count).unwrap_or(&mut []);
         Ok(Workspace {
             size,
+            lanes,
             basis: parts.take(size.coefficients() * size.samples)?,
             samples: parts.take(SAMPLE * size.samples)?.as_chunks_mut().0,
             tables: parts.take(3 * N * ROWS)?.as_chunks_mut::<N>().0.as_chunks_mut().0,
             dual_tables: parts.take(4 * N * ROWS)?.as_chunks_mut().0.as_chunks_mut::<N>().0.as_chunks_mut().0,
-            derivatives: parts.take(SPRINGS * columns)?,
-            forces: parts.take(2 * columns)?,
-            sums: parts.take(2 * size.coefficients() * columns)?,
+            derivatives: first(SPRINGS * columns, parts.take(SPRINGS * reserved)?),
+            forces: first(2 * columns, parts.take(2 * reserved)?),
+            sums: first(sums * columns, parts.take(sums * reserved)?),
         })
     }
 
@@ -292,7 +298,7 @@ impl<'a> Walk<'a> {
         }
         if !taken.closed[1] {
             workspace.forces.fill(0.0);
-        } else if workspace.forces.len() == 2 * NARROW {
+        } else if workspace.lanes == NARROW {
             differentiate::<{ NARROW / 4 }, { NARROW / 4 + 1 }>(workspace, self, taken, samples, by_top);
         } else {
             differentiate::<{ WIDE / 4 }, { WIDE / 4 + 1 }>(workspace, self, taken, samples, by_top);
@@ -377,10 +383,33 @@ fn columns<const L: usize, const M: usize>(
     slip: &Slips,
     springs: &mut Columns<L>,
 ) -> Both<[[f64; 4]; L]> {
-    dispatch!({
-        let force = step(&tables, contact, motion, slip, springs);
-        [springs.of(&force[0]), springs.of(&force[1])]
-    })
+    if 4 * L > NARROW {
+        return wide_columns(tables, contact, motion, slip, springs).unwrap_or([[[0.0; 4]; L]; 2]);
+    }
+    dispatch!(columns_kernel(tables, contact, motion, slip, springs))
+}
+
+/// Many columns have long code, which exists for AVX2 only.
+fn wide_columns<const L: usize, const M: usize>(
+    tables: &DualRows,
+    contact: &Contact<Dual<1>>,
+    motion: &Motion<Dual<1>, Dual<M>>,
+    slip: &Slips,
+    springs: &mut Columns<L>,
+) -> Option<Both<[[f64; 4]; L]>> {
+    on_avx2_only!(columns_kernel(tables, contact, motion, slip, springs))
+}
+
+#[inline(always)]
+fn columns_kernel<const L: usize, const M: usize>(
+    tables: &DualRows,
+    contact: &Contact<Dual<1>>,
+    motion: &Motion<Dual<1>, Dual<M>>,
+    slip: &Slips,
+    springs: &mut Columns<L>,
+) -> Both<[[f64; 4]; L]> {
+    let force = step(&tables, contact, motion, slip, springs);
+    [springs.of(&force[0]), springs.of(&force[1])]
 }
 
 /// Tables with their derivatives by the logarithm of the reference size, from those of a slightly larger and a smaller one.
@@ -491,7 +520,7 @@ fn write_jacobian(workspace: &Workspace, unit: Option<f64>, jacobian: &mut [f64]
     let (n, per_sample) = (workspace.coefficients(), 1.0 / workspace.size.samples as f64);
     let columns = workspace.forces.len() / 2;
     let weight = |c: usize| if c == 0 { per_sample } else { 2.0 * per_sample };
-    let lanes = if columns == NARROW { NARROW } else { WIDE };
+    let lanes = if workspace.lanes == NARROW { NARROW } else { WIDE };
     let lane = |j: usize| {
         let (component, coefficient) = ((j / n + 1) % 3, j % n);
         coefficient / (lanes / 3) * lanes + component * (lanes / 3) + coefficient % (lanes / 3)
