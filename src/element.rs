@@ -456,6 +456,11 @@ impl Element {
         self.load_at_shift(shift).0
     }
 
+    /// A scale of the normal component, that of the load of the parameters: derivatives by the component over it remain within range.
+    pub(crate) fn input_scale(&self) -> f64 {
+        if self.by_approach() { self.normal_force / self.normal_stiffness } else { self.normal_force }
+    }
+
     /// Whether the normal component of a displacement is the approach.
     pub(crate) fn by_approach(&self) -> bool {
         self.tag & FORCE_INPUT == 0

@@ -24,7 +24,7 @@ const INSIDE_EDGE: f64 = 1.0 - 2e-5;
 impl Pressed<f64> {
     pub const NONE: Pressed<f64> = Pressed { load: 0.0, shift: [0.0; 2], size: 0.0, inside: [0.0; 3] };
 
-    /// The state of a contact that is closed, and its derivatives by the normal component.
+    /// The state of a contact that is closed, and its derivatives by the normal component over its scale.
     pub fn new(element: &Element, units: &Units, input: f64, normal: &Normal) -> [Pressed<f64>; 2] {
         let Normal { load, shift, load_slope, shift_slope } = *normal;
         // Products only: the compiler may divide by what is beside a number in its vector register.
@@ -32,10 +32,11 @@ impl Pressed<f64> {
         let w = element.size_under(load);
         let (size, slope) = (w * per_size, element.shape().size_slope(w) * load_slope * per_size * per_size);
         let lateral = [element.lateral_shift(load, shift), element.lateral_slope(normal)];
-        let inner = element.normal(INSIDE_EDGE * input);
+        let (inner, scale) = (element.normal(INSIDE_EDGE * input), element.input_scale());
         let inside = [
             [inner.load, inner.shift, element.lateral_shift(inner.load, inner.shift)],
-            [inner.load_slope, inner.shift_slope, element.lateral_slope(&inner)].map(|slope| INSIDE_EDGE * slope),
+            [inner.load_slope, inner.shift_slope, element.lateral_slope(&inner)]
+                .map(|slope| INSIDE_EDGE * scale * slope),
         ];
         let of = |load: f64, [x, y]: [f64; 2], size: f64, [inner_load, inner_x, inner_y]: [f64; 3]| Pressed {
             load: load * per_load,
@@ -45,7 +46,7 @@ impl Pressed<f64> {
         };
         [
             of(load, [shift, lateral[0]], size * size, inside[0]),
-            of(load_slope, [shift_slope, lateral[1]], slope, inside[1]),
+            of(scale * load_slope, [scale * shift_slope, scale * lateral[1]], scale * slope, inside[1]),
         ]
     }
 

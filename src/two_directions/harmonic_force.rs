@@ -575,6 +575,7 @@ fn differentiate<const L: usize, const M: usize>(
     let n = workspace.coefficients();
     let [start, end, top] = samples.map(|index| index.map_or(&[][..], |index| row(workspace.basis, n, index)));
     let at = |basis: &[f64], c: usize| basis.get(c).copied().unwrap_or(0.0);
+    let per_scale = 1.0 / walk.element.input_scale();
     let Taken { motion, path, before, old, .. } = taken;
     if walk.derived.is_none() {
         walk.derived = Some(derive(&walk.contact, walk.dual_tables, &walk.slopes));
@@ -594,11 +595,12 @@ fn differentiate<const L: usize, const M: usize>(
             let (coefficient, part, lane) = (block * each + c, c / 4, c % 4);
             let (from, to) = (at(start, coefficient), at(end, coefficient));
             for k in 0..2 {
-                by[k].0[1 + part][lane] = path.per_input[k][0] * from + path.per_input[k][1] * to;
+                by[k].0[1 + part][lane] =
+                    path.per_input[k][0] * (per_scale * from) + path.per_input[k][1] * (per_scale * to);
                 by[k].0[1 + (1 + k) * (L / 3) + part][lane] = path.per_distance * (to - from);
             }
             // The load at the start of the first step is that of the largest one.
-            let top = at(top, coefficient);
+            let [from, to, top] = [from, to, at(top, coefficient)].map(|input| per_scale * input);
             parameters[START][part][lane] = if start.is_empty() { top } else { from };
             (parameters[END][part][lane], parameters[ALIGNMENT][part][lane]) = (to, by_top * top);
         }

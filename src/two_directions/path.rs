@@ -14,7 +14,7 @@ pub(super) const LONGEST: f64 = 1e9;
 pub(super) struct Path {
     pub by: Both<f64>,
     pub per_distance: f64,
-    /// By the normal component at the start and at the end, in each direction.
+    /// By the normal component over its scale at the start and at the end, in each direction.
     pub per_input: Both<[f64; 2]>,
     /// The factor by which the motion was shortened.
     pub scale: f64,
@@ -40,7 +40,8 @@ impl Path {
         Path {
             by: distance.map(|distance| part * distance * per_scale),
             per_distance: part / unit * per_scale,
-            per_input: distance.map(|distance| slopes.map(|slope| distance * slope * per_scale)),
+            per_input: distance
+                .map(|distance| slopes.map(|slope| distance * (element.input_scale() * slope) * per_scale)),
             scale,
         }
     }

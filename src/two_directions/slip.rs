@@ -22,7 +22,7 @@ pub(crate) type Set = u32;
 const STEPS: usize = 60;
 const CHANGES: usize = 12;
 /// Changes of angles: the one that would be next, at the end, that up to which the inverse is renewed, and the largest one of a step.
-const CONVERGED: f64 = 1e-14;
+const CONVERGED: f64 = 1e-12;
 const RENEWED: f64 = 1e-2;
 const LARGEST_TURN: f64 = 0.8;
 /// Of two changes that are at most the first number, with a new inverse each, the second one is a rounding error from this part on.
@@ -399,21 +399,17 @@ impl Slip {
                     self.stiffen(problem);
                 }
             }
-            let constant = both!(|k| times(&self.k[k], [first, end], &r_trial[k]));
             // The inverse of the step before holds while changes of angles fall to a tenth.
             let (mut turn, mut reviewed, mut done, mut holds) = (f64::MAX, false, false, self.inverted == of);
             let mut renewed = [false; 2];
             loop {
                 let ([e_x, e_y], level) = (self.e, self.level);
                 for k in 0..2 {
-                    let mut r = self.e[k];
+                    let mut excess = r_trial[k];
                     for i in 0..N {
-                        r[i] *= level[i];
+                        excess[i] = slips[i] * (excess[i] - level[i] * self.e[k][i]);
                     }
-                    let own = times(&self.k[k], [first, end], &r);
-                    for i in 0..N {
-                        self.sigma[k][i] = slips[i] * (constant[k][i] - own[i]);
-                    }
+                    self.sigma[k] = times(&self.k[k], [first, end], &excess);
                 }
                 let (mut residual, mut diagonal) = ([0.0; N], [0.0; N]);
                 let [s_x, s_y] = self.sigma;

@@ -156,7 +156,11 @@ impl Law for TwoDirections {
             result.force = [force_unit * header.force[0], force_unit * header.force[1], normal.load];
             if requested.tangent {
                 let slopes = stick::tangent(memory.tables, &contact, &slopes, &edge, memory.springs);
-                result.tangent = tangent_of(slopes, [force_unit * path.per_distance, force_unit], normal.load_slope);
+                result.tangent = tangent_of(
+                    slopes,
+                    [force_unit * path.per_distance, force_unit / element.input_scale()],
+                    normal.load_slope,
+                );
             }
             memory.move_to(to, &header.force);
             return result;
@@ -173,7 +177,11 @@ impl Law for TwoDirections {
             });
             let motion = Motion { before: motion.before.map(Dual::constant), by, constant_load: same };
             let force = tangent(memory.tables, &contact, &slopes, &motion, &slip, memory.springs);
-            result.tangent = tangent_of(force.map(|force| force.0[0]), [force_unit; 2], normal.load_slope);
+            result.tangent = tangent_of(
+                force.map(|force| force.0[0]),
+                [force_unit, force_unit / element.input_scale()],
+                normal.load_slope,
+            );
         }
         let contacts = [&from, &contact];
         let (force, energy) = advance(memory.tables, contacts, &motion, &slip, requested.energy, memory.springs);
