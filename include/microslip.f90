@@ -1653,8 +1653,7 @@ contains
     !! mslip_complex_stiffness for n items, one amplitude each.
     type(mslip_contact), intent(in) :: contacts(:)  !! Initialised contacts.
     real(mslip_real), intent(in) :: amplitude(:)  !! Amplitude of the displacement [m], 0 to 1e150; 0 gives the initial stiffness.
-    integer(mslip_int), intent(out) :: status
-      !! `MSLIP_OK`, MSLIP_BAD_INDEX or the codes of mslip_complex_stiffness; all outputs are unchanged then.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, MSLIP_BAD_INDEX or the codes of mslip_complex_stiffness.
     integer(mslip_int), intent(in), optional :: index(:)
       !! n indices of contacts or elements, from 1 (`MSLIP_BAD_INDEX`). Absent: each item has its own.
     integer(mslip_int), intent(in), optional, target, contiguous :: active(:)
@@ -1692,8 +1691,7 @@ contains
     real(mslip_real), intent(inout), target, contiguous :: states_new(:, :)
       !! (state length, n): the state of each item after the step. For a step in place use the procedure named
       !! `_advance`.
-    integer(mslip_int), intent(out) :: status
-      !! `MSLIP_OK`, MSLIP_BAD_INDEX or the codes of mslip_masing_update; all outputs are unchanged then.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, MSLIP_BAD_INDEX or the codes of mslip_masing_update.
     integer(mslip_int), intent(in), optional :: index(:)
       !! n indices of contacts or elements, from 1 (`MSLIP_BAD_INDEX`). Absent: each item has its own.
     integer(mslip_int), intent(in), optional, target, contiguous :: active(:)
@@ -1728,8 +1726,7 @@ contains
     real(mslip_real), intent(inout), target, contiguous :: states(:, :)
       !! (state length, n): the state of each item before and after the step.
     real(mslip_real), intent(in) :: displacement(:)  !! Displacement at the end of the step [m]; its magnitude is at most 1e150.
-    integer(mslip_int), intent(out) :: status
-      !! `MSLIP_OK`, MSLIP_BAD_INDEX or the codes of mslip_masing_update; all outputs are unchanged then.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, MSLIP_BAD_INDEX or the codes of mslip_masing_update.
     integer(mslip_int), intent(in), optional :: index(:)
       !! n indices of contacts or elements, from 1 (`MSLIP_BAD_INDEX`). Absent: each item has its own.
     integer(mslip_int), intent(in), optional, target, contiguous :: active(:)
@@ -1764,8 +1761,7 @@ contains
     real(mslip_real), intent(inout), target, contiguous :: workspace(:)
       !! An initialised workspace; it decides H, and that of an element m.
     real(mslip_real), intent(in) :: displacement(:, :)  !! (k, n): Coefficients of the displacement [m].
-    integer(mslip_int), intent(out) :: status
-      !! `MSLIP_OK`, MSLIP_BAD_INDEX or the codes of mslip_harmonic_force; all outputs are unchanged then.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, MSLIP_BAD_INDEX or the codes of mslip_harmonic_force.
     integer(mslip_int), intent(in), optional :: index(:)
       !! n indices of contacts or elements, from 1 (`MSLIP_BAD_INDEX`). Absent: each item has its own.
     integer(mslip_int), intent(in), optional, target, contiguous :: active(:)
@@ -2106,7 +2102,7 @@ contains
       !! step.
     real(mslip_real), intent(inout), target, contiguous :: state_new(:)
       !! New state, of the same size. For a step or path in place use the procedure named `_advance`.
-    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, or the codes of mslip_element_update; all outputs are unchanged then.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, or the codes of mslip_element_update.
     real(mslip_real), intent(inout), optional, target, contiguous :: force(:, :)
       !! (m, n): Tangential forces, then the normal force at the end of the step [N].
     real(mslip_real), intent(inout), optional, target, contiguous :: tangent(:, :, :)
@@ -2136,7 +2132,7 @@ contains
     real(mslip_real), intent(in) :: displacement(:, :)
       !! (m, n): Tangential displacements [m], then the normal approach [m] or the normal force [N] at the end of the
       !! step.
-    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, or the codes of mslip_element_update; all outputs are unchanged then.
+    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, or the codes of mslip_element_update.
     real(mslip_real), intent(inout), optional, target, contiguous :: force(:, :)
       !! (m, n): Tangential forces, then the normal force at the end of the step [N].
     real(mslip_real), intent(inout), optional, target, contiguous :: tangent(:, :, :)
@@ -2271,7 +2267,7 @@ contains
     force, tangent, dissipated)
     !! mslip_element_update for n items, all with the same number of tangential directions: states hold state_length
     !! doubles per item, contiguously; with m = 2 components for one direction, 3 for two, displacement and force hold m
-    !! doubles per item, tangent m x m, dissipated one.
+    !! doubles per item, tangent m x m, dissipated one; m is that of the first item that is not skipped.
     type(mslip_element), intent(in) :: elements(:)  !! Initialised elements.
     real(mslip_real), intent(in), target, contiguous :: states_old(:, :)
       !! (state length, n): the state of each item before the step.
@@ -2283,7 +2279,7 @@ contains
       !! `_advance`.
     integer(mslip_int), intent(out) :: status
       !! `MSLIP_OK`, MSLIP_BAD_INDEX, MSLIP_BAD_DIRECTIONS for elements or states of different numbers of directions, or
-      !! the codes of mslip_element_update; all outputs are unchanged then.
+      !! the codes of mslip_element_update.
     integer(mslip_int), intent(in), optional :: index(:)
       !! n indices of contacts or elements, from 1 (`MSLIP_BAD_INDEX`). Absent: each item has its own.
     integer(mslip_int), intent(in), optional, target, contiguous :: active(:)
@@ -2325,7 +2321,7 @@ contains
       !! step.
     integer(mslip_int), intent(out) :: status
       !! `MSLIP_OK`, MSLIP_BAD_INDEX, MSLIP_BAD_DIRECTIONS for elements or states of different numbers of directions, or
-      !! the codes of mslip_element_update; all outputs are unchanged then.
+      !! the codes of mslip_element_update.
     integer(mslip_int), intent(in), optional :: index(:)
       !! n indices of contacts or elements, from 1 (`MSLIP_BAD_INDEX`). Absent: each item has its own.
     integer(mslip_int), intent(in), optional, target, contiguous :: active(:)
@@ -2368,7 +2364,7 @@ contains
       !! [N].
     integer(mslip_int), intent(out) :: status
       !! `MSLIP_OK`, MSLIP_BAD_INDEX or the codes of mslip_element_harmonic_force, MSLIP_BAD_DIRECTIONS for an element
-      !! with another number of directions than the workspace; all outputs are unchanged then.
+      !! with another number of directions than the workspace.
     integer(mslip_int), intent(in), optional :: index(:)
       !! n indices of contacts or elements, from 1 (`MSLIP_BAD_INDEX`). Absent: each item has its own.
     integer(mslip_int), intent(in), optional, target, contiguous :: active(:)

@@ -11,6 +11,8 @@
  *             that says nothing; a state or other memory for as many doubles as the length that is passed with it. Contacts,
  *             elements, states and tables may be memory of that size which was never initialised, a workspace must have been.
  * Aliasing    Output buffers must not alias any other argument, except where stated.
+ * Batches     Item i uses contacts[index[i]], or contacts[i] if index is NULL; so do elements. If active is not NULL and active[i] is
+ *             0, item i is skipped, and its state is not written.
  * Ownership   All memory is the caller's: contacts, states, workspaces and tables are plain data that may be copied, stored in
  *             restart files and sent through MPI. The fields of mslip_contact may be read; everything else is reserved. A call
  *             recognises memory that was never initialised, is too short, or belongs to another version of this interface; the
@@ -820,7 +822,7 @@ int32_t mslip_element_update(const struct mslip_element *element,
 // mslip_element_update. state_new receives the last state and may alias state_old. If NULL, the new state is discarded; for one
 // direction the path is then evaluated with a capacity of at most 256 pieces.
 //
-// Returns the codes of mslip_element_update; all outputs are unchanged then.
+// Returns the codes of mslip_element_update.
 int32_t mslip_element_path(const struct mslip_element *element,
                            size_t state_length,
                            const double *state_old,
@@ -844,10 +846,9 @@ int32_t mslip_element_tractions(const struct mslip_element *element,
                                 double *pressure,
                                 double *shear);
 
-// mslip_complex_stiffness for n items, one amplitude each. Item i uses contacts[index[i]], or contacts[i] if index is NULL.
-// If active is not NULL and active[i] is 0, item i is skipped.
+// mslip_complex_stiffness for n items, one amplitude each.
 //
-// Returns MSLIP_BAD_INDEX or the codes of mslip_complex_stiffness; all outputs are unchanged then.
+// Returns MSLIP_BAD_INDEX or the codes of mslip_complex_stiffness.
 int32_t mslip_batch_complex_stiffness(size_t n,
                                       size_t n_contacts,
                                       const struct mslip_contact *contacts,
@@ -860,10 +861,9 @@ int32_t mslip_batch_complex_stiffness(size_t n,
                                       double *dk_imag);
 
 // mslip_masing_update for n items: states hold state_length doubles per item, contiguously; displacement, force, stiffness and
-// dissipated one. states_new may alias states_old. Item i uses contacts[index[i]], or contacts[i] if index is NULL. If
-// active is not NULL and active[i] is 0, item i is skipped, and its state is not written.
+// dissipated one. states_new may alias states_old.
 //
-// Returns MSLIP_BAD_INDEX or the codes of mslip_masing_update; all outputs are unchanged then.
+// Returns MSLIP_BAD_INDEX or the codes of mslip_masing_update.
 int32_t mslip_batch_masing_update(size_t n,
                                   size_t n_contacts,
                                   const struct mslip_contact *contacts,
@@ -878,10 +878,9 @@ int32_t mslip_batch_masing_update(size_t n,
                                   double *dissipated);
 
 // mslip_harmonic_force for n items with one workspace: displacement and force hold 2H+1 doubles per item, jacobian (2H+1)^2,
-// dissipated one. Item i uses contacts[index[i]], or contacts[i] if index is NULL. If active is not NULL and active[i] is
-// 0, item i is skipped.
+// dissipated one.
 //
-// Returns MSLIP_BAD_INDEX or the codes of mslip_harmonic_force; all outputs are unchanged then.
+// Returns MSLIP_BAD_INDEX or the codes of mslip_harmonic_force.
 int32_t mslip_batch_harmonic_force(size_t n,
                                    size_t n_contacts,
                                    const struct mslip_contact *contacts,
@@ -895,12 +894,10 @@ int32_t mslip_batch_harmonic_force(size_t n,
 
 // mslip_element_update for n items, all with the same number of tangential directions: states hold state_length doubles per item,
 // contiguously; with m = 2 components for one direction, 3 for two, displacement and force hold m doubles per item, tangent m x m,
-// dissipated one. states_new may alias states_old. Item i uses elements[index[i]], or elements[i] if index is NULL. If
-// active is not NULL and active[i] is 0, item i is skipped, and its state is not written; m is that of the first item that is
-// not skipped.
+// dissipated one; m is that of the first item that is not skipped. states_new may alias states_old.
 //
 // Returns MSLIP_BAD_INDEX, MSLIP_BAD_DIRECTIONS for elements or states of different numbers of directions, or the codes of
-// mslip_element_update; all outputs are unchanged then.
+// mslip_element_update.
 int32_t mslip_batch_element_update(size_t n,
                                    size_t n_elements,
                                    const struct mslip_element *elements,
@@ -915,11 +912,10 @@ int32_t mslip_batch_element_update(size_t n,
                                    double *dissipated);
 
 // mslip_element_harmonic_force for n items with one workspace: with m = 2 components for a workspace of one tangential direction,
-// 3 for one of two, displacement and force hold m(2H+1) doubles per item, jacobian (m(2H+1))^2, dissipated and drift one. Item i uses
-// elements[index[i]], or elements[i] if index is NULL. If active is not NULL and active[i] is 0, item i is skipped.
+// 3 for one of two, displacement and force hold m(2H+1) doubles per item, jacobian (m(2H+1))^2, dissipated and drift one.
 //
 // Returns MSLIP_BAD_INDEX or the codes of mslip_element_harmonic_force, MSLIP_BAD_DIRECTIONS for an element with another number of
-// directions than the workspace; all outputs are unchanged then.
+// directions than the workspace.
 int32_t mslip_batch_element_harmonic_force(size_t n,
                                            size_t n_elements,
                                            const struct mslip_element *elements,

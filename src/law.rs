@@ -28,12 +28,11 @@ pub struct Requested {
 }
 
 /// Outputs of a path, step after step; `None` is not computed.
-#[derive(Debug)]
-pub struct PathOutput<'a, V, T> {
+pub struct PathOutput<'a, L: Law> {
     /// `[T, N]` or `[Tx, Ty, N]` per step \[N\].
-    pub force: Option<&'a mut [V]>,
+    pub force: Option<&'a mut [L::Vector]>,
     /// A tangent per step, 2 x 2 or 3 x 3, column-major.
-    pub tangent: Option<&'a mut [T]>,
+    pub tangent: Option<&'a mut [L::Tangent]>,
     /// One double per step \[J\].
     pub dissipated: Option<&'a mut [f64]>,
 }
@@ -84,12 +83,7 @@ pub trait Law: Sized {
     /// A step in place with checked arguments.
     fn advance(item: &Self::Item, state: &mut [f64], displacement: Self::Vector, requested: Requested) -> StepOf<Self>;
     /// Steps in place along a path, with a state and displacements that were checked.
-    fn path(
-        item: &Self::Item,
-        state: &mut [f64],
-        path: &[Self::Vector],
-        output: PathOutput<Self::Vector, Self::Tangent>,
-    ) {
+    fn path(item: &Self::Item, state: &mut [f64], path: &[Self::Vector], output: PathOutput<Self>) {
         let PathOutput { force, tangent, dissipated } = output;
         let requested = Requested { tangent: tangent.is_some(), energy: dissipated.is_some() };
         let mut forces = force.unwrap_or(&mut []).iter_mut();
@@ -103,12 +97,7 @@ pub trait Law: Sized {
         }
     }
     /// Steps along a path, both checked, in a copy of the state.
-    fn path_in_copy(
-        item: &Self::Item,
-        state: &[f64],
-        path: &[Self::Vector],
-        output: PathOutput<Self::Vector, Self::Tangent>,
-    );
+    fn path_in_copy(item: &Self::Item, state: &[f64], path: &[Self::Vector], output: PathOutput<Self>);
 
     /// A step in place.
     /// Errors: `StateTooShort`, `BadState`, and those of [`Law::check_step`].

@@ -229,7 +229,7 @@ impl Law for ConstantLoad {
 
     /// The copy holds at most [`REVERSALS_OF_COPY`] reversals.
     #[inline(never)]
-    fn path_in_copy(contact: &Contact, state: &[f64], path: &[f64], output: PathOutput<f64, f64>) {
+    fn path_in_copy(contact: &Contact, state: &[f64], path: &[f64], output: PathOutput<Self>) {
         let mut copy = [0.0; state::state_length(REVERSALS_OF_COPY)];
         let length = state.len().min(copy.len());
         let copy = copy.get_mut(..length).unwrap_or(&mut []);

@@ -256,10 +256,9 @@ unsafe fn harmonic_forces<L: Law, W>(
     })
 }
 
-/// mslip_complex_stiffness for n items, one amplitude each. Item i uses contacts\[index\[i\]\], or contacts\[i\] if index is NULL.
-/// If active is not NULL and active\[i\] is 0, item i is skipped.
+/// mslip_complex_stiffness for n items, one amplitude each.
 ///
-/// Returns MSLIP_BAD_INDEX or the codes of mslip_complex_stiffness; all outputs are unchanged then.
+/// Returns MSLIP_BAD_INDEX or the codes of mslip_complex_stiffness.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_batch_complex_stiffness(
     n: size_t,
@@ -287,10 +286,9 @@ pub unsafe extern "C" fn mslip_batch_complex_stiffness(
 }
 
 /// mslip_masing_update for n items: states hold state_length doubles per item, contiguously; displacement, force, stiffness and
-/// dissipated one. states_new may alias states_old. Item i uses contacts\[index\[i\]\], or contacts\[i\] if index is NULL. If
-/// active is not NULL and active\[i\] is 0, item i is skipped, and its state is not written.
+/// dissipated one. states_new may alias states_old.
 ///
-/// Returns MSLIP_BAD_INDEX or the codes of mslip_masing_update; all outputs are unchanged then.
+/// Returns MSLIP_BAD_INDEX or the codes of mslip_masing_update.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_batch_masing_update(
     n: size_t,
@@ -314,10 +312,9 @@ pub unsafe extern "C" fn mslip_batch_masing_update(
 }
 
 /// mslip_harmonic_force for n items with one workspace: displacement and force hold 2H+1 doubles per item, jacobian (2H+1)^2,
-/// dissipated one. Item i uses contacts\[index\[i\]\], or contacts\[i\] if index is NULL. If active is not NULL and active\[i\] is
-/// 0, item i is skipped.
+/// dissipated one.
 ///
-/// Returns MSLIP_BAD_INDEX or the codes of mslip_harmonic_force; all outputs are unchanged then.
+/// Returns MSLIP_BAD_INDEX or the codes of mslip_harmonic_force.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_batch_harmonic_force(
     n: size_t,
@@ -342,12 +339,10 @@ pub unsafe extern "C" fn mslip_batch_harmonic_force(
 
 /// mslip_element_update for n items, all with the same number of tangential directions: states hold state_length doubles per item,
 /// contiguously; with m = 2 components for one direction, 3 for two, displacement and force hold m doubles per item, tangent m x m,
-/// dissipated one. states_new may alias states_old. Item i uses elements\[index\[i\]\], or elements\[i\] if index is NULL. If
-/// active is not NULL and active\[i\] is 0, item i is skipped, and its state is not written; m is that of the first item that is
-/// not skipped.
+/// dissipated one; m is that of the first item that is not skipped. states_new may alias states_old.
 ///
 /// Returns MSLIP_BAD_INDEX, MSLIP_BAD_DIRECTIONS for elements or states of different numbers of directions, or the codes of
-/// mslip_element_update; all outputs are unchanged then.
+/// mslip_element_update.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_batch_element_update(
     n: size_t,
@@ -371,11 +366,10 @@ pub unsafe extern "C" fn mslip_batch_element_update(
 }
 
 /// mslip_element_harmonic_force for n items with one workspace: with m = 2 components for a workspace of one tangential direction,
-/// 3 for one of two, displacement and force hold m(2H+1) doubles per item, jacobian (m(2H+1))^2, dissipated and drift one. Item i uses
-/// elements\[index\[i\]\], or elements\[i\] if index is NULL. If active is not NULL and active\[i\] is 0, item i is skipped.
+/// 3 for one of two, displacement and force hold m(2H+1) doubles per item, jacobian (m(2H+1))^2, dissipated and drift one.
 ///
 /// Returns MSLIP_BAD_INDEX or the codes of mslip_element_harmonic_force, MSLIP_BAD_DIRECTIONS for an element with another number of
-/// directions than the workspace; all outputs are unchanged then.
+/// directions than the workspace.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_batch_element_harmonic_force(
     n: size_t,

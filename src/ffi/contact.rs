@@ -3,7 +3,7 @@
 use crate::constant_load::contact::Contact;
 use crate::error::Error;
 use crate::ffi::mslip_contact;
-use crate::ffi::pointers::{self, call, check_alignment, each, input, item, not_null, output, outputs, set, sum};
+use crate::ffi::pointers::{self, call, each, input, item, output, outputs, place, set, sum};
 use crate::limits::{check_displacement, check_positions};
 use crate::parameters::PARAMETERS;
 use crate::parameters::{EllipticParameters, Parameters};
@@ -62,12 +62,9 @@ unsafe fn initialise<P>(
     construct: impl FnOnce(&P) -> Result<Contact, Error>,
 ) -> i32 {
     call(|| {
-        let parameters = item(parameters)?;
-        not_null(contact)?;
-        check_alignment(contact)?;
-        let mut constructed = construct(parameters)?;
-        constructed.checksum = sum(&constructed).wrapping_neg();
-        contact.cast::<Contact>().write(constructed);
+        let (parameters, contact) = (item(parameters)?, place(contact.cast())?.ok_or(Error::NullPointer)?);
+        *contact = construct(parameters)?;
+        contact.checksum = sum(contact).wrapping_neg();
         Ok(())
     })
 }

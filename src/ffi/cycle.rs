@@ -119,15 +119,9 @@ pub unsafe extern "C" fn mslip_complex_stiffness_tabulated(
     dk_imag: *mut f64,
 ) -> i32 {
     call(|| {
-        let (contact, table, amplitude, outputs) = (
-            pointers::contact(contact)?,
-            pointers::stiffness_table(table)?,
-            input(amplitude, n)?,
-            outputs([k_real, k_imag, dk_real, dk_imag], n)?,
-        );
-        if !table.is_of(contact) {
-            return Err(Error::BadTable);
-        }
+        let contact = pointers::contact(contact)?;
+        let table = pointers::stiffness_table(table)?.filter(|table| table.is_of(contact)).ok_or(Error::BadTable)?;
+        let (amplitude, outputs) = (input(amplitude, n)?, outputs([k_real, k_imag, dk_real, dk_imag], n)?);
         amplitude.iter().try_for_each(|&amplitude| check_amplitude(amplitude))?;
         table.write(contact, amplitude, outputs);
         Ok(())

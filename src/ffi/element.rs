@@ -2,9 +2,7 @@
 
 use super::batch::{path, update_one};
 use super::mslip_element;
-use super::pointers::{
-    self, call, check_alignment, each, input, item, memory, outputs, place, set, state_input, sum, with_law,
-};
+use super::pointers::{self, call, each, input, item, memory, outputs, place, set, state_input, sum, with_law};
 use crate::element::{Directions, Element, NormalInput, NormalPoint};
 use crate::error::Error;
 use crate::law::Law;
@@ -29,10 +27,8 @@ unsafe fn initialise<P>(
     init: fn(&mut Element, &P, Directions, NormalInput) -> Result<(), Error>,
 ) -> i32 {
     call(|| {
-        let parameters = item(parameters)?;
-        check_alignment(element)?;
-        // It may be uninitialised, and is written before it is read.
-        let element = element.cast::<Element>().as_mut().ok_or(Error::NullPointer)?;
+        // The element may be uninitialised, and is written before it is read.
+        let (parameters, element) = (item(parameters)?, place(element.cast::<Element>())?.ok_or(Error::NullPointer)?);
         let directions = directions_of(directions)?;
         let input = [NormalInput::Approach, NormalInput::Force].into_iter().find(|input| *input as i32 == normal_input);
         init(element, parameters, directions, input.ok_or(Error::BadNormalInput)?)?;
@@ -268,7 +264,7 @@ pub unsafe extern "C" fn mslip_element_update(
 /// mslip_element_update. state_new receives the last state and may alias state_old. If NULL, the new state is discarded; for one
 /// direction the path is then evaluated with a capacity of at most 256 pieces.
 ///
-/// Returns the codes of mslip_element_update; all outputs are unchanged then.
+/// Returns the codes of mslip_element_update.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_path(
     element: *const mslip_element,

@@ -116,12 +116,9 @@ pub unsafe fn element<'a>(pointer: *const mslip_element) -> Result<&'a Element, 
     if element.is_initialised() { Ok(element) } else { Err(Error::BadElement) }
 }
 
-/// An initialised table of the complex stiffness.
-pub unsafe fn stiffness_table<'a>(pointer: *const f64) -> Result<&'a StiffnessTable, Error> {
-    if !StiffnessTable::is_tag(*item(pointer)?) {
-        return Err(Error::BadTable);
-    }
-    item(pointer.cast())
+/// A table of the complex stiffness, if it is initialised.
+pub unsafe fn stiffness_table<'a>(pointer: *const f64) -> Result<Option<&'a StiffnessTable>, Error> {
+    if StiffnessTable::is_tag(*item(pointer)?) { item(pointer.cast()).map(Some) } else { Ok(None) }
 }
 
 /// The items of an input with their places in the outputs that are requested; no items if none is.

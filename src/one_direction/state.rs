@@ -155,7 +155,7 @@ impl Law for OneDirection {
     }
 
     /// The copy is as long, but for at most 256 pieces.
-    fn path_in_copy(element: &Element, state: &[f64], path: &[[f64; 2]], output: PathOutput<[f64; 2], [f64; 4]>) {
+    fn path_in_copy(element: &Element, state: &[f64], path: &[[f64; 2]], output: PathOutput<Self>) {
         let mut buffer = [0.0; COPY_LENGTH];
         let copied = buffer.get_mut(..state.len().min(COPY_LENGTH)).unwrap_or(&mut []);
         copy(element, state, copied);

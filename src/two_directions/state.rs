@@ -194,7 +194,7 @@ impl Law for TwoDirections {
     }
 
     #[inline(never)]
-    fn path_in_copy(element: &Element, state: &[f64], path: &[[f64; 3]], output: PathOutput<[f64; 3], [f64; 9]>) {
+    fn path_in_copy(element: &Element, state: &[f64], path: &[[f64; 3]], output: PathOutput<Self>) {
         let mut copy = [0.0; LENGTH];
         Self::copy_used(state, &mut copy);
         Self::path(element, &mut copy, path, output);
