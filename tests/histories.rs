@@ -458,6 +458,10 @@ fn elements_under_a_constant_normal_force_are_contacts() {
         for normal_input in [NormalInput::Approach, NormalInput::Force] {
             let (contact, element) = (input.contact(), input.element(Directions::One, normal_input));
             let whole = if normal_input == NormalInput::Force { NORMAL_FORCE } else { element.approach };
+            // A rise of the load that is mostly rounding.
+            let mut memory = History::new(&element, 64);
+            let stuck = [1.0 - 1e-12, 1.0].map(|share| memory.step(0.0, share * whole).tangent[0]);
+            assert!((stuck[1] / contact.initial_stiffness - 1.0).abs() < 1e-9, "{input:?} {stuck:?}");
             let mut memory = History::new(&element, 64);
             memory.step(0.0, whole);
             let (mut state, mut phase) = (unloaded(64), 0.7_f64);
@@ -532,6 +536,10 @@ fn the_smallest_components_open_a_contact() {
             assert_eq!(History::new(&one, 4).step(0.0, first).force[1] > 0.0, closes);
             assert_eq!(common::two_directions::Contact::new(&two).to([0.0, 0.0, second]).force[2] > 0.0, closes);
         }
+        // A size below the rounding of displacements keeps the direction of its slip.
+        let mut far = History::new(&one, 4);
+        let steps = [(0.0, 1e-30), (-1.0, 1e-30), (-1.0, 2e-30)].map(|(u, share)| far.step(u, share * whole));
+        assert_eq!(steps[2].force[0], -FRICTION * steps[2].force[1]);
     }
 }
 
@@ -612,10 +620,12 @@ impl<'c> Bounded<'c> {
         let expected = advance(&mut self.exact);
         for (state, largest) in self.short.iter_mut().zip(&mut self.reported) {
             let found = advance(state);
+            assert_eq!(ConstantLoad::state_check(state), Ok(()));
             let reported = ConstantLoad::force_error(state) / self.contact.slip_force;
             if reported == 0.0 {
                 assert_eq!(found, expected, "no reversals were merged");
             }
+            assert!(found[0].abs() <= self.contact.slip_force, "{found:?}");
             // Rounding need not be covered.
             let excess = (found[0] - expected[0]).abs() / self.contact.slip_force - reported;
             assert!(excess <= 16.0 * f64::EPSILON, "{excess:e} of mu N beyond {reported:e}, {:?}", self.contact);
@@ -681,12 +691,12 @@ fn bounded_states_in_random_histories() {
             let reversals: Vec<usize> = (2..=8).collect();
             let steps = 20 + random.below(100);
             let mut bounded = Bounded::new(&contact, steps, &reversals);
-            // Nested, nearly nested, or any reversals; in some histories after gross slip.
-            let (mut low, mut high) = (-1.0, 1.0);
+            // Any reversals, nested, nearly nested, at the limit of gross slip, beside the one before the last; in some after gross slip.
+            let (mut low, mut high, mut far) = (-1.0, 1.0, 0.0);
             if random.below(2) == 0 {
                 bounded.advance(3.0 * random.signed());
             }
-            let (kind, mut displacement) = (random.below(3), 0.0_f64);
+            let (kind, mut displacement) = (random.below(5), 0.0_f64);
             for step in 0..steps {
                 let share = random.next();
                 let share = if kind == 1 { share.powi(4) } else { share };
@@ -694,15 +704,19 @@ fn bounded_states_in_random_histories() {
                     0 => random.signed(),
                     1 if step % 2 == 0 => high - share * (high - displacement).max(0.0),
                     1 => low + share * (displacement - low).max(0.0),
-                    _ => (displacement + 0.5 * random.signed()).clamp(-1.0, 1.0),
+                    2 => (displacement + 0.5 * random.signed()).clamp(-1.0, 1.0),
+                    3 => [1.0, -1.0][step % 2] * (1.0 - 10_f64.powf(-9.0 - 7.0 * random.next())),
+                    _ if step % 3 == 0 => random.signed(),
+                    _ if step % 3 == 1 => 0.3 * far,
+                    _ => far * (1.0 - 4.0 * f64::EPSILON * share),
                 };
+                far = if step % 3 == 0 { displacement } else { far };
                 (low, high) = if step % 2 == 0 { (low, displacement) } else { (displacement, high) };
                 if random.below(30) == 0 {
                     (low, high) = (-1.0, 1.0);
                 }
                 bounded.advance(displacement);
             }
-            bounded.short.iter().for_each(|state| assert_eq!(ConstantLoad::state_check(state), Ok(())));
             bounded.advance(5.0);
             bounded.check_erased();
         }

@@ -26,8 +26,7 @@ fn element_of(random: &mut Random, poisson_ratio: f64) -> Element {
     let (normal_force, friction_coefficient) = (1000.0, 0.5);
     let build = |flat_half_width: f64, ratio: f64, layer: Layer| {
         if ratio > 0.0 {
-            let semi_axes = [1e-3, ratio * 1e-3];
-            let [semi_axis_x, semi_axis_y] = semi_axes;
+            let [semi_axis_x, semi_axis_y] = [1e-3, ratio * 1e-3];
             let parameters =
                 EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, material, layer };
             return Element::elliptic(&parameters, Directions::Two, NormalInput::Force).unwrap();
@@ -67,10 +66,6 @@ fn slip_displacement(element: &Element, load: f64) -> f64 {
     element.displacement_under(0, limit, load).value.max(element.displacement_under(1, limit, load).value)
 }
 
-fn tangential(step: &Step) -> f64 {
-    step.force[0].hypot(step.force[1])
-}
-
 #[test]
 fn long_slides_carry_the_friction_force_and_dissipate_their_work() {
     let mut random = Random(11);
@@ -93,7 +88,8 @@ fn long_slides_carry_the_friction_force_and_dissipate_their_work() {
             let to = [from[0] + length * cos, from[1] + length * sin, load];
             let (mut fine, mut short) = (contact.clone(), contact.clone());
             let step = contact.to(to);
-            let missing = |step: &Step| 1.0 - tangential(step) / (element.friction_coefficient * load);
+            let missing =
+                |step: &Step| 1.0 - step.force[0].hypot(step.force[1]) / (element.friction_coefficient * load);
             let error = missing(&step).abs();
             let of_energy = (step.dissipated / fine.along(from, to, 64) - 1.0).abs();
             assert!(error < 1e-12 && of_energy < 0.07, "{start} {length:e}: {error:e} {of_energy:e}, {element:?}");

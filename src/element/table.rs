@@ -297,7 +297,6 @@ mod tests {
                     x = if x > low { low } else { 0.97 * x };
                 }
             }
-            std::println!("N_c = {ratio} N: the normal force within {worst:.1e}, stated {stated:.1e}");
             assert!(worst < stated && worst > 0.5 * stated, "{ratio} {worst:e}");
         }
     }
