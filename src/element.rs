@@ -32,6 +32,9 @@ pub enum Directions {
     Two = 2,
 }
 
+/// What a displacement of an element consists of.
+pub(crate) type Components = (Directions, NormalInput);
+
 /// An initialised element: plain data of fixed size that may be copied, stored and sent.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default)]
@@ -133,7 +136,7 @@ impl Element {
     /// Errors: the error of the first parameter that is not allowed; `BadNormalForce` also for 0; otherwise as for a contact.
     pub fn rounded_flat(parameters: &Parameters, directions: Directions, input: NormalInput) -> Result<Element, Error> {
         let mut element = Element::default();
-        element.init_rounded_flat(parameters, directions, input).map(|()| element)
+        element.init_rounded_flat(parameters, (directions, input)).map(|()| element)
     }
 
     /// The element of an elliptical Hertz contact; a sphere if both semi-axes are equal.
@@ -144,16 +147,11 @@ impl Element {
         input: NormalInput,
     ) -> Result<Element, Error> {
         let mut element = Element::default();
-        element.init_elliptic(parameters, directions, input).map(|()| element)
+        element.init_elliptic(parameters, (directions, input)).map(|()| element)
     }
 
     /// Initialises an element in place; unchanged on an error.
-    pub(crate) fn init_rounded_flat(
-        &mut self,
-        parameters: &Parameters,
-        directions: Directions,
-        input: NormalInput,
-    ) -> Result<(), Error> {
+    pub(crate) fn init_rounded_flat(&mut self, parameters: &Parameters, components: Components) -> Result<(), Error> {
         parameters.check()?;
         let (common, length) = (parameters.common(), parameters.length);
         let composite_modulus = closed_modulus(&common)?;
@@ -161,7 +159,7 @@ impl Element {
         let (layer, _) = Layer::new(&common.layer, common.normal_force)?;
         // The load at b = 2L.
         in_range(&[length, length, length, composite_modulus], &[parameters.edge_radius])?;
-        self.init(&Layered { shape: &flat, layer: &layer }, &common, directions, input)?;
+        self.init(&Layered { shape: &flat, layer: &layer }, &common, components)?;
         (self.composite_modulus, self.flat, self.ellipse) = (composite_modulus, flat, HertzEllipse::default());
         Ok(())
     }
@@ -170,8 +168,7 @@ impl Element {
     pub(crate) fn init_elliptic(
         &mut self,
         parameters: &EllipticParameters,
-        directions: Directions,
-        input: NormalInput,
+        components: Components,
     ) -> Result<(), Error> {
         parameters.check()?;
         let common = parameters.common();
@@ -182,20 +179,14 @@ impl Element {
         for axis in [parameters.semi_axis_x, parameters.semi_axis_y] {
             in_range(&[common.normal_force], &[axis, composite_modulus])?;
         }
-        self.init(&Layered { shape: &ellipse, layer: &layer }, &common, directions, input)?;
+        self.init(&Layered { shape: &ellipse, layer: &layer }, &common, components)?;
         self.tag |= ELLIPTIC;
         (self.composite_modulus, self.flat, self.ellipse) = (composite_modulus, RoundedFlat::default(), ellipse);
         Ok(())
     }
 
     /// Checks all ranges, then writes what depends on the shape only through its trait.
-    fn init(
-        &mut self,
-        shape: &Layered,
-        parameters: &Common,
-        directions: Directions,
-        input: NormalInput,
-    ) -> Result<(), Error> {
+    fn init(&mut self, shape: &Layered, parameters: &Common, (directions, input): Components) -> Result<(), Error> {
         let Common { normal_force, friction_coefficient, .. } = *parameters;
         let plane = shape.plane();
         let layer = plane.layer;

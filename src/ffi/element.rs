@@ -3,7 +3,7 @@
 use super::batch::{path, update_one};
 use super::mslip_element;
 use super::pointers::{self, call, each, input, item, memory, outputs, place, set, state_input, sum, with_law};
-use crate::element::{Directions, Element, NormalInput, NormalPoint};
+use crate::element::{Components, Directions, Element, NormalInput, NormalPoint};
 use crate::error::Error;
 use crate::law::Law;
 use crate::one_direction::tractions::tractions;
@@ -24,14 +24,14 @@ unsafe fn initialise<P>(
     directions: i32,
     normal_input: i32,
     element: *mut mslip_element,
-    init: fn(&mut Element, &P, Directions, NormalInput) -> Result<(), Error>,
+    init: fn(&mut Element, &P, Components) -> Result<(), Error>,
 ) -> i32 {
     call(|| {
         // The element may be uninitialised, and is written before it is read.
         let (parameters, element) = (item(parameters)?, place(element.cast::<Element>())?.ok_or(Error::NullPointer)?);
         let directions = directions_of(directions)?;
         let input = [NormalInput::Approach, NormalInput::Force].into_iter().find(|input| *input as i32 == normal_input);
-        init(element, parameters, directions, input.ok_or(Error::BadNormalInput)?)?;
+        init(element, parameters, (directions, input.ok_or(Error::BadNormalInput)?))?;
         element.checksum = sum(element).wrapping_neg();
         Ok(())
     })

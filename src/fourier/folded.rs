@@ -299,7 +299,7 @@ mod tests {
     #[test]
     fn samples_of_odd_orders_are_exactly_half_wave_symmetric() {
         let mut memory = vec![0.0; Parts::count(|parts| FoldedFourier::take(parts, 22, 6))];
-        let mut fourier = FoldedFourier::take(&mut Parts::of(&mut memory), 22, 6).unwrap();
+        let mut fourier = FoldedFourier::take(&mut Parts::Taking(&mut memory), 22, 6).unwrap();
         fourier.fill();
         let mut values = vec![0.0; sample_length(22)];
         fourier.synthesise(&[0.0, 0.3, 0.7, 0.0, 0.0, -0.2, 0.1, 0.0, 0.0, 0.35, -0.23], &mut values);

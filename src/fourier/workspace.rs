@@ -93,7 +93,7 @@ pub(crate) trait Layout<'a>: Sized {
         let memory = workspace.get_mut(..Self::length(size)).ok_or(Error::WorkspaceTooShort)?;
         memory.fill(0.0);
         let (header, buffers) = memory.split_first_chunk_mut::<HEADER>().ok_or(Error::WorkspaceTooShort)?;
-        Self::take(size, &mut Parts::of(buffers))?.fill();
+        Self::take(size, &mut Parts::Taking(buffers))?.fill();
         let Size { harmonics, samples, periods } = size;
         *header = [Self::KIND.tag(harmonics), Kind::Samples.tag(samples), Kind::Periods.tag(periods), 0.0];
         Ok(())
@@ -114,7 +114,7 @@ pub(crate) trait Layout<'a>: Sized {
     fn open(workspace: &'a mut [f64]) -> Result<Self, Error> {
         let (header, buffers) = workspace.split_first_chunk_mut::<HEADER>().ok_or(Error::BadWorkspace)?;
         let (size, _) = Self::read(header.first_chunk().ok_or(Error::BadWorkspace)?)?;
-        Self::take(size, &mut Parts::of(buffers))
+        Self::take(size, &mut Parts::Taking(buffers))
     }
 }
 
@@ -132,10 +132,6 @@ pub(crate) enum Parts<'a> {
 }
 
 impl<'a> Parts<'a> {
-    pub fn of(memory: &'a mut [f64]) -> Parts<'a> {
-        Parts::Taking(memory)
-    }
-
     /// Number of doubles in the parts that a function takes.
     pub fn count<T>(take: impl FnOnce(&mut Parts<'a>) -> Result<T, Error>) -> usize {
         let mut parts = Parts::Counting(0);
