@@ -400,7 +400,7 @@ impl Slip {
                 }
             }
             // The inverse of the step before holds while changes of angles fall to a tenth.
-            let (mut turn, mut reviewed, mut done, mut holds) = (f64::MAX, false, false, self.inverted == of);
+            let (mut turn, mut done, mut holds) = (f64::MAX, false, self.inverted == of);
             let mut renewed = [false; 2];
             loop {
                 let ([e_x, e_y], level) = (self.e, self.level);
@@ -418,11 +418,8 @@ impl Slip {
                     diagonal[i] = e_x[i] * s_x[i] + e_y[i] * s_y[i];
                 }
                 let undetermined = steps % REVIEW == REVIEW - 1;
-                if done || undetermined || (turn <= 0.1 && !reviewed) {
-                    reviewed = true;
-                    if self.review(problem, done || undetermined) {
-                        continue 'sets;
-                    }
+                if (done || undetermined) && self.review(problem) {
+                    continue 'sets;
                 }
                 renewed = [renewed[1], !holds];
                 if (done && derivatives) || (!done && renewed[1]) {
@@ -475,7 +472,7 @@ impl Slip {
 
     /// Points beyond the limit slip; at the end of an iteration, those whose slip is against the traction stick. Whether any has changed.
     #[inline(always)]
-    fn review(&mut self, problem: &Problem, done: bool) -> bool {
+    fn review(&mut self, problem: &Problem) -> bool {
         let (before, first, mut r) = (self.set, self.set.trailing_zeros() as usize, problem.r);
         if before != 0 && !(first == 0 && self.without_gaps(problem.end)) {
             let v = self.springs(problem);
@@ -496,7 +493,7 @@ impl Slip {
             if before >> i & 1 == 1 {
                 let along = self.sigma[0][i] * self.e[0][i] + self.sigma[1][i] * self.e[1][i];
                 let scale = self.k[0][i][i] + self.k[1][i][i];
-                self.set &= !(Set::from(done && along < -BACKWARDS * scale) << i);
+                self.set &= !(Set::from(along < -BACKWARDS * scale) << i);
             } else if square > (1.0 + EXCESS) * limit * limit {
                 let length = square.sqrt();
                 self.set |= 1 << i;
