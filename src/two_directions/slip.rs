@@ -110,6 +110,9 @@ pub(crate) struct Slip {
     pub level: Row<f64>,
     pub e: Both<Row<f64>>,
     pub sigma: Both<Row<f64>>,
+    /// The springs after slip, and r of the points that stick.
+    v: Both<Row<f64>>,
+    r: Both<Row<f64>>,
     /// K, and the inverse of the derivative of the residual by the angles, as `[m][i]`.
     pub k: Both<Matrix>,
     pub inverse: Matrix,
@@ -218,27 +221,23 @@ impl Slips {
                         attempt += 1;
                     }
                 }
-                slips.v = if slip.set == 0 { problem.v } else { slip.springs(&problem) };
+                slips.v = if slip.set == 0 { problem.v } else { slip.v };
                 if !middle || (theta >= 1.0 && slip.set.count_ones() as usize == end) {
                     // The middle of a contact that slides far is its end.
                     break;
                 }
                 // The rest of the step slips as the middle did.
                 guesses[0].set = 0;
-                let at = problem.v;
+                let (v, r) = (problem.v, problem.r);
                 (problem.v, problem.r) = (trial.v, trial.r);
                 if slip.set != 0 {
-                    let (first, per) = (slip.set.trailing_zeros() as usize, 1.0 / theta);
+                    let per = 1.0 / theta;
                     for k in 0..2 {
-                        let mut relaxed = [0.0; N];
-                        for j in 0..N {
-                            relaxed[j] = (at[k][j] - slips.v[k][j]) * per;
-                            problem.v[k][j] -= relaxed[j];
-                        }
-                        let relaxed = tractions(t, contact, k, &relaxed, first);
                         for i in 0..N {
+                            problem.v[k][i] -= (v[k][i] - slip.v[k][i]) * per;
                             let slipped = start[k][i] + (slip.level[i] * slip.e[k][i] - start[k][i]) * per;
-                            problem.r[k][i] = if slip.contains(i) { slipped } else { problem.r[k][i] - relaxed[i] };
+                            let sticks = problem.r[k][i] - (r[k][i] - slip.r[k][i]) * per;
+                            problem.r[k][i] = if slip.contains(i) { slipped } else { sticks };
                         }
                     }
                 }
@@ -291,6 +290,8 @@ impl Slip {
         level: [1.0; N],
         e: [[0.0; N]; 2],
         sigma: [[0.0; N]; 2],
+        v: [[0.0; N]; 2],
+        r: [[0.0; N]; 2],
         k: [[[0.0; N]; N]; 2],
         inverse: [[0.0; N]; N],
         known: (0, 0.0),
@@ -470,25 +471,28 @@ impl Slip {
         false
     }
 
-    /// Points beyond the limit slip; at the end of an iteration, those whose slip is against the traction stick. Whether any has changed.
+    /// The springs after slip. Points beyond the limit slip, and those whose slip is against the traction stick: whether any has changed.
     #[inline(always)]
     fn review(&mut self, problem: &Problem) -> bool {
-        let (before, first, mut r) = (self.set, self.set.trailing_zeros() as usize, problem.r);
+        let (before, first) = (self.set, self.set.trailing_zeros() as usize);
+        (self.v, self.r) = (problem.v, problem.r);
+        if before != 0 {
+            self.v = self.springs(problem);
+        }
         if before != 0 && !(first == 0 && self.without_gaps(problem.end)) {
-            let v = self.springs(problem);
             for k in 0..2 {
-                let mut relaxed = v[k];
+                let mut relaxed = problem.v[k];
                 for j in 0..N {
-                    relaxed[j] = problem.v[k][j] - v[k][j];
+                    relaxed[j] -= self.v[k][j];
                 }
                 let relaxed = tractions(problem.t, problem.contact, k, &relaxed, first);
                 for i in 0..N {
-                    r[k][i] -= relaxed[i];
+                    self.r[k][i] -= relaxed[i];
                 }
             }
         }
         for i in 0..problem.end.min(N) {
-            let (x, y, limit) = (r[0][i], r[1][i], self.level[i]);
+            let (x, y, limit) = (self.r[0][i], self.r[1][i], self.level[i]);
             let square = x * x + y * y;
             if before >> i & 1 == 1 {
                 let along = self.sigma[0][i] * self.e[0][i] + self.sigma[1][i] * self.e[1][i];
