@@ -439,7 +439,8 @@ fn without_friction(element: &Element, samples: &mut [[f64; SAMPLE]]) {
     }
 }
 
-/// The periods of a motion that was synthesised.
+/// The periods of a motion that was synthesised. Not inlined: its frame is not that of a call with one direction.
+#[inline(never)]
 fn walk(element: &Element, workspace: &mut Workspace, output: HarmonicOutput) {
     let Size { samples: count, periods, .. } = workspace.size;
     let HarmonicOutput { force, jacobian, dissipated, drift } = output;
