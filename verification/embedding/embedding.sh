@@ -128,19 +128,11 @@ links() {
 
 # --- sanitizers, valgrind, threads ---
 
-# sanitized SANITIZER COMMAND...: a command of cargo with a sanitizer. The option is not yet stable, and the compiled parts of Rust's
-# library are not instrumented.
-sanitized() {
-    sanitizer=$1
-    shift
-    RUSTC_BOOTSTRAP=1 RUSTFLAGS="-Zsanitizer=$sanitizer -Cunsafe-allow-abi-mismatch=sanitizer" \
-        $CARGO "$@" --quiet --locked --package microslip --target "$triple" --target-dir "target/$sanitizer"
-}
-
-# instrument SANITIZER: builds the archive for a sanitizer, as $instrumented; with the profile of tests, which share the compilation.
+# instrument TARGET-DIRECTORY PROFILE COMMAND...: builds the archive for a sanitizer, as $instrumented.
 instrument() {
-    instrumented=target/$1/$triple/debug/libmicroslip.a
-    sanitized "$1" build
+    instrumented=$1/$triple/$2/libmicroslip.a
+    shift 2
+    "$@" build --package microslip
 }
 
 # detects NAME PATTERN COMMAND...: the tool reports the error of that name inside the library.
@@ -157,7 +149,7 @@ run_driver() {
 }
 
 sanitizers() {
-    check 'an archive for AddressSanitizer' instrument address
+    check 'an archive for AddressSanitizer' instrument target fuzz tools/fuzz.sh --cargo
     flags='-g -O1 -ffp-contract=off -fsanitize=address,undefined -fno-sanitize-recover=all'
     check 'negative controls' build controls clang $flags $calls $here/negative_controls.c $instrumented $system
     check 'AddressSanitizer detects a read outside of an array' detects read heap-buffer-overflow env
@@ -165,7 +157,7 @@ sanitizers() {
     # The mathematical functions of Rust's archives differ in the last digits.
     check "the application with cargo's archive" first_application $cargo_archive $system
     check 'AddressSanitizer: all calls' same_application clang $flags $application $instrumented $system
-    check 'AddressSanitizer: every argument of every call' sanitized address test --test ffi
+    check 'AddressSanitizer: every argument of every call' tools/fuzz.sh --cargo test --package microslip --test ffi
     for driver in c_tests/*.c; do
         # Random calls in other rounding modes, in half a minute.
         [ "$driver" != c_tests/extremes.c ] || continue
@@ -193,7 +185,9 @@ threads() {
     # helgrind takes the atomic variable with the processor's features for a plain one: it is set before there are threads.
     check 'helgrind: no race' $helgrind "$work/threads" once
 
-    check 'an archive for ThreadSanitizer' instrument thread
+    # The option is not yet stable, and the compiled parts of Rust's library are not instrumented.
+    check 'an archive for ThreadSanitizer' instrument target/thread debug env RUSTC_BOOTSTRAP=1 CARGO_TARGET_DIR=target/thread \
+        CARGO_BUILD_TARGET="$triple" RUSTFLAGS='-Zsanitizer=thread -Cunsafe-allow-abi-mismatch=sanitizer' $CARGO --quiet --locked
     check 'negative controls' build_for_threads controls $here/negative_controls.c
     # The longest history: on a busy machine one thread may end before the other begins.
     check 'ThreadSanitizer detects a race' detects race 'data race' env TSAN_OPTIONS=history_size=7
