@@ -122,13 +122,10 @@ pub trait Law: Sized {
     #[inline(always)]
     fn check_state(tag: f64, state_length: usize) -> Result<(), Error> {
         let is_short = state_length < Self::STATE_LENGTH;
-        let checked = if is_short { Err(Error::StateTooShort) } else { Self::check_tag(tag, state_length) };
-        checked.map_err(
-            #[cold]
-            |error| {
-                if Self::OTHER_STATE.is_some_and(|o| o.count(tag).is_some()) { Error::BadDirections } else { error }
-            },
-        )
+        match if is_short { Err(Error::StateTooShort) } else { Self::check_tag(tag, state_length) } {
+            Err(_) if Self::OTHER_STATE.is_some_and(|other| other.count(tag).is_some()) => Err(Error::BadDirections),
+            checked => checked,
+        }
     }
 
     /// Checks length and tag of a state. Errors: `StateTooShort`, `BadState`, `BadDirections`.

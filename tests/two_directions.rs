@@ -110,13 +110,14 @@ fn unit(element: &Element) -> f64 {
 #[test]
 fn tangents_are_derivatives() {
     let mut random = Random(1);
-    for element in &[
+    let elements = vec![
         flat(0.0, NormalInput::Force, Directions::Two),
         flat(2e-4, NormalInput::Force, Directions::Two),
         flat(3e-3, NormalInput::Approach, Directions::Two),
         ellipse(1.0),
         ellipse(3.0),
-    ] {
+    ];
+    for element in &elements {
         let (unit, full) = (unit(element), normal_input(element, 1.0));
         let mut contact = Contact::new(element);
         let mut at = [0.0, 0.0, full];
