@@ -8,7 +8,7 @@ use crate::limits::{MAX_DISPLACEMENT, check_displacement, check_force, in_range}
 use crate::numerics::fp_class::{in_0_to, le};
 use crate::numerics::quadrature::gauss_nodes;
 use crate::parameters::{Common, EllipticParameters, Parameters};
-use crate::shape::{HertzEllipse, Layer, Layered, Plane, Quantity, RoundedFlat, Shape, TINY};
+use crate::shape::{Geometry, Layer, Quantity, Shape, TINY};
 use crate::tag::LAYOUT;
 use core::array::from_fn;
 pub(crate) use table::Curvature;
@@ -70,9 +70,7 @@ pub struct Element {
     smallest_input: f64,
     /// N, U and S under [`SMALLEST_LOAD`] of the normal force.
     smallest: [f64; 3],
-    flat: RoundedFlat,
-    ellipse: HertzEllipse,
-    layer: Layer,
+    shape: Shape,
     /// N(U) or U(N): what the input does not give.
     of_input: Table,
     /// S of the input.
@@ -90,7 +88,6 @@ pub struct Element {
 }
 
 const TAG: u64 = (0x6d73_6c69_7065 << 16) | (LAYOUT << 8);
-const ELLIPTIC: u64 = 1;
 const FORCE_INPUT: u64 = 2;
 const TWO_DIRECTIONS: u64 = 4;
 
@@ -136,7 +133,7 @@ impl Element {
     /// Errors: the error of the first parameter that is not allowed; `BadNormalForce` also for 0; otherwise as for a contact.
     pub fn rounded_flat(parameters: &Parameters, directions: Directions, input: NormalInput) -> Result<Element, Error> {
         let mut element = Element::default();
-        element.init_rounded_flat(parameters, (directions, input)).map(|()| element)
+        element.init(parameters, (directions, input)).map(|()| element)
     }
 
     /// The element of an elliptical Hertz contact; a sphere if both semi-axes are equal.
@@ -147,49 +144,28 @@ impl Element {
         input: NormalInput,
     ) -> Result<Element, Error> {
         let mut element = Element::default();
-        element.init_elliptic(parameters, (directions, input)).map(|()| element)
+        element.init(parameters, (directions, input)).map(|()| element)
     }
 
-    /// Initialises an element in place; unchanged on an error.
-    pub(crate) fn init_rounded_flat(&mut self, parameters: &Parameters, components: Components) -> Result<(), Error> {
-        parameters.check()?;
-        let (common, length) = (parameters.common(), parameters.length);
-        let composite_modulus = closed_modulus(&common)?;
-        let flat = RoundedFlat::new(parameters)?;
-        let (layer, _) = Layer::new(&common.layer, common.normal_force)?;
-        // The load at b = 2L.
-        in_range(&[length, length, length, composite_modulus], &[parameters.edge_radius])?;
-        self.init(&Layered { shape: &flat, layer: &layer }, &common, components)?;
-        (self.composite_modulus, self.flat, self.ellipse) = (composite_modulus, flat, HertzEllipse::default());
-        Ok(())
-    }
-
-    /// Initialises an element in place; unchanged on an error.
-    pub(crate) fn init_elliptic(
-        &mut self,
-        parameters: &EllipticParameters,
-        components: Components,
-    ) -> Result<(), Error> {
-        parameters.check()?;
-        let common = parameters.common();
-        let composite_modulus = closed_modulus(&common)?;
-        let ellipse = HertzEllipse::new(parameters)?;
-        let (layer, _) = Layer::new(&common.layer, common.normal_force)?;
-        // The approach, free of overflow.
-        for axis in [parameters.semi_axis_x, parameters.semi_axis_y] {
-            in_range(&[common.normal_force], &[axis, composite_modulus])?;
+    /// Initialises an element in place; unchanged on an error. Checks all ranges before it writes.
+    pub(crate) fn init(&mut self, geometry: &impl Geometry, components: Components) -> Result<(), Error> {
+        geometry.check()?;
+        let parameters = geometry.common();
+        let composite_modulus = parameters.composite_modulus()?;
+        if parameters.normal_force <= 0.0 {
+            return Err(Error::BadNormalForce);
         }
-        self.init(&Layered { shape: &ellipse, layer: &layer }, &common, components)?;
-        self.tag |= ELLIPTIC;
-        (self.composite_modulus, self.flat, self.ellipse) = (composite_modulus, RoundedFlat::default(), ellipse);
-        Ok(())
+        let mut shape = geometry.shape(Layer::default())?;
+        (shape.layer, _) = Layer::new(&parameters.layer, parameters.normal_force)?;
+        geometry.check_element(composite_modulus)?;
+        shape.largest = shape.largest_in_plane();
+        self.init_of(&shape, &parameters, components)
     }
 
-    /// Checks all ranges, then writes what depends on the shape only through its trait.
-    fn init(&mut self, shape: &Layered, parameters: &Common, (directions, input): Components) -> Result<(), Error> {
+    /// The element of a shape.
+    fn init_of(&mut self, shape: &Shape, parameters: &Common, (directions, input): Components) -> Result<(), Error> {
         let Common { normal_force, friction_coefficient, .. } = *parameters;
-        let plane = shape.plane();
-        let layer = plane.layer;
+        let layer = &shape.layer;
         let [w, largest] = sizes(shape, normal_force, directions)?;
         let compliances = [Quantity::Approach, Quantity::Shift].map(|quantity| shape.compliance(quantity, w));
         let [approach, shift] = [Quantity::Approach, Quantity::Shift].map(|quantity| shape.value(quantity, w));
@@ -203,39 +179,38 @@ impl Element {
                 in_range(&[value, friction_coefficient], &[])?;
             }
         }
-        self.largest_load = shape.shape.load(largest);
+        self.largest_load = shape.load(largest);
         [self.largest_approach, self.largest_shift] =
             [Quantity::Approach, Quantity::Shift].map(|quantity| shape.value(quantity, largest));
         if directions == Directions::Two {
             self.largest_load = self.largest_load.min(normal_force / SMALLEST_LOAD);
             self.largest_approach = self.largest_approach.min(approach * MOST_APPROACH);
         }
-        let least = shape.shape.at_load(SMALLEST_LOAD * normal_force);
+        let least = shape.at_load(SMALLEST_LOAD * normal_force);
         self.smallest = Quantity::ALL.map(|quantity| shape.value(quantity, least));
         let smallest = if directions == Directions::Two { SMALLEST_OF_SPRINGS } else { SMALLEST_LOAD };
         self.smallest_input = smallest * if input == NormalInput::Force { normal_force } else { approach };
         self.friction_coefficient = friction_coefficient;
         self.per_two_mu = if friction_coefficient > 0.0 { 0.5 / friction_coefficient.max(TINY) } else { 0.0 };
         self.normal_force = normal_force;
-        self.half_width = shape.shape.half_width(w);
+        self.half_width = shape.half_width(w);
         self.approach = approach;
         [self.normal_stiffness, self.tangential_stiffness] = compliances.map(f64::recip);
         (self.directions, self.normal_input) = (directions as i32, input as i32);
         self.tag = TAG | tag_of(directions) | if input == NormalInput::Force { FORCE_INPUT } else { 0 };
         self.checksum = 0;
-        self.layer = *layer;
-        let ratio = plane.per_approach[1] / plane.per_approach[0];
-        let own = [plane.per_load[1] - ratio * plane.per_load[0], (1.0 - ratio) * layer.compliance(0.0)];
+        (self.composite_modulus, self.shape) = (shape.composite_modulus, *shape);
+        let ratio = shape.per_approach[1] / shape.per_approach[0];
+        let own = [shape.per_load[1] - ratio * shape.per_load[0], (1.0 - ratio) * layer.compliance(0.0)];
         let per_load = if layer.is_linear() { own[0] + own[1] } else { own[0] };
         self.lateral = [ratio, per_load];
-        self.key = key_of(&[normal_force, friction_coefficient, w, approach, shift, plane.flat, ratio, per_load]);
+        self.key = key_of(&[normal_force, friction_coefficient, w, approach, shift, shape.flat, ratio, per_load]);
         self.fill_tables(shape, input, [normal_force, approach, shift]);
         Ok(())
     }
 
     /// Fills the tables up to N, U and S of the parameters.
-    fn fill_tables(&mut self, shape: &Layered, input: NormalInput, [normal_force, approach, shift]: [f64; 3]) {
-        let plane = shape.plane();
+    fn fill_tables(&mut self, shape: &Shape, input: NormalInput, [normal_force, approach, shift]: [f64; 3]) {
         // The approach and the shift of a short contact have a maximum just beyond the largest size, where their inverses are
         // singular. Where that is at less than 2.25 times the argument, it would lie within 9 half-lengths of a quarter.
         let regular = |value: f64, largest: f64| value.min(largest / 2.25);
@@ -251,23 +226,18 @@ impl Element {
             NormalInput::Approach => (Quantity::Approach, regular(approach, self.largest_approach)),
             NormalInput::Force => (Quantity::Load, normal_force),
         };
-        let is_sum = plane.layer.is_none() && input == NormalInput::Approach;
-        self.shift_per = if is_sum { [plane.per_approach[0], plane.per_load[0]] } else { [0.0; 2] };
+        let is_sum = shape.layer.is_none() && input == NormalInput::Approach;
+        self.shift_per = if is_sum { [shape.per_approach[0], shape.per_load[0]] } else { [0.0; 2] };
         Table::fill([&mut self.of_input, &mut self.shift], largest, &mut |x| {
             let [load, approach, shift] = shape.series(shape.size_at(argument, x), argument);
             [if input == NormalInput::Force { approach } else { load }, shift]
         });
     }
 
-    /// The family of sizes in both directions.
-    pub(crate) fn plane(&self) -> Plane<'_> {
-        self.layered().plane()
-    }
-
     /// S along y, from a load and its shift along x.
     #[inline(always)]
     pub(crate) fn lateral_shift(&self, load: f64, shift: f64) -> f64 {
-        let ([ratio, per_load], layer) = (self.lateral, &self.layer);
+        let ([ratio, per_load], layer) = (self.lateral, &self.shape.layer);
         let linear = ratio * shift + per_load * load;
         if layer.is_linear() { linear } else { linear + (1.0 - ratio) * layer.shift(load) }
     }
@@ -275,7 +245,7 @@ impl Element {
     /// The derivative of S along y.
     #[inline(always)]
     pub(crate) fn lateral_slope(&self, normal: &Normal) -> f64 {
-        let ([ratio, per_load], layer) = (self.lateral, &self.layer);
+        let ([ratio, per_load], layer) = (self.lateral, &self.shape.layer);
         let Normal { load, load_slope, shift_slope, .. } = *normal;
         let linear = ratio * shift_slope + per_load * load_slope;
         if layer.is_linear() { linear } else { linear + (1.0 - ratio) * (layer.compliance(load) * load_slope) }
@@ -288,14 +258,14 @@ impl Element {
 
     /// Whether the tag is that of an element initialised by this version.
     pub(crate) fn is_initialised(&self) -> bool {
-        self.tag & !(ELLIPTIC | FORCE_INPUT | TWO_DIRECTIONS) == TAG
+        self.tag & !(FORCE_INPUT | TWO_DIRECTIONS) == TAG
     }
 
     /// Checks the tag of an element that is used with the given number of directions.
     /// Errors: `BadElement` unless it was initialised by this version; `BadDirections` for the other number of directions.
     #[inline(always)]
     pub(crate) fn check_directions(&self, directions: Directions) -> Result<(), Error> {
-        match self.tag & !(ELLIPTIC | FORCE_INPUT) {
+        match self.tag & !FORCE_INPUT {
             tag if tag == TAG | tag_of(directions) => Ok(()),
             _ if self.is_initialised() => Err(Error::BadDirections),
             _ => Err(Error::BadElement),
@@ -341,17 +311,18 @@ impl Element {
 
     /// A quantity as a function of an argument >= 0, from the shape. Below the smallest size all are proportional to each other.
     fn outside(&self, [quantity, argument]: [Quantity; 2], x: f64) -> (f64, f64) {
-        let shape = self.layered();
+        let shape = self.shape();
         if x > 0.0 && x < self.smallest(argument) {
             let slope = self.smallest(quantity) / self.smallest(argument);
             return (slope * x, slope);
         }
-        if x <= 0.0 && shape.shape.half_width(0.0) <= 0.0 {
+        if x <= 0.0 && shape.half_width(0.0) <= 0.0 {
             // A point is infinitely compliant.
             return (0.0, if argument == Quantity::Load { f64::INFINITY } else { 0.0 });
         }
         let w = if x > 0.0 { shape.size_at(argument, x) } else { 0.0 };
-        (shape.value(quantity, w), shape.compliance(quantity, w) / shape.compliance(argument, w))
+        let [value, compliance] = shape.value_and_compliance(quantity, w);
+        (value, compliance / shape.compliance(argument, w))
     }
 
     /// N, U or S of the smallest size that is distinguished.
@@ -457,14 +428,9 @@ impl Element {
         self.tag & FORCE_INPUT == 0
     }
 
-    /// The family of sizes without the layer.
-    pub(crate) fn shape(&self) -> &dyn Shape {
-        if self.tag & ELLIPTIC == 0 { &self.flat } else { &self.ellipse }
-    }
-
     /// The family of sizes.
-    fn layered(&self) -> Layered<'_> {
-        Layered { shape: self.shape(), layer: &self.layer }
+    pub(crate) fn shape(&self) -> &Shape {
+        &self.shape
     }
 
     /// Checks a normal component.
@@ -580,7 +546,7 @@ impl Element {
         if shift <= self.smallest(Quantity::Shift) {
             return 0.0;
         }
-        let shape = self.layered();
+        let shape = self.shape();
         let [[_, _, curvature, ..], ..] = shape.series(shape.size_at(Quantity::Shift, shift), Quantity::Shift);
         2.0 * curvature / (shift * shift)
     }
@@ -602,7 +568,7 @@ impl Element {
         if shift <= self.smallest(Quantity::Shift) {
             return 0.5 * self.load_under(shift) * shift;
         }
-        self.layered().potential(self.layered().size_at(Quantity::Shift, shift))
+        self.shape().potential(self.shape().size_at(Quantity::Shift, shift))
     }
 }
 
@@ -611,30 +577,19 @@ const fn tag_of(directions: Directions) -> u64 {
     (directions as u64 - 1) * TWO_DIRECTIONS
 }
 
-/// E* of parameters that were checked.
-/// Errors: `OutOfRange`, or `BadNormalForce` for an open contact.
-fn closed_modulus(parameters: &Common) -> Result<f64, Error> {
-    let modulus = parameters.composite_modulus()?;
-    if parameters.normal_force > 0.0 { Ok(modulus) } else { Err(Error::BadNormalForce) }
-}
-
 /// The size under a normal force and the largest one for which the laws hold.
 ///
 /// Errors: those of [`Layer::check_share`]; `LengthTooShort` if the first one is not smaller.
-fn sizes(shape: &Layered, normal_force: f64, directions: Directions) -> Result<[f64; 2], Error> {
-    let plane = shape.plane();
-    let mut largest = shape.largest_size();
-    if directions == Directions::Two {
-        largest = largest.min(plane.largest);
-    }
-    let w = shape.shape.at_load(normal_force);
-    if !plane.layer.is_none() {
+fn sizes(shape: &Shape, normal_force: f64, directions: Directions) -> Result<[f64; 2], Error> {
+    let mut largest = if directions == Directions::Two { shape.largest } else { shape.largest_size() };
+    let w = shape.at_load(normal_force);
+    if !shape.layer.is_none() {
         let compliances = [Quantity::Approach, Quantity::Shift].map(|quantity| shape.compliance(quantity, w));
-        plane.layer.check_share(normal_force, compliances)?;
+        shape.layer.check_share(normal_force, compliances)?;
         // The contact stiffens with the load, so that a layer has energies of the order of N² where those of a contact are smaller.
         let most = normal_force * MOST_LOAD_WITH_LAYER;
-        if shape.shape.load(largest) > most {
-            largest = shape.shape.at_load(most);
+        if shape.load(largest) > most {
+            largest = shape.at_load(most);
         }
     }
     if w >= largest { Err(Error::LengthTooShort) } else { Ok([w, largest]) }

@@ -12,19 +12,31 @@
 //!
 //! The monotonic curve, hysteresis and energies follow from N and S alone (Jäger 1998; Ciavarella 1998), without the geometry.
 //! Under a constant load only the sizes below the present one are involved: its stick zones.
+//!
+//! With the load g of a size in units of the shape, and β and γ the means of the compliance K beyond that of the size and of its product
+//! with the load, both shapes have the same sums,
+//!
+//! ```text
+//! N ~ g,     U, S = N (K + β),     M = N² (K + γ)/2,
+//! ```
+//!
+//! to which a layer in series adds its own.
 
-pub(crate) mod hertz_ellipse;
+mod hertz_ellipse;
 pub(crate) mod layer;
 pub(crate) mod rounded_flat;
 pub(crate) mod rounded_punch;
+pub(crate) mod series;
 pub(crate) mod stick_zone;
 pub(crate) mod tractions;
 
-pub use hertz_ellipse::HertzEllipse;
-pub(crate) use layer::{Layer, Layered};
-pub use rounded_flat::RoundedFlat;
+use crate::error::Error;
+use crate::numerics::roots::logarithmic_newton;
+use crate::parameters::Common;
+pub(crate) use layer::Layer;
 pub(crate) use rounded_flat::size_under_load;
 pub(crate) use rounded_punch::{RoundedPunch, TINY};
+use tractions::{SurfacePoint, difference_of_heights};
 
 /// A complementary pair of amounts, `consumed + remaining`. Neither is computed from the other if it is the smaller.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -37,56 +49,6 @@ impl Complement {
     /// The pair with the sum 1.
     pub fn of_remaining(remaining: f64) -> Complement {
         Complement { consumed: 1.0 - remaining, remaining }
-    }
-}
-
-/// A nested family of contact sizes in absolute terms. A size is given by a parameter w \[m\] that is 0 for the smallest one.
-pub(crate) trait Shape {
-    /// The shape in both directions of the plane of contact.
-    fn plane(&self) -> Plane<'_>;
-
-    /// Half-width s \[m\]; for an ellipse the semi-axis x.
-    fn half_width(&self, w: f64) -> f64;
-
-    /// N, U or S \[N, m\].
-    fn value(&self, quantity: Quantity, w: f64) -> f64;
-
-    /// The derivative of N, U or S by N: 1, K_n, K_t \[m/N\].
-    fn compliance(&self, quantity: Quantity, w: f64) -> f64;
-
-    /// M = ∫ N dS \[J\].
-    fn potential(&self, w: f64) -> f64;
-
-    /// K_n \[m/N\] of a flat punch of the half-width s below that of the flat; not used without a flat.
-    fn compliance_under_flat(&self, half_width: f64) -> f64;
-
-    /// The pressure that a size adds, times sqrt(s² - x²)/s and in any unit: dp/d(s²).
-    fn pressure_weight(&self, w: f64) -> f64;
-
-    /// d(w²)/dN \[m²/N\].
-    fn size_slope(&self, w: f64) -> f64;
-
-    /// The size w at which N, U or S has a value.
-    fn size_at(&self, quantity: Quantity, value: f64) -> f64;
-
-    /// The largest size for which the laws hold.
-    fn largest_size(&self) -> f64;
-
-    /// Pressure \[Pa\] at x \[m\] along the width that the sizes from `from` to `to` carry; 0 outside the contact. For an ellipse on
-    /// the x axis.
-    fn pressure_between(&self, from: f64, to: f64, x: f64) -> f64;
-
-    /// N, U and S about the size w > 0 as functions of one of them: Taylor coefficients in ρ for the argument `x (1 + ρ)`.
-    fn series(&self, w: f64, argument: Quantity) -> [Series; 3];
-
-    /// N \[N\].
-    fn load(&self, w: f64) -> f64 {
-        self.value(Quantity::Load, w)
-    }
-
-    /// The size w under a normal force \[N\].
-    fn at_load(&self, load: f64) -> f64 {
-        self.size_at(Quantity::Load, load)
     }
 }
 
@@ -106,85 +68,280 @@ impl Quantity {
     pub const ALL: [Quantity; 3] = [Quantity::Load, Quantity::Approach, Quantity::Shift];
 }
 
-/// A contact under forces in both directions of the plane of contact, x and y.
-pub(crate) struct Plane<'a> {
-    /// The contact without its layer.
-    pub shape: &'a dyn Shape,
-    pub layer: &'a Layer,
-    /// S = `per_approach` U + `per_load` N in each direction, without the layer.
-    pub per_approach: [f64; 2],
-    pub per_load: [f64; 2],
-    /// Half-width of the flat \[m\].
-    pub flat: f64,
-    /// The largest size for which the laws hold.
-    pub largest: f64,
+/// Geometry, material and load from which a shape follows.
+pub(crate) trait Geometry {
+    /// Checks the ranges of all parameters.
+    fn check(&self) -> Result<(), Error>;
+
+    /// The parameters that all shapes have.
+    fn common(&self) -> Common;
+
+    /// The shape of parameters that were checked, N > 0, with a layer.
+    /// Errors: `OutOfRange` if derived quantities are not representable; `LengthTooShort` if 2L <= b or if the tangential stiffness
+    /// at b would not be positive.
+    fn shape(&self, layer: Layer) -> Result<Shape, Error>;
+
+    /// Errors: `OutOfRange` if the laws of an element would not be representable.
+    fn check_element(&self, modulus: f64) -> Result<(), Error>;
 }
 
-impl Plane<'_> {
+/// A nested family of contact sizes, with a layer in series. A size is given by a parameter w \[m\] that is 0 for the smallest one: the
+/// semi-axis x of an ellipse, `sqrt(s² - a²)` of a flat with rounded edges.
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Shape {
+    /// 1 for an ellipse.
+    elliptic: u64,
+    /// Half-width a of the flat \[m\]; 0 for an ellipse.
+    pub flat: f64,
+    /// L, or the semi-axis x under the normal force of the parameters \[m\].
+    length: f64,
+    /// N/g.
+    load_scale: f64,
+    /// K_t/K \[m/N\]; 1 for an ellipse.
+    compliance_scale: f64,
+    /// κ of U and of S, or C_n and C_t.
+    constants: [f64; 2],
+    /// Without the layer, S = `per_approach` U + `per_load` N in each direction of the plane of contact.
+    pub per_approach: [f64; 2],
+    pub per_load: [f64; 2],
+    /// Pressure over the integrals of the tractions.
+    pressure_scale: f64,
+    /// The largest size for which the laws hold in both directions of the plane of contact; 0 unless set by an element.
+    pub largest: f64,
+    /// The half-width under the normal force of the parameters \[m\], and for a flat with rounded edges the punch with lengths over it.
+    pub reference: (f64, RoundedPunch),
+    /// E* \[Pa\].
+    pub composite_modulus: f64,
+    pub layer: Layer,
+}
+
+/// Smallest K for which the laws are inverted: the approach is largest where its K is 0.
+const SMALLEST_COMPLIANCE: f64 = 1.0 / 16.0;
+
+/// 2^498: the largest load \[N\], approach and shift \[m\] of an ellipse or of a layer.
+const LARGEST: f64 = f64::from_bits((1023 + 498) << 52);
+
+impl Shape {
+    fn is_elliptic(&self) -> bool {
+        self.elliptic != 0
+    }
+
+    /// The constant of U or of S.
+    fn constant(&self, quantity: Quantity) -> f64 {
+        self.constants[usize::from(quantity == Quantity::Shift)]
+    }
+
+    fn punch_at(&self, w: f64) -> RoundedPunch {
+        if self.is_elliptic() {
+            RoundedPunch { flat: 0.0, w, half_width: w, psi: 1.0 }
+        } else {
+            RoundedPunch::new(self.flat, w)
+        }
+    }
+
+    /// Half-width s \[m\]; for an ellipse the semi-axis x.
+    pub fn half_width(&self, w: f64) -> f64 {
+        self.punch_at(w).half_width
+    }
+
+    /// g of a size.
+    #[inline(always)]
+    fn unscaled_load(&self, punch: &RoundedPunch) -> f64 {
+        let ratio = punch.w / self.length;
+        if self.is_elliptic() { ratio * ratio * ratio } else { punch.load() }
+    }
+
+    /// N \[N\].
+    pub fn load(&self, w: f64) -> f64 {
+        self.load_scale * self.unscaled_load(&self.punch_at(w))
+    }
+
+    /// K_n or K_t \[m/N\] without the layer, or 1 for N.
+    #[inline(always)]
+    fn own_compliance(&self, quantity: Quantity, punch: &RoundedPunch) -> f64 {
+        match quantity {
+            Quantity::Load => 1.0,
+            _ if self.is_elliptic() => self.constant(quantity) * (self.length / punch.w.max(TINY)),
+            _ => self.compliance_scale * self.log_compliance(punch.half_width, self.constant(quantity)),
+        }
+    }
+
+    /// `ln(2L/s) + constant`.
+    fn log_compliance(&self, half_width: f64, constant: f64) -> f64 {
+        (2.0 * self.length / half_width.max(TINY * self.length).max(TINY)).ln() + constant
+    }
+
+    /// N, U or S without the layer \[N, m\], given g and its derivative by N.
+    #[inline(always)]
+    fn own_value(&self, quantity: Quantity, punch: &RoundedPunch, load: f64, compliance: f64) -> f64 {
+        self.load_scale
+            * match quantity {
+                Quantity::Load => load,
+                _ if self.is_elliptic() => 1.5 * load * compliance,
+                _ => load * (compliance + self.compliance_scale * punch.beta(load)),
+            }
+    }
+
+    /// N, U or S \[N, m\].
+    pub fn value(&self, quantity: Quantity, w: f64) -> f64 {
+        self.value_and_compliance(quantity, w)[0]
+    }
+
+    /// The derivative of N, U or S by N: 1, K_n, K_t \[m/N\].
+    pub fn compliance(&self, quantity: Quantity, w: f64) -> f64 {
+        let (own, unloaded) = (self.own_compliance(quantity, &self.punch_at(w)), self.layer.unloaded(quantity));
+        if unloaded > 0.0 { own + unloaded * self.layer.softness(self.load(w)) } else { own }
+    }
+
+    /// N, U or S and its derivative by N.
+    pub fn value_and_compliance(&self, quantity: Quantity, w: f64) -> [f64; 2] {
+        self.sums(quantity, &self.punch_at(w))
+    }
+
+    #[inline(always)]
+    fn sums(&self, quantity: Quantity, punch: &RoundedPunch) -> [f64; 2] {
+        let (load, unloaded) = (self.unscaled_load(punch), self.layer.unloaded(quantity));
+        let mut compliance = self.own_compliance(quantity, punch);
+        let mut value = self.own_value(quantity, punch, load, compliance);
+        if unloaded > 0.0 {
+            value += unloaded * self.layer.extent(self.load_scale * load);
+            compliance += unloaded * self.layer.softness(self.load_scale * load);
+        }
+        [value, compliance]
+    }
+
+    /// M = ∫ N dS \[J\].
+    pub fn potential(&self, w: f64) -> f64 {
+        let punch = self.punch_at(w);
+        let (load, compliance) = (self.unscaled_load(&punch), self.own_compliance(Quantity::Shift, &punch));
+        let mean = if self.is_elliptic() { 0.2 * compliance } else { self.compliance_scale * punch.gamma(load) };
+        let load = self.load_scale * load;
+        // The square of a small load would underflow.
+        let own = 0.5 * load * (load * (compliance + mean));
+        if self.layer.tangential > 0.0 { own + self.layer.potential(load) } else { own }
+    }
+
     /// N, and S in both directions.
     pub fn load_and_shifts(&self, w: f64) -> [f64; 3] {
-        let (load, approach) = (self.shape.load(w), self.shape.value(Quantity::Approach, w));
+        let punch = self.punch_at(w);
+        let (load, compliance) = (self.unscaled_load(&punch), self.own_compliance(Quantity::Approach, &punch));
+        let approach = self.own_value(Quantity::Approach, &punch, load, compliance);
+        let load = self.load_scale * load;
         let layer = self.layer.shift(load);
         let shift = |k: usize| self.per_approach[k] * approach + self.per_load[k] * load + layer;
         [load, shift(0), shift(1)]
     }
 
-    /// K_t in a direction of a flat punch of the half-width s below that of the flat: a load of 0.
+    /// K_t in a direction of a flat punch of the half-width s below that of the flat: a load of 0. Not used without a flat.
     pub fn compliance_under_flat(&self, k: usize, half_width: f64) -> f64 {
-        let contact = self.shape.compliance_under_flat(half_width);
-        self.per_approach[k] * contact + self.per_load[k] + self.layer.compliance(0.0)
+        let own = self.compliance_scale * self.log_compliance(half_width, self.constants[0]);
+        self.per_approach[k] * own + self.per_load[k] + self.layer.compliance(0.0)
     }
-}
 
-/// Number of Taylor coefficients in a [`Series`].
-pub(crate) const ORDER: usize = 16;
+    /// The pressure that a size adds, times sqrt(s² - x²)/s and in any unit: dp/d(s²).
+    pub fn pressure_weight(&self, w: f64) -> f64 {
+        self.punch_at(w).psi
+    }
 
-/// Taylor coefficients.
-pub(crate) type Series = [f64; ORDER];
-
-/// The series of an argument itself, `x (1 + ρ)`.
-pub(crate) fn identity(x: f64) -> Series {
-    let mut series = [0.0; ORDER];
-    (series[0], series[1]) = (x, x);
-    series
-}
-
-/// A power series whose coefficients are stored from the last to the first, with zeros behind, so that the sums over k of products of
-/// coefficients i and k - i run through contiguous memory.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Reversed([f64; 2 * ORDER]);
-
-impl Reversed {
-    pub const ZERO: Reversed = Reversed([0.0; 2 * ORDER]);
-
-    /// Sets the coefficient k.
-    #[inline(always)]
-    pub fn set(&mut self, k: usize, value: f64) {
-        if let Some(coefficient) = self.0.get_mut((ORDER - 1).wrapping_sub(k)) {
-            *coefficient = value;
+    /// d(w²)/dN \[m²/N\].
+    pub fn size_slope(&self, w: f64) -> f64 {
+        let punch = self.punch_at(w);
+        if self.is_elliptic() {
+            2.0 / 3.0 * (w / (self.load_scale * self.unscaled_load(&punch)).max(TINY)) * w
+        } else {
+            0.5 / (self.load_scale * punch.psi).max(TINY)
         }
     }
 
-    /// Term k of the product with another series.
-    #[inline(always)]
-    pub fn product_term(&self, other: &Series, k: usize) -> f64 {
-        let reversed =
-            self.0.get((ORDER - 1).wrapping_sub(k)..).and_then(<[f64]>::first_chunk).unwrap_or(&[0.0; ORDER]);
-        let mut sums = [0.0; 4];
-        for (one, two) in other.as_chunks::<4>().0.iter().zip(reversed.as_chunks::<4>().0) {
-            for lane in 0..4 {
-                sums[lane] += one[lane] * two[lane];
+    /// The size w under a normal force \[N\].
+    pub fn at_load(&self, load: f64) -> f64 {
+        let load = load / self.load_scale;
+        if self.is_elliptic() { self.length * load.cbrt() } else { RoundedPunch::from_load(self.flat, load).w }
+    }
+
+    /// The size w at which N, U or S has a value: Newton's method in the logarithms. The size at which the contact alone has the value and
+    /// that at which the layer alone has it are both too large; at the smaller one of both the sum is at most twice the value.
+    pub fn size_at(&self, quantity: Quantity, value: f64) -> f64 {
+        if quantity == Quantity::Load || value <= 0.0 {
+            return self.at_load(value.max(0.0));
+        }
+        let constant = self.constant(quantity);
+        let of_contact = if self.is_elliptic() {
+            self.length * (value / (1.5 * constant * self.load_scale)).sqrt()
+        } else {
+            let compliance = self.compliance_scale * self.log_compliance(self.reference.0, constant).max(1.0);
+            RoundedPunch::initial_guess_w(self.flat, value / (self.load_scale * compliance))
+        };
+        let unloaded = self.layer.unloaded(quantity);
+        if self.is_elliptic() && unloaded <= 0.0 {
+            return of_contact;
+        }
+        let mut start = of_contact;
+        if unloaded > 0.0 {
+            // A soft layer stiffens exponentially: alone it may carry a load that no size has.
+            let of_layer = self.layer.load_of_extent(value / unloaded);
+            start = if of_layer < self.load(start) { self.at_load(of_layer) } else { start };
+        }
+        logarithmic_newton(value, start, f64::INFINITY, |w| {
+            let punch = self.punch_at(w);
+            let [sum, compliance] = self.sums(quantity, &punch);
+            if compliance <= 0.0 {
+                // Beyond the largest size, half of it. The steps from below do not overshoot, because the logarithm is concave.
+                return [2.0 * value, 1.0];
             }
-        }
-        (sums[0] + sums[1]) + (sums[2] + sums[3])
+            // dN/d(ln w).
+            let slope = if self.is_elliptic() { 3.0 * self.unscaled_load(&punch) } else { 4.0 * w * w * punch.psi };
+            [sum, self.load_scale * slope * compliance / sum]
+        })
     }
 
-    /// Term k of this series as a quotient, from the terms before it, given term k of the numerator and the reciprocal of term 0 of the
-    /// denominator.
-    #[inline(always)]
-    pub fn quotient_term(&mut self, numerator: f64, denominator: &Series, reciprocal: f64, k: usize) -> f64 {
-        let term = (numerator - self.product_term(denominator, k)) * reciprocal;
-        self.set(k, term);
-        term
+    /// The largest size for which the laws hold: for a flat with rounded edges that at which the smaller one of both K is 1/16, and both
+    /// vanish near s = 2L; for an ellipse, and with a layer, by loads and displacements up to 2^498. Negative if that is less than a.
+    pub fn largest_size(&self) -> f64 {
+        let [normal, tangential] = self.constants;
+        let largest = if self.is_elliptic() {
+            let by_load = (LARGEST / self.load_scale).cbrt();
+            let compliance = 1.5 * normal.max(tangential);
+            self.length * by_load.min((LARGEST / (compliance * self.load_scale)).sqrt())
+        } else {
+            self.size_of_half_width(normal.min(tangential).min(0.0) - SMALLEST_COMPLIANCE)
+        };
+        let compliance = self.layer.normal.max(self.layer.tangential);
+        if compliance <= 1.0 { largest } else { largest.min(self.at_load(LARGEST / compliance)) }
+    }
+
+    /// The largest size for which the laws hold in both directions.
+    pub fn largest_in_plane(&self) -> f64 {
+        let [_, per_approach] = self.per_approach;
+        // K_y = 1/16 or more, as for the other two.
+        let bound = (SMALLEST_COMPLIANCE - self.per_load[1] / self.compliance_scale) / per_approach - self.constants[0];
+        if self.is_elliptic() { self.largest_size() } else { self.largest_size().min(self.size_of_half_width(-bound)) }
+    }
+
+    /// The size w with the half-width 2L exp(bound); negative if that is less than a.
+    fn size_of_half_width(&self, bound: f64) -> f64 {
+        let half_width = 2.0 * self.length * bound.exp();
+        let (less, more) = (half_width - self.flat, half_width + self.flat);
+        less.signum() * (less.abs() * more).sqrt()
+    }
+
+    /// Pressure \[Pa\] at x \[m\] along the width that the sizes from `from` to `to` carry (Eq. 17: `dp = E* ψ w dw/(πR sqrt(s² - x²))`);
+    /// 0 outside the contact. For an ellipse on the x axis: differences of `(3/2) N0/(π b² l) sqrt(s² - x²)`, the pressure of the size s.
+    pub fn pressure_between(&self, from: f64, to: f64, x: f64) -> f64 {
+        if self.is_elliptic() {
+            // The squares of distant points are not representable.
+            let x = x.abs().min(from.max(to));
+            let square = |s: f64| (s - x) * (s + x);
+            return self.pressure_scale * difference_of_heights(square(to), square(from), (to - from) * (to + from));
+        }
+        // Lengths in units of the larger half-width.
+        let half_width = self.half_width(to);
+        let unit = half_width.max(TINY);
+        let point = SurfacePoint::new(x, half_width, self.flat);
+        let squares = ((to - from) / unit) * ((to + from) / unit);
+        self.pressure_scale
+            * unit
+            * tractions::pressure_between(self.flat / unit, from / unit, to / unit, squares, &point)
     }
 }

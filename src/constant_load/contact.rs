@@ -8,7 +8,7 @@ use crate::limits::{exponent_of, in_range};
 use crate::parameters::{self, Common, EllipticParameters, PARAMETERS, Parameters, Sensitivity};
 use crate::shape::rounded_flat::reference_slope;
 use crate::shape::stick_zone::StickZones;
-use crate::shape::{Complement, HertzEllipse, Layer, RoundedFlat};
+use crate::shape::{Complement, Geometry, Layer, Quantity};
 use crate::tag::LAYOUT;
 use core::f64::consts::PI;
 
@@ -81,15 +81,15 @@ impl Contact {
         if normal_force == 0.0 {
             return Ok(contact);
         }
-        let shape = RoundedFlat::new(parameters)?;
-        let (half_width, composite_modulus) = (shape.half_width(), contact.composite_modulus);
+        let shape = parameters.shape(Layer::default())?;
+        let (half_width, composite_modulus) = (shape.reference.0, contact.composite_modulus);
         (contact.half_width, contact.flat_half_width) = (half_width, flat_half_width.abs());
         contact.pressure_scale = normal_force / length / half_width;
         contact.stiffness_scale = 0.5 * PI * composite_modulus * length;
         contact.reference_slope = reference_slope(parameters, half_width);
-        let compliance = shape.reference_compliance();
+        let compliance = shape.full_stick();
         let layer = contact.layer(&parameters.layer, normal_force, compliance)?;
-        contact.zones = StickZones::of_flat(shape.punch(), compliance, layer);
+        contact.zones = StickZones::of_flat(&shape.reference.1, compliance, layer);
         contact.set_friction(normal_force, [half_width, edge_radius, length, composite_modulus])?;
         Ok(contact)
     }
@@ -105,7 +105,7 @@ impl Contact {
         }
         let composite_modulus = contact.composite_modulus;
         contact.half_width = semi_axis_x;
-        contact.stiffness_scale = 1.0 / HertzEllipse::new(parameters)?.initial_compliance();
+        contact.stiffness_scale = 1.0 / parameters.shape(Layer::default())?.compliance(Quantity::Shift, semi_axis_x);
         contact.pressure_scale = normal_force / semi_axis_x / semi_axis_y;
         contact.zones = StickZones::of_ellipse(contact.layer(&parameters.layer, normal_force, 1.0)?);
         // The radius of the sphere with this semi-axis.

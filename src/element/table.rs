@@ -8,7 +8,7 @@
 
 use crate::numerics::chebyshev::monic_powers;
 use crate::numerics::const_math::tabulate;
-use crate::shape::{ORDER, Series};
+use crate::shape::series::{ORDER, Series};
 use core::hint::black_box;
 use wide::f64x2;
 
@@ -268,12 +268,12 @@ static MONIC_CHEBYSHEV: [[f64; ORDER]; ORDER - TERMS] = monic_powers(0.0, 1.0);
 mod tests {
     use super::*;
     use crate::constant_load::contact::tests::parameters;
-    use crate::shape::{Layer, Layered, Quantity, RoundedFlat, Shape};
+    use crate::shape::{Geometry, Layer, Quantity};
 
     /// The largest errors are at the lower end of a quarter, for flats with short edges. They are those that the guide states.
     #[test]
     fn tables_with_layers_lose_digits_for_the_smallest_stiffening_load() {
-        let contacts = [0.0, 50e-6, 1e-3, 3e-3].map(|flat| RoundedFlat::new(&parameters(flat)).unwrap());
+        let contacts = [0.0, 50e-6, 1e-3, 3e-3].map(|flat| parameters(flat).shape(Layer::default()).unwrap());
         for (ratio, stated) in [(0.1, 3e-15), (0.01, 5e-13), (0.001, 2.5e-10)] {
             let mut worst = 0.0_f64;
             for (shape, k) in contacts.iter().flat_map(|shape| (0..250).map(move |k| (shape, k))) {
@@ -284,7 +284,8 @@ mod tests {
                     stiffening_load: 150.0 * ratio,
                     reference_load: 0.0,
                 };
-                let both = Layered { shape, layer: &Layer::new(&layer, 150.0).unwrap().0 };
+                let mut both = *shape;
+                (both.layer, _) = Layer::new(&layer, 150.0).unwrap();
                 let largest = both.value(Quantity::Approach, shape.at_load(150.0));
                 let mut table = Table::default();
                 let at = |x: f64| both.size_at(Quantity::Approach, x);

@@ -55,7 +55,7 @@ pub unsafe extern "C" fn mslip_element_init(
     normal_input: i32,
     element: *mut mslip_element,
 ) -> i32 {
-    initialise(p, directions, normal_input, element, Element::init_rounded_flat)
+    initialise(p, directions, normal_input, element, Element::init)
 }
 
 /// Initialises the element of an elliptical Hertz contact; a sphere if both semi-axes are equal. normal_force of the parameters, >
@@ -71,7 +71,7 @@ pub unsafe extern "C" fn mslip_element_init_elliptic(
     normal_input: i32,
     element: *mut mslip_element,
 ) -> i32 {
-    initialise(p, directions, normal_input, element, Element::init_elliptic)
+    initialise(p, directions, normal_input, element, Element::init)
 }
 
 /// Validates an element that was read from a file or a message: its checksum must be that written at initialisation. Other

@@ -19,39 +19,25 @@
 
 use crate::error::Error;
 use crate::limits::in_range;
-use crate::parameters::{EllipticParameters, Pair};
-use crate::shape::rounded_punch::TINY;
-use crate::shape::{Layer, Plane, Quantity, Series, Shape, identity};
-use core::array::from_fn;
+use crate::parameters::{Common, EllipticParameters, Pair};
+use crate::shape::{Geometry, Layer, RoundedPunch, Shape, TINY};
 use core::f64::consts::{FRAC_PI_2, PI};
 
-/// An elliptical Hertz contact.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct HertzEllipse {
-    semi_axis_x: f64,
-    semi_axis_y: f64,
-    normal_force: f64,
-    /// C_n and C_t \[m/N\].
-    normal: f64,
-    tangential: f64,
-    /// C_t for a force along y.
-    lateral: f64,
-}
-
-impl HertzEllipse {
-    /// S/U = C_t/C_n, the same for all sizes.
-    pub(crate) fn tangential_ratio(&self) -> f64 {
-        self.tangential / self.normal
+impl Geometry for EllipticParameters {
+    fn check(&self) -> Result<(), Error> {
+        EllipticParameters::check(self)
     }
 
-    /// The shape of parameters that were checked, N > 0.
-    /// Errors: `OutOfRange` if derived quantities are not representable.
-    pub fn new(parameters: &EllipticParameters) -> Result<HertzEllipse, Error> {
-        let EllipticParameters { semi_axis_x, semi_axis_y, normal_force, ref material, .. } = *parameters;
-        let modulus = Pair::new(material).composite_modulus;
+    fn common(&self) -> Common {
+        EllipticParameters::common(self)
+    }
+
+    fn shape(&self, layer: Layer) -> Result<Shape, Error> {
+        let EllipticParameters { semi_axis_x, semi_axis_y, normal_force, ref material, .. } = *self;
+        let composite_modulus = Pair::new(material).composite_modulus;
         for axis in [semi_axis_x, semi_axis_y] {
             in_range(&[axis], &[])?;
-            in_range(&[axis, modulus], &[])?;
+            in_range(&[axis, composite_modulus], &[])?;
         }
         in_range(&[semi_axis_x], &[semi_axis_y])?;
         in_range(&[normal_force], &[semi_axis_x, semi_axis_y])?;
@@ -62,120 +48,30 @@ impl HertzEllipse {
                 .map(|body| (1.0 + body.poisson_ratio) / (PI * body.young_modulus) * term(body.poisson_ratio))
                 .sum()
         };
-        Ok(HertzEllipse {
-            semi_axis_x,
-            semi_axis_y,
-            normal_force,
-            normal: sum(&|nu| (1.0 - nu) * all),
-            tangential: sum(&|nu| (1.0 - nu) * all + nu * cosine),
-            lateral: sum(&|nu| (1.0 - nu) * all + nu * (all - cosine)),
+        let normal = sum(&|nu| (1.0 - nu) * all);
+        let tangential = sum(&|nu| (1.0 - nu) * all + nu * cosine);
+        let lateral = sum(&|nu| (1.0 - nu) * all + nu * (all - cosine));
+        Ok(Shape {
+            elliptic: 1,
+            length: semi_axis_x,
+            load_scale: normal_force,
+            compliance_scale: 1.0,
+            constants: [normal, tangential],
+            per_approach: [tangential / normal, lateral / normal],
+            pressure_scale: 1.5 / PI * (normal_force / (semi_axis_x * semi_axis_y) / semi_axis_x),
+            reference: (semi_axis_x, RoundedPunch::default()),
+            composite_modulus,
+            layer,
+            ..Shape::default()
         })
     }
 
-    /// C_n or C_t.
-    fn punch_compliance(&self, quantity: Quantity) -> f64 {
-        if quantity == Quantity::Approach { self.normal } else { self.tangential }
+    /// The approach, free of overflow.
+    fn check_element(&self, modulus: f64) -> Result<(), Error> {
+        [self.semi_axis_x, self.semi_axis_y]
+            .iter()
+            .try_for_each(|axis| in_range(&[self.normal_force], &[*axis, modulus]))
     }
-
-    /// C_t: displacement per force of the fully stuck contact under the normal force of the parameters \[m/N\].
-    pub(crate) fn initial_compliance(&self) -> f64 {
-        self.tangential
-    }
-}
-
-impl Shape for HertzEllipse {
-    /// Both directions in the plane of contact.
-    fn plane(&self) -> Plane<'_> {
-        let per_approach = [self.tangential_ratio(), self.lateral / self.normal];
-        let largest = self.largest_size();
-        Plane { shape: self, layer: &Layer::NONE, per_approach, per_load: [0.0; 2], flat: 0.0, largest }
-    }
-
-    fn half_width(&self, w: f64) -> f64 {
-        w
-    }
-
-    fn value(&self, quantity: Quantity, w: f64) -> f64 {
-        let ratio = w / self.semi_axis_x;
-        match quantity {
-            Quantity::Load => self.normal_force * (ratio * ratio * ratio),
-            _ => 1.5 * self.punch_compliance(quantity) * self.normal_force * (ratio * ratio),
-        }
-    }
-
-    fn compliance(&self, quantity: Quantity, w: f64) -> f64 {
-        match quantity {
-            Quantity::Load => 1.0,
-            _ => self.punch_compliance(quantity) * (self.semi_axis_x / w.max(TINY)),
-        }
-    }
-
-    fn potential(&self, w: f64) -> f64 {
-        0.4 * self.load(w) * self.value(Quantity::Shift, w)
-    }
-
-    fn compliance_under_flat(&self, _: f64) -> f64 {
-        0.0
-    }
-
-    fn pressure_weight(&self, _: f64) -> f64 {
-        1.0
-    }
-
-    fn size_slope(&self, w: f64) -> f64 {
-        2.0 / 3.0 * (w / self.load(w).max(TINY)) * w
-    }
-
-    fn size_at(&self, quantity: Quantity, value: f64) -> f64 {
-        self.semi_axis_x
-            * match quantity {
-                Quantity::Load => (value / self.normal_force).cbrt(),
-                _ => (value / (1.5 * self.punch_compliance(quantity) * self.normal_force)).sqrt(),
-            }
-    }
-
-    /// Loads up to 2^498 N, approaches and shifts up to 2^498 m.
-    fn largest_size(&self) -> f64 {
-        let largest = f64::from_bits((1023 + 498) << 52);
-        let compliance = 1.5 * self.normal.max(self.tangential);
-        let by_load = (largest / self.normal_force).cbrt();
-        self.semi_axis_x * by_load.min((largest / (compliance * self.normal_force)).sqrt())
-    }
-
-    /// Differences of `(3/2) N0/(π b² l) sqrt(s² - x²)`, which is the pressure of the size s.
-    fn pressure_between(&self, from: f64, to: f64, x: f64) -> f64 {
-        // The squares of distant points are not representable.
-        let x = x.abs().min(from.max(to));
-        let square = |s: f64| (s - x) * (s + x);
-        let difference = difference_of_heights(square(to), square(from), (to - from) * (to + from));
-        let area = self.semi_axis_x.max(TINY) * self.semi_axis_y.max(TINY);
-        1.5 / PI * (self.normal_force / area) * (difference / self.semi_axis_x.max(TINY))
-    }
-
-    /// Binomial series: N scales as the powers 3/2 of U and of S.
-    fn series(&self, w: f64, argument: Quantity) -> [Series; 3] {
-        let binomial = |value: f64, exponent: f64| -> Series {
-            let mut term = value;
-            from_fn(|k| {
-                let coefficient = term;
-                term *= (exponent - k as f64) / (k + 1) as f64;
-                coefficient
-            })
-        };
-        let [load, approach, shift] = Quantity::ALL.map(|quantity| self.value(quantity, w));
-        if argument == Quantity::Load {
-            let power = binomial(1.0, 2.0 / 3.0);
-            [identity(load), power.map(|term| approach * term), power.map(|term| shift * term)]
-        } else {
-            [binomial(load, 1.5), identity(approach), identity(shift)]
-        }
-    }
-}
-
-/// The difference of the roots of two numbers, 0 of a negative one, given the difference of these.
-pub(crate) fn difference_of_heights(outer: f64, inner: f64, difference: f64) -> f64 {
-    let root = outer.max(0.0).sqrt();
-    if inner > 0.0 { difference / (root + inner.sqrt()).max(TINY) } else { root }
 }
 
 /// J and J_cos over the semi-axes along (b) and across (l) the force \[1/m\].

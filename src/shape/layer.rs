@@ -9,20 +9,20 @@
 //! U2 = c_n f,   S2 = c_t f,   M2 = c_t m,   f = (N_r + N_c) ln(1 + N/N_c),   m = ∫ N df = (N_r + N_c) [N - N_c ln(1 + N/N_c)]
 //! ```
 //!
-//! N_c infinite: f = N, m = N²/2. [`Layered`] is the sum as a shape; nothing above it knows of layers.
+//! N_c infinite: f = N, m = N²/2. A shape has the sums.
 
 use crate::error::Error;
 use crate::limits::in_range;
-use crate::numerics::roots::logarithmic_newton;
 use crate::parameters;
-use crate::shape::{Complement, ORDER, Plane, Quantity, Reversed, Series, Shape, TINY, identity};
+use crate::shape::series::{ORDER, Series};
+use crate::shape::{Complement, Quantity, TINY};
 
 /// The layer of a contact, in absolute terms.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Layer {
     /// Normal and tangential compliance without load \[m/N\]: the compliances of the parameters times 1 + N_r/N_c.
-    normal: f64,
+    pub normal: f64,
     pub tangential: f64,
     /// 1/N_c \[1/N\]; 0 for a constant stiffness.
     stiffening: f64,
@@ -32,8 +32,6 @@ pub(crate) struct Layer {
 const MOST_COMPLIANT: f64 = (1u64 << 40) as f64;
 
 impl Layer {
-    pub(crate) const NONE: Layer = Layer { normal: 0.0, tangential: 0.0, stiffening: 0.0 };
-
     /// The layer of parameters that were checked, N > 0, and its compliance under N over that of the parameters.
     /// Errors: `BadReferenceLoad` if the compliance under N is more than 2^40 times that of the parameters; `BadNormalCompliance`,
     /// `BadTangentialCompliance` if it, or the displacement, is not representable.
@@ -78,12 +76,12 @@ impl Layer {
     }
 
     /// The compliance without load that enters U or S; 0 for N.
-    fn unloaded(&self, quantity: Quantity) -> f64 {
+    pub fn unloaded(&self, quantity: Quantity) -> f64 {
         [0.0, self.normal, self.tangential][quantity as usize]
     }
 
     /// `ln(1 + N/N_c) N_c`: U2 and S2 over their compliance without load \[N\].
-    fn extent(&self, load: f64) -> f64 {
+    pub fn extent(&self, load: f64) -> f64 {
         let x = self.stiffening * load;
         // The next term of the series is x²/3.
         if x < 1e-8 { load * (1.0 - 0.5 * x) } else { x.ln_1p() / self.stiffening.max(TINY) }
@@ -96,7 +94,7 @@ impl Layer {
     }
 
     /// dU2/dN and dS2/dN over the compliance without load.
-    fn softness(&self, load: f64) -> f64 {
+    pub fn softness(&self, load: f64) -> f64 {
         1.0 / (1.0 + self.stiffening * load)
     }
 
@@ -118,13 +116,13 @@ impl Layer {
     }
 
     /// M2 \[J\].
-    fn potential(&self, load: f64) -> f64 {
+    pub fn potential(&self, load: f64) -> f64 {
         // (N S2) without overflow of N².
         load * (self.tangential * load) * logarithm_remainder(self.stiffening * load)
     }
 
     /// Taylor coefficients of the extent about a load N, for the load N (1 + ρ): those of `N_c ln(1 + qρ)`, q = N/(N + N_c).
-    fn series(&self, load: f64) -> Series {
+    pub fn series(&self, load: f64) -> Series {
         let mut series = [0.0; ORDER];
         let ratio = self.stiffening * load * self.softness(load);
         let mut power = load * self.softness(load);
@@ -230,124 +228,6 @@ pub(crate) fn artanh_remainder(z: f64) -> f64 {
     // The first term that is left out is below 2⁻⁵⁴ of the sum.
     const TERMS: u32 = 26;
     (0..TERMS).rev().fold(0.0, |sum, k| sum * (z * z) + 1.0 / f64::from(2 * k + 3))
-}
-
-/// A shape and a layer in series with it.
-#[derive(Clone, Copy)]
-pub(crate) struct Layered<'a> {
-    pub shape: &'a dyn Shape,
-    pub layer: &'a Layer,
-}
-
-impl<'a> Layered<'a> {
-    /// Both directions of the plane of contact.
-    pub fn plane(&self) -> Plane<'a> {
-        Plane { layer: self.layer, ..self.shape.plane() }
-    }
-
-    /// N, U or S \[N, m\].
-    pub fn value(&self, quantity: Quantity, w: f64) -> f64 {
-        let (of_shape, unloaded) = (self.shape.value(quantity, w), self.layer.unloaded(quantity));
-        if unloaded > 0.0 { of_shape + unloaded * self.layer.extent(self.shape.load(w)) } else { of_shape }
-    }
-
-    /// The derivative of N, U or S by N.
-    pub fn compliance(&self, quantity: Quantity, w: f64) -> f64 {
-        let (of_shape, unloaded) = (self.shape.compliance(quantity, w), self.layer.unloaded(quantity));
-        if unloaded > 0.0 { of_shape + unloaded * self.layer.softness(self.shape.load(w)) } else { of_shape }
-    }
-
-    /// M \[J\].
-    pub fn potential(&self, w: f64) -> f64 {
-        let of_shape = self.shape.potential(w);
-        if self.layer.tangential > 0.0 { of_shape + self.layer.potential(self.shape.load(w)) } else { of_shape }
-    }
-
-    /// The size w at which N, U or S has a value. The size at which the shape alone has the value and that at which the layer alone has it are both too large; at the smaller one of
-    /// both the sum is at most twice the value.
-    pub fn size_at(&self, quantity: Quantity, value: f64) -> f64 {
-        let unloaded = self.layer.unloaded(quantity);
-        if unloaded <= 0.0 || value <= 0.0 {
-            return self.shape.size_at(quantity, value);
-        }
-        let largest = self.shape.value(quantity, self.shape.largest_size());
-        let of_shape = self.shape.size_at(quantity, value.min(largest));
-        // A soft layer stiffens exponentially: alone it may carry a load that no size has.
-        let of_layer = self.layer.load_of_extent(value / unloaded);
-        let start = if of_layer < self.shape.load(of_shape) { self.shape.at_load(of_layer) } else { of_shape };
-        logarithmic_newton(value, start, f64::INFINITY, |w| {
-            let sum = self.value(quantity, w);
-            // dN/d(ln w) = 2w²/(dw²/dN).
-            [sum, 2.0 * w / self.shape.size_slope(w) * w * self.compliance(quantity, w) / sum]
-        })
-    }
-
-    /// The largest size of the shape; approach and shift of the layer up to 2^498 m.
-    pub fn largest_size(&self) -> f64 {
-        let largest = self.shape.largest_size();
-        let compliance = self.layer.normal.max(self.layer.tangential);
-        if compliance <= 1.0 {
-            return largest;
-        }
-        largest.min(self.shape.at_load(2f64.powi(498) / compliance))
-    }
-
-    /// N, U and S about the size w > 0 as functions of one of them.
-    pub fn series(&self, w: f64, argument: Quantity) -> [Series; 3] {
-        if self.layer.is_none() {
-            return self.shape.series(w, argument);
-        }
-        // As functions of the load N (1 + ν).
-        let [load, mut approach, mut shift] = self.shape.series(w, Quantity::Load);
-        for (k, term) in self.layer.series(self.shape.load(w)).iter().enumerate() {
-            approach[k] += self.layer.normal * term;
-            shift[k] += self.layer.tangential * term;
-        }
-        match argument {
-            Quantity::Load => [load, approach, shift],
-            Quantity::Approach => {
-                let powers = inverse_powers(&approach);
-                [composed(&load, &powers), identity(approach[0]), composed(&shift, &powers)]
-            }
-            Quantity::Shift => {
-                let powers = inverse_powers(&shift);
-                [composed(&load, &powers), composed(&approach, &powers), identity(shift[0])]
-            }
-        }
-    }
-}
-
-/// Powers of the series ν(ρ) that inverts `y(ν) = y_0 (1 + ρ)`, at `[power][order]`.
-fn inverse_powers(y: &Series) -> [Series; ORDER] {
-    let mut powers = [[0.0; ORDER]; ORDER];
-    powers[0][0] = 1.0;
-    let (mut inverse, per_slope) = (Reversed::ZERO, 1.0 / y[1]);
-    for order in 1..ORDER {
-        // Orders of ν², ν³, ... need lower orders of ν only.
-        let mut sum = if order == 1 { y[0] } else { 0.0 };
-        for (power, coefficient) in y.iter().enumerate().take(order + 1).skip(2) {
-            let product = powers.get(power - 1).map_or(0.0, |below| inverse.product_term(below, order));
-            if let Some(place) = powers.get_mut(power).and_then(|power| power.get_mut(order)) {
-                *place = product;
-            }
-            sum -= coefficient * product;
-        }
-        inverse.set(order, sum * per_slope);
-        if let Some(place) = powers[1].get_mut(order) {
-            *place = sum * per_slope;
-        }
-    }
-    powers
-}
-
-/// `y(ν(ρ))` from the powers of ν.
-fn composed(y: &Series, powers: &[Series; ORDER]) -> Series {
-    let mut series = [0.0; ORDER];
-    // From the highest power, the smallest terms, on.
-    for (coefficient, power) in y.iter().zip(powers).rev() {
-        series.iter_mut().zip(power).for_each(|(sum, term)| *sum += coefficient * term);
-    }
-    series
 }
 
 #[cfg(test)]

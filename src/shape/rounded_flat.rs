@@ -15,272 +15,72 @@
 
 use crate::error::Error;
 use crate::limits::{LARGEST_EXPONENT, exponent_of, in_range};
-use crate::numerics::const_math::tabulate;
-use crate::numerics::roots::logarithmic_newton;
-use crate::parameters::{CENTRE_POINT, Pair, Parameters};
-use crate::shape::rounded_punch::{RoundedPunch, TINY};
-use crate::shape::tractions::SurfacePoint;
-use crate::shape::{Layer, ORDER, Plane, Quantity, Reversed, Series, Shape, identity, tractions};
-use core::array::from_fn;
+use crate::parameters::{CENTRE_POINT, Common, Pair, Parameters};
+use crate::shape::{Geometry, Layer, RoundedPunch, Shape};
 use core::f64::consts::{LN_2, PI};
 
-/// Smallest K for which the laws are inverted: the approach is largest where its K is 0.
-const SMALLEST_COMPLIANCE: f64 = 1.0 / 16.0;
-/// A flat with rounded edges pressed on a flat.
-#[derive(Debug, Clone, Copy, Default)]
-pub struct RoundedFlat {
-    flat: f64,
-    length: f64,
-    /// N/g \[N/m²\].
-    load_scale: f64,
-    /// K_t/K \[m/N\].
-    compliance_scale: f64,
-    /// κ of U and of S.
-    normal_constant: f64,
-    tangential_constant: f64,
-    /// S along the line from U and N: S_y = `lateral[0]` U + `lateral[1]` N K_t/K.
-    lateral: [f64; 2],
-    /// The size under the normal force of the parameters: its half-width b, and the punch with lengths over b.
-    reference: (f64, RoundedPunch),
-}
-
-impl RoundedFlat {
-    /// (S - U)/N = K_t - K_n, the same for all sizes \[m/N\].
-    pub(crate) fn shift_less_approach(&self) -> f64 {
-        self.compliance_scale * (self.tangential_constant - self.normal_constant)
+impl Geometry for Parameters {
+    fn check(&self) -> Result<(), Error> {
+        Parameters::check(self)
     }
 
-    /// The shape of parameters that were checked, N > 0.
-    /// Errors: `OutOfRange` if derived quantities are not representable; `LengthTooShort` if 2L <= b or if the tangential stiffness
-    /// at b would not be positive.
-    pub fn new(parameters: &Parameters) -> Result<RoundedFlat, Error> {
+    fn common(&self) -> Common {
+        Parameters::common(self)
+    }
+
+    fn shape(&self, layer: Layer) -> Result<Shape, Error> {
         // A zero without its sign, which would show in results.
-        let flat = parameters.flat_half_width.abs();
-        let Parameters { edge_radius, length, normal_force, .. } = *parameters;
-        let pair = Pair::new(&parameters.material);
+        let flat = self.flat_half_width.abs();
+        let Parameters { edge_radius, length, normal_force, .. } = *self;
+        let pair = Pair::new(&self.material);
         let modulus = pair.composite_modulus;
-        let reference = size_under_load(parameters, modulus)?;
+        let reference = size_under_load(self, modulus)?;
         let slenderness = length / reference.0;
-        let [normal, tangential] = match parameters.displacement_reference {
+        let [normal, tangential] = match self.displacement_reference {
             CENTRE_POINT => [0.0; 2],
             // The kernels of Boussinesq and of Cerruti have the same mean over a rigid patch if ν = 0.
             _ => [1.0, pair.mean(cerruti_factor)].map(|factor| strip_correction(factor / slenderness)),
         };
         let kappa = pair.mean(|nu| nu / (1.0 - nu));
-        let end_correction = if parameters.displacement_reference == CENTRE_POINT { 0.0 } else { ACROSS / slenderness };
-        let shape = RoundedFlat {
+        let end_correction = if self.displacement_reference == CENTRE_POINT { 0.0 } else { ACROSS / slenderness };
+        let compliance_scale = 2.0 / (PI * modulus * length);
+        let constants = [-normal, kappa - tangential];
+        // Along the line, the kernel of Cerruti `(1-ν)/r + ν y²/r³` is `1/r - ν x²/r³`: with the mean of 1/r over a line of length L, that
+        // of Boussinesq, and that of x²/r³, which is 1, `K_y = (1+κ) K_n - κ` in units of `2/(πE*L)`. `MSLIP_RIGID_STRIP` lowers the
+        // second mean by the end correction.
+        let along = -kappa * (1.0 - end_correction);
+        let load_scale = length * modulus / (4.0 * edge_radius);
+        let shape = Shape {
             flat,
             length,
-            load_scale: length * modulus / (4.0 * edge_radius),
-            compliance_scale: 2.0 / (PI * modulus * length),
-            normal_constant: -normal,
-            tangential_constant: kappa - tangential,
-            lateral: [1.0 + kappa, -kappa * (1.0 - end_correction)],
+            load_scale,
+            compliance_scale,
+            constants,
+            per_approach: [1.0, 1.0 + kappa],
+            per_load: [constants[1] - constants[0], along].map(|part| compliance_scale * part),
+            pressure_scale: 4.0 / PI * (load_scale / length),
             reference,
+            composite_modulus: modulus,
+            layer,
+            ..Shape::default()
         };
-        if slenderness <= 0.5 || shape.reference_compliance() <= 0.0 {
+        if slenderness <= 0.5 || shape.full_stick() <= 0.0 {
             return Err(Error::LengthTooShort);
         }
         in_range(&[normal_force], &[length, reference.0])?;
         Ok(shape)
     }
 
-    /// Half-width b under the normal force of the parameters \[m\].
-    pub(crate) fn half_width(&self) -> f64 {
-        self.reference.0
+    /// The load at b = 2L.
+    fn check_element(&self, modulus: f64) -> Result<(), Error> {
+        in_range(&[self.length, self.length, self.length, modulus], &[self.edge_radius])
     }
+}
 
-    /// The size under the normal force of the parameters, lengths in units of b.
-    pub(crate) fn punch(&self) -> &RoundedPunch {
-        &self.reference.1
-    }
-
+impl Shape {
     /// Λ of Eq. 10: K at b.
-    pub(crate) fn reference_compliance(&self) -> f64 {
-        (2.0 * (self.length / self.half_width())).ln() + self.tangential_constant
-    }
-
-    /// κ of U or of S.
-    fn constant(&self, quantity: Quantity) -> f64 {
-        if quantity == Quantity::Approach { self.normal_constant } else { self.tangential_constant }
-    }
-
-    fn punch_at(&self, w: f64) -> RoundedPunch {
-        RoundedPunch::new(self.flat, w)
-    }
-
-    /// `ln(2L/s) + constant`.
-    fn log_compliance(&self, punch: &RoundedPunch, constant: f64) -> f64 {
-        (2.0 * self.length / punch.half_width.max(TINY * self.length).max(TINY)).ln() + constant
-    }
-
-    /// `g (K + β)`.
-    fn integrated_compliance(&self, punch: &RoundedPunch, constant: f64) -> f64 {
-        let load = punch.load();
-        load * (self.log_compliance(punch, constant) + punch.beta(load))
-    }
-
-    /// The size at which [`RoundedFlat::integrated_compliance`] has a value: in logarithms it has slopes from 1.7 to 3.
-    fn size_of(&self, value: f64, constant: f64) -> f64 {
-        if value <= 0.0 {
-            return 0.0;
-        }
-        let load = value / self.log_compliance(self.punch(), constant).max(1.0);
-        logarithmic_newton(value, RoundedPunch::initial_guess_w(self.flat, load), f64::INFINITY, |w| {
-            let punch = self.punch_at(w);
-            let compliance = self.log_compliance(&punch, constant);
-            if compliance <= 0.0 {
-                // Beyond the largest size, half of it. The steps from below do not overshoot, because the logarithm is concave.
-                return [2.0 * value, 1.0];
-            }
-            let found = self.integrated_compliance(&punch, constant);
-            [found, 4.0 * w * w * punch.psi * compliance / found]
-        })
-    }
-}
-
-impl Shape for RoundedFlat {
-    /// Both directions in the plane of contact, x across the line. Along it, the kernel of Cerruti `(1-ν)/r + ν y²/r³` is `1/r - ν x²/r³`:
-    /// with the mean of 1/r over a line of length L, that of Boussinesq, and that of x²/r³, which is 1,
-    /// `K_y = (1+κ) K_n - κ` in units of `2/(πE*L)`. `MSLIP_RIGID_STRIP` lowers the second mean by the end correction.
-    fn plane(&self) -> Plane<'_> {
-        let [per_approach, per_load] = self.lateral;
-        // K_y = 1/16 or more, as for the other two.
-        let bound = (SMALLEST_COMPLIANCE - per_load) / per_approach - self.normal_constant;
-        let (half_width, flat) = (2.0 * self.length * (-bound).exp(), self.flat);
-        let (less, more) = (half_width - flat, half_width + flat);
-        Plane {
-            shape: self,
-            layer: &Layer::NONE,
-            per_approach: [1.0, per_approach],
-            per_load: [self.shift_less_approach(), per_load * self.compliance_scale],
-            flat,
-            largest: self.largest_size().min(less.signum() * (less.abs() * more).sqrt()),
-        }
-    }
-
-    fn half_width(&self, w: f64) -> f64 {
-        self.punch_at(w).half_width
-    }
-
-    fn value(&self, quantity: Quantity, w: f64) -> f64 {
-        let punch = self.punch_at(w);
-        self.load_scale
-            * match quantity {
-                Quantity::Load => punch.load(),
-                _ => self.compliance_scale * self.integrated_compliance(&punch, self.constant(quantity)),
-            }
-    }
-
-    fn compliance(&self, quantity: Quantity, w: f64) -> f64 {
-        match quantity {
-            Quantity::Load => 1.0,
-            _ => self.compliance_scale * self.log_compliance(&self.punch_at(w), self.constant(quantity)),
-        }
-    }
-
-    fn potential(&self, w: f64) -> f64 {
-        let punch = self.punch_at(w);
-        let load = punch.load();
-        let compliance = self.log_compliance(&punch, self.tangential_constant) + punch.gamma(load);
-        // The square of a small load would underflow.
-        0.5 * (self.load_scale * load) * (self.load_scale * load * self.compliance_scale * compliance)
-    }
-
-    fn compliance_under_flat(&self, half_width: f64) -> f64 {
-        self.compliance_scale * ((2.0 * self.length / half_width.max(TINY)).ln() + self.normal_constant)
-    }
-
-    fn pressure_weight(&self, w: f64) -> f64 {
-        self.punch_at(w).psi
-    }
-
-    fn size_slope(&self, w: f64) -> f64 {
-        0.5 / (self.load_scale * self.punch_at(w).psi).max(TINY)
-    }
-
-    fn size_at(&self, quantity: Quantity, value: f64) -> f64 {
-        match quantity {
-            Quantity::Load => RoundedPunch::from_load(self.flat, value / self.load_scale).w,
-            _ => self.size_of(value / (self.load_scale * self.compliance_scale), self.constant(quantity)),
-        }
-    }
-
-    /// The half-width at which the smaller one of both K is 1/16; both vanish near s = 2L. Negative if that is less than a.
-    fn largest_size(&self) -> f64 {
-        let constant = self.normal_constant.min(self.tangential_constant).min(0.0);
-        let half_width = 2.0 * self.length * (constant - SMALLEST_COMPLIANCE).exp();
-        let (less, more) = (half_width - self.flat, half_width + self.flat);
-        less.signum() * (less.abs() * more).sqrt()
-    }
-
-    /// Eq. 17 between two sizes: `dp = E* ψ w dw/(πR sqrt(s² - x²))`, with lengths in units of the larger half-width.
-    fn pressure_between(&self, from: f64, to: f64, x: f64) -> f64 {
-        let half_width = Shape::half_width(self, to);
-        let unit = half_width.max(TINY);
-        let point = SurfacePoint::new(x, half_width, self.flat);
-        let squares = ((to - from) / unit) * ((to + from) / unit);
-        let integral = tractions::pressure_between(self.flat / unit, from / unit, to / unit, squares, &point);
-        4.0 / PI * (self.load_scale / self.length) * unit * integral
-    }
-
-    /// From the differential equations, with ' the derivative with respect to ρ and `dN = 4 w ψ dw` times the load scale:
-    ///
-    /// ```text
-    /// K N' = x   or   N' = x, S' = K N';     w ψ w' = N'/4;     s² ψ' = a w';     s² K' = -w w' times the compliance scale
-    /// ```
-    fn series(&self, w: f64, argument: Quantity) -> [Series; 3] {
-        let punch = self.punch_at(w);
-        let (flat, constant, by_load) = (self.flat, self.constant(argument), argument == Quantity::Load);
-        let [mut compliance, mut size, mut load, mut shift] = [[0.0; ORDER]; 4];
-        compliance[0] = self.compliance_scale * self.log_compliance(&punch, constant);
-        (size[0], load[0]) = (w, self.load_scale * punch.load());
-        shift[0] = self.load_scale * self.compliance_scale * self.integrated_compliance(&punch, constant);
-        let [mut size_angle, mut half_width_2] = [[0.0; ORDER]; 2];
-        let [mut size_reversed, mut angle, mut load_1, mut size_1, mut angle_1, mut compliance_1] = [Reversed::ZERO; 6];
-        let (per_compliance, per_load_scale) = (1.0 / compliance[0], 0.25 / self.load_scale);
-        let (per_size_angle, per_half_width_2) = (1.0 / (w * punch.psi), 1.0 / (w * w + flat * flat));
-        size_reversed.set(0, w);
-        angle.set(0, punch.psi);
-        for k in 0..ORDER {
-            size_angle[k] = angle.product_term(&size, k);
-            half_width_2[k] = size_reversed.product_term(&size, k) + if k == 0 { flat * flat } else { 0.0 };
-            let load_growth = if by_load {
-                let growth = if k == 0 { load[0] } else { 0.0 };
-                load_1.set(k, growth);
-                growth
-            } else {
-                load_1.quotient_term(if k == 0 { shift[0] } else { 0.0 }, &compliance, per_compliance, k)
-            };
-            let size_growth = size_1.quotient_term(load_growth * per_load_scale, &size_angle, per_size_angle, k);
-            let angle_growth = angle_1.quotient_term(flat * size_growth, &half_width_2, per_half_width_2, k);
-            let growth = -self.compliance_scale * size_1.product_term(&size, k);
-            let compliance_growth = compliance_1.quotient_term(growth, &half_width_2, per_half_width_2, k);
-            let per_order = PER_ORDER[k];
-            if by_load {
-                set(&mut shift, k + 1, per_order * load_1.product_term(&compliance, k));
-            }
-            set(&mut load, k + 1, per_order * load_growth);
-            set(&mut size, k + 1, per_order * size_growth);
-            set(&mut compliance, k + 1, per_order * compliance_growth);
-            size_reversed.set(k + 1, per_order * size_growth);
-            angle.set(k + 1, per_order * angle_growth);
-        }
-        if !by_load {
-            shift = identity(shift[0]);
-        }
-        let other = |sign: f64| from_fn(|k| shift[k] + sign * self.shift_less_approach() * load[k]);
-        if argument == Quantity::Approach { [load, shift, other(1.0)] } else { [load, other(-1.0), shift] }
-    }
-}
-
-/// 1/(k + 1).
-const PER_ORDER: [f64; ORDER] = tabulate!(ORDER, |k| 1.0 / (k + 1) as f64);
-
-/// Sets a coefficient that the next round requires, if there is one.
-fn set(series: &mut Series, k: usize, value: f64) {
-    if let Some(coefficient) = series.get_mut(k) {
-        *coefficient = value;
+    pub fn full_stick(&self) -> f64 {
+        (2.0 * (self.length / self.reference.0)).ln() + self.constants[1]
     }
 }
 
@@ -343,11 +143,10 @@ mod tests {
             FLATS.into_iter().flat_map(|flat| [(flat, CENTRE_POINT), (flat, RIGID_STRIP)])
         {
             let parameters = Parameters { displacement_reference, ..parameters(flat) };
-            let shape = RoundedFlat::new(&parameters).unwrap();
-            let Plane { per_approach, per_load, .. } = shape.plane();
+            let Shape { per_approach, per_load, compliance_scale, .. } = parameters.shape(Layer::default()).unwrap();
             let kappa = Pair::new(&parameters.material).mean(|nu| nu / (1.0 - nu));
             assert!((per_approach[0] + per_approach[1] - (2.0 + kappa)).abs() < 1e-15);
-            assert!((per_load[0] + per_load[1]).abs() < 1e-15 * shape.compliance_scale, "{displacement_reference}");
+            assert!((per_load[0] + per_load[1]).abs() < 1e-15 * compliance_scale, "{displacement_reference}");
         }
     }
 }

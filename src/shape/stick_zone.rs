@@ -39,9 +39,8 @@
 pub(crate) mod small_load;
 
 use crate::numerics::chebyshev::{Interpolant, Tangent};
-use crate::shape::hertz_ellipse::difference_of_heights;
 use crate::shape::rounded_punch::{InversePower, RoundedPunch, TINY};
-use crate::shape::tractions::{self, SurfacePoint};
+use crate::shape::tractions::{self, SurfacePoint, difference_of_heights};
 use crate::shape::{Complement, Layer};
 use core::f64::consts::PI;
 use small_load::{RETAINED_TERMS, SmallLoadSeries};

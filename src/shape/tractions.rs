@@ -35,6 +35,12 @@ impl SurfacePoint {
     }
 }
 
+/// The difference of the roots of two numbers, 0 of a negative one, given the difference of these.
+pub(crate) fn difference_of_heights(outer: f64, inner: f64, difference: f64) -> f64 {
+    let root = outer.max(0.0).sqrt();
+    if inner > 0.0 { difference / (root + inner.sqrt()).max(TINY) } else { root }
+}
+
 /// Ratio of a sum to its terms below which quadrature is used: six bits lost to cancellation.
 const CANCELLATION_LIMIT: f64 = 1.0 / 64.0;
 

@@ -146,8 +146,8 @@ pub(crate) struct Units {
 impl Units {
     /// For springs that are aligned with a load.
     pub fn of(element: &Element, load: f64) -> Units {
-        let plane = element.plane();
-        let size = plane.shape.at_load(load.max(LEAST_REFERENCE * element.normal_force));
+        let plane = element.shape();
+        let size = plane.at_load(load.max(LEAST_REFERENCE * element.normal_force));
         let [load, shift, _] = plane.load_and_shifts(size);
         Units { load, shift, size }
     }
@@ -155,7 +155,7 @@ impl Units {
 
 /// Number of springs under the flat, for a reference size.
 pub(crate) fn under_flat(element: &Element, units: &Units) -> usize {
-    if element.plane().flat > SMALLEST_FLAT * units.size { UNDER_FLAT } else { 0 }
+    if element.shape().flat > SMALLEST_FLAT * units.size { UNDER_FLAT } else { 0 }
 }
 
 /// The shell and the part at the edge of a contact with a shift.
@@ -172,7 +172,7 @@ pub(crate) fn at_edge(rows: &Rows, under_flat: usize, shift: f64) -> [usize; 2] 
 #[inline(never)]
 pub(crate) fn fill(rows: &mut Rows, element: &Element, units: &Units, reference: f64) {
     let inner = under_flat(element, units).min(UNDER_FLAT);
-    let flat = element.plane().flat / units.size;
+    let flat = element.shape().flat / units.size;
     let mut shells = Shells { inner, reference, flat, width: [0.0; N], position: [0.0; N], per_step: [[0.0; N]; 2] };
     *rows = [[0.0; N]; ROWS];
     shells.fill_nodes(rows, element, units);
@@ -211,7 +211,7 @@ impl Shells {
 
     /// N and S at the parts.
     fn fill_nodes(&self, rows: &mut Rows, element: &Element, units: &Units) {
-        let (plane, start) = (element.plane(), starts(self.inner));
+        let (plane, start) = (element.shape(), starts(self.inner));
         rows[LOAD..SHIFT + 2 * FINE / N].fill([NEVER; N]);
         for j in self.inner..N {
             let count = start[j + 1] - start[j];
@@ -233,7 +233,7 @@ impl Shells {
 
     /// Sizes, points and weights.
     fn fill_points(&mut self, rows: &mut Rows, element: &Element, units: &Units) {
-        let (plane, flat) = (element.plane(), self.flat);
+        let (plane, flat) = (element.shape(), self.flat);
         for j in 0..self.inner.min(UNDER_FLAT) {
             let (from, to) = (self.ring(j), self.ring(j + 1));
             (self.position[j], self.width[j]) = (from + POINT * (to - from), to - from);
@@ -250,7 +250,7 @@ impl Shells {
             let distance = (upper - lower) * (upper + lower) / (half_width(upper) + half_width(lower));
             rows[SIZE][j] = lower * lower;
             rows[POINTS][j] = lower * lower + POINT * distance * (2.0 * half_width(lower) + POINT * distance);
-            rows[WEIGHT][j] = plane.shape.pressure_weight(units.size * 0.5 * (lower + upper));
+            rows[WEIGHT][j] = plane.pressure_weight(units.size * 0.5 * (lower + upper));
         }
     }
 

@@ -1,0 +1,202 @@
+//! N, U and S as Taylor series of one of them about a size, for the tables of elements.
+
+use crate::numerics::const_math::tabulate;
+use crate::shape::{Quantity, Shape};
+use core::array::from_fn;
+
+/// Number of Taylor coefficients in a [`Series`].
+pub(crate) const ORDER: usize = 16;
+
+/// Taylor coefficients.
+pub(crate) type Series = [f64; ORDER];
+
+/// The series of an argument itself, `x (1 + ρ)`.
+pub(crate) fn identity(x: f64) -> Series {
+    let mut series = [0.0; ORDER];
+    (series[0], series[1]) = (x, x);
+    series
+}
+
+/// A power series whose coefficients are stored from the last to the first, with zeros behind, so that the sums over k of products of
+/// coefficients i and k - i run through contiguous memory.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Reversed([f64; 2 * ORDER]);
+
+impl Reversed {
+    pub const ZERO: Reversed = Reversed([0.0; 2 * ORDER]);
+
+    /// Sets the coefficient k.
+    #[inline(always)]
+    pub fn set(&mut self, k: usize, value: f64) {
+        if let Some(coefficient) = self.0.get_mut((ORDER - 1).wrapping_sub(k)) {
+            *coefficient = value;
+        }
+    }
+
+    /// Term k of the product with another series.
+    #[inline(always)]
+    pub fn product_term(&self, other: &Series, k: usize) -> f64 {
+        let reversed =
+            self.0.get((ORDER - 1).wrapping_sub(k)..).and_then(<[f64]>::first_chunk).unwrap_or(&[0.0; ORDER]);
+        let mut sums = [0.0; 4];
+        for (one, two) in other.as_chunks::<4>().0.iter().zip(reversed.as_chunks::<4>().0) {
+            for lane in 0..4 {
+                sums[lane] += one[lane] * two[lane];
+            }
+        }
+        (sums[0] + sums[1]) + (sums[2] + sums[3])
+    }
+
+    /// Term k of this series as a quotient, from the terms before it, given term k of the numerator and the reciprocal of term 0 of the
+    /// denominator.
+    #[inline(always)]
+    pub fn quotient_term(&mut self, numerator: f64, denominator: &Series, reciprocal: f64, k: usize) -> f64 {
+        let term = (numerator - self.product_term(denominator, k)) * reciprocal;
+        self.set(k, term);
+        term
+    }
+}
+
+impl Shape {
+    /// N, U and S about the size w > 0 as functions of one of them.
+    pub fn series(&self, w: f64, argument: Quantity) -> [Series; 3] {
+        let of_contact =
+            |argument| if self.is_elliptic() { self.binomial(w, argument) } else { self.of_flat(w, argument) };
+        if self.layer.is_none() {
+            return of_contact(argument);
+        }
+        // As functions of the load N (1 + ν).
+        let [load, mut approach, mut shift] = of_contact(Quantity::Load);
+        for (k, term) in self.layer.series(self.load(w)).iter().enumerate() {
+            approach[k] += self.layer.normal * term;
+            shift[k] += self.layer.tangential * term;
+        }
+        match argument {
+            Quantity::Load => [load, approach, shift],
+            Quantity::Approach => {
+                let powers = inverse_powers(&approach);
+                [composed(&load, &powers), identity(approach[0]), composed(&shift, &powers)]
+            }
+            Quantity::Shift => {
+                let powers = inverse_powers(&shift);
+                [composed(&load, &powers), composed(&approach, &powers), identity(shift[0])]
+            }
+        }
+    }
+
+    /// The series of an ellipse, binomial ones: N scales as the powers 3/2 of U and of S.
+    fn binomial(&self, w: f64, argument: Quantity) -> [Series; 3] {
+        let binomial = |value: f64, exponent: f64| -> Series {
+            let mut term = value;
+            from_fn(|k| {
+                let coefficient = term;
+                term *= (exponent - k as f64) / (k + 1) as f64;
+                coefficient
+            })
+        };
+        let (load, punch) = (self.load(w), self.punch_at(w));
+        let [approach, shift] =
+            [Quantity::Approach, Quantity::Shift].map(|quantity| 1.5 * load * self.own_compliance(quantity, &punch));
+        if argument == Quantity::Load {
+            let power = binomial(1.0, 2.0 / 3.0);
+            [identity(load), power.map(|term| approach * term), power.map(|term| shift * term)]
+        } else {
+            [binomial(load, 1.5), identity(approach), identity(shift)]
+        }
+    }
+
+    /// The series of a flat with rounded edges, from the differential equations, with ' the derivative with respect to ρ and
+    /// `dN = 4 w ψ dw` times the load scale:
+    ///
+    /// ```text
+    /// K N' = x   or   N' = x, S' = K N';     w ψ w' = N'/4;     s² ψ' = a w';     s² K' = -w w' times the compliance scale
+    /// ```
+    #[inline(never)]
+    fn of_flat(&self, w: f64, argument: Quantity) -> [Series; 3] {
+        let punch = self.punch_at(w);
+        let (flat, by_load) = (self.flat, argument == Quantity::Load);
+        // S for the argument N.
+        let quantity = if by_load { Quantity::Shift } else { argument };
+        let [mut compliance, mut size, mut load, mut shift] = [[0.0; ORDER]; 4];
+        compliance[0] = self.own_compliance(quantity, &punch);
+        (size[0], load[0], shift[0]) = (w, self.load(w), self.own_value(quantity, &punch, punch.load(), compliance[0]));
+        let [mut size_angle, mut half_width_2] = [[0.0; ORDER]; 2];
+        let [mut size_reversed, mut angle, mut load_1, mut size_1, mut angle_1, mut compliance_1] = [Reversed::ZERO; 6];
+        let (per_compliance, per_load_scale) = (1.0 / compliance[0], 0.25 / self.load_scale);
+        let (per_size_angle, per_half_width_2) = (1.0 / (w * punch.psi), 1.0 / (w * w + flat * flat));
+        size_reversed.set(0, w);
+        angle.set(0, punch.psi);
+        for k in 0..ORDER {
+            size_angle[k] = angle.product_term(&size, k);
+            half_width_2[k] = size_reversed.product_term(&size, k) + if k == 0 { flat * flat } else { 0.0 };
+            let load_growth = if by_load {
+                let growth = if k == 0 { load[0] } else { 0.0 };
+                load_1.set(k, growth);
+                growth
+            } else {
+                load_1.quotient_term(if k == 0 { shift[0] } else { 0.0 }, &compliance, per_compliance, k)
+            };
+            let size_growth = size_1.quotient_term(load_growth * per_load_scale, &size_angle, per_size_angle, k);
+            let angle_growth = angle_1.quotient_term(flat * size_growth, &half_width_2, per_half_width_2, k);
+            let growth = -self.compliance_scale * size_1.product_term(&size, k);
+            let compliance_growth = compliance_1.quotient_term(growth, &half_width_2, per_half_width_2, k);
+            let per_order = PER_ORDER[k];
+            if by_load {
+                set(&mut shift, k + 1, per_order * load_1.product_term(&compliance, k));
+            }
+            set(&mut load, k + 1, per_order * load_growth);
+            set(&mut size, k + 1, per_order * size_growth);
+            set(&mut compliance, k + 1, per_order * compliance_growth);
+            size_reversed.set(k + 1, per_order * size_growth);
+            angle.set(k + 1, per_order * angle_growth);
+        }
+        if !by_load {
+            shift = identity(shift[0]);
+        }
+        let other = |sign: f64| from_fn(|k| shift[k] + sign * self.per_load[0] * load[k]);
+        if argument == Quantity::Approach { [load, shift, other(1.0)] } else { [load, other(-1.0), shift] }
+    }
+}
+
+/// 1/(k + 1).
+const PER_ORDER: [f64; ORDER] = tabulate!(ORDER, |k| 1.0 / (k + 1) as f64);
+
+/// Sets a coefficient that the next round requires, if there is one.
+fn set(series: &mut Series, k: usize, value: f64) {
+    if let Some(coefficient) = series.get_mut(k) {
+        *coefficient = value;
+    }
+}
+
+/// Powers of the series ν(ρ) that inverts `y(ν) = y_0 (1 + ρ)`, at `[power][order]`.
+fn inverse_powers(y: &Series) -> [Series; ORDER] {
+    let mut powers = [[0.0; ORDER]; ORDER];
+    powers[0][0] = 1.0;
+    let (mut inverse, per_slope) = (Reversed::ZERO, 1.0 / y[1]);
+    for order in 1..ORDER {
+        // Orders of ν², ν³, ... need lower orders of ν only.
+        let mut sum = if order == 1 { y[0] } else { 0.0 };
+        for (power, coefficient) in y.iter().enumerate().take(order + 1).skip(2) {
+            let product = powers.get(power - 1).map_or(0.0, |below| inverse.product_term(below, order));
+            if let Some(place) = powers.get_mut(power).and_then(|power| power.get_mut(order)) {
+                *place = product;
+            }
+            sum -= coefficient * product;
+        }
+        inverse.set(order, sum * per_slope);
+        if let Some(place) = powers[1].get_mut(order) {
+            *place = sum * per_slope;
+        }
+    }
+    powers
+}
+
+/// `y(ν(ρ))` from the powers of ν.
+fn composed(y: &Series, powers: &[Series; ORDER]) -> Series {
+    let mut series = [0.0; ORDER];
+    // From the highest power, the smallest terms, on.
+    for (coefficient, power) in y.iter().zip(powers).rev() {
+        series.iter_mut().zip(power).for_each(|(sum, term)| *sum += coefficient * term);
+    }
+    series
+}
