@@ -1,6 +1,6 @@
 #!/bin/sh
-# fuzz.sh [--check | --seeds | --cargo ARGUMENT...]: coverage-guided fuzzing of the library (libFuzzer, AddressSanitizer) on stable Rust: calls of the C
-# interface with invalid arguments and corrupted memory.
+# fuzz.sh [--check | --seeds | --cargo ARGUMENT...]: coverage-guided fuzzing of the library (libFuzzer, AddressSanitizer) on stable
+# Rust: calls of the C interface with invalid arguments and corrupted memory.
 #
 # TIME seconds (60), JOBS processes (1), MICROSLIP_SEED (new each time). New inputs are kept in
 # verification/fuzz/corpus/, failing ones in verification/fuzz/artifacts/.
