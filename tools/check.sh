@@ -30,9 +30,6 @@ rust() {
 installed() {
     step 'archive in calling applications' verification/embedding/embedding.sh "$prefix"
     step 'fuzzing, bounded' tools/fuzz.sh --check
-    step 'packages: source tarball, clients by each tool, shared library' tools/packages.sh
-    step 'packages: recipes of conda-forge and Spack, citation' tools/recipes.sh
-    step 'packages: fpm' tools/fpm.sh "$prefix"
     step 'Abaqus: user subroutines, called by a driver' make -C examples/abaqus test PREFIX="$prefix"
     step 'ANSYS: bodies of user subroutines, called by a driver' make -C examples/ansys test PREFIX="$prefix"
     step 'Octave and NLvib: the law in harmonic balance' make -C examples/nlvib test PREFIX="$prefix"
@@ -40,10 +37,17 @@ installed() {
     step 'instruction counts' benches/instructions/run.sh
     step 'benchmark, quick' make bench QUICK=1
     step 'uninstall leaves no file' uninstall
+}
+
+packages() {
+    step 'packages: source tarball, clients by each tool, shared library' tools/packages.sh
+    step 'packages: recipes of conda-forge and Spack, citation' tools/recipes.sh
+    step 'packages: fpm' tools/fpm.sh "$prefix"
     step 'audit' tools/audit.sh
     step 'Python: other versions, types, adapters, examples, documents' tools/python.sh all
 }
 
 step 'library: build, install, move' install_and_move
-together rust installed
+# Three on two processors: none is idle while one step waits for a lock, a download or its only thread.
+together rust installed packages
 summary
