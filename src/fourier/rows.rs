@@ -140,12 +140,13 @@ macro_rules! with_strips {
 
 pub(crate) use with_strips;
 
-/// `Σ Y_j ⊗ φ_j` over some samples j, with D rows Y_j. Of all rows, the first strips come first.
+/// `Σ Y_j ⊗ φ_j` over some samples j, with a number of rows Y_j of each. Of all rows, the first strips come first.
 #[derive(Debug)]
-pub(crate) struct OuterProducts<'a, const D: usize> {
+pub(crate) struct OuterProducts<'a> {
     row_blocks: usize,
     capacity: usize,
     count: usize,
+    of_each: usize,
     y: &'a mut Blocks,
     phi: &'a mut Blocks,
 }
@@ -180,11 +181,16 @@ impl<const N: usize, const D: usize> Terms<'_, N, D> {
     }
 }
 
-impl<'a, const D: usize> OuterProducts<'a, D> {
-    pub fn take(parts: &mut Parts<'a>, harmonics: usize, capacity: usize) -> Result<OuterProducts<'a, D>, Error> {
-        let blocks = row_blocks(harmonics) * capacity;
-        let (y, phi) = (parts.take_blocks(D * blocks)?, parts.take_blocks(blocks)?);
-        Ok(OuterProducts { row_blocks: row_blocks(harmonics), capacity, count: 0, y, phi })
+impl<'a> OuterProducts<'a> {
+    pub fn take(
+        parts: &mut Parts<'a>,
+        harmonics: usize,
+        capacity: usize,
+        of_each: usize,
+    ) -> Result<OuterProducts<'a>, Error> {
+        let row_blocks = row_blocks(harmonics);
+        let [y, phi] = [of_each, 1].map(|rows| parts.take_blocks(rows * row_blocks * capacity));
+        Ok(OuterProducts { row_blocks, capacity, count: 0, of_each, y: y?, phi: phi? })
     }
 
     /// Number of strips of N blocks.
@@ -193,9 +199,9 @@ impl<'a, const D: usize> OuterProducts<'a, D> {
         (self.row_blocks / N).max(1)
     }
 
-    /// A strip of the terms, emptied: the same number must be appended to each strip.
+    /// A strip of the terms with D rows of each, emptied: the same number must be appended to each strip.
     #[inline(always)]
-    pub fn terms<const N: usize>(&mut self, strip: usize) -> Terms<'_, N, D> {
+    pub fn terms<const N: usize, const D: usize>(&mut self, strip: usize) -> Terms<'_, N, D> {
         let range = strip * self.capacity..(strip + 1) * self.capacity;
         self.count = 0;
         Terms {
@@ -205,35 +211,16 @@ impl<'a, const D: usize> OuterProducts<'a, D> {
         }
     }
 
-    /// The terms with the rows Y of an index.
-    pub fn of(&self, index: usize) -> Products<'_> {
-        let OuterProducts { row_blocks, capacity, count, ref y, ref phi } = *self;
-        Products { row_blocks, capacity, count, y, phi, of_each: D, index }
-    }
-}
-
-/// The terms of [`OuterProducts`] with one of the rows Y, compiled once for any number of these.
-pub(crate) struct Products<'a> {
-    row_blocks: usize,
-    capacity: usize,
-    count: usize,
-    y: &'a Blocks,
-    phi: &'a Blocks,
-    of_each: usize,
-    index: usize,
-}
-
-impl Products<'_> {
-    /// `Σ Y_j ⊗ φ_j`.
+    /// `Σ Y_j ⊗ φ_j` with the rows Y of an index.
     #[inline(always)]
-    pub fn sum(&self, products: &mut Blocks) {
-        with_strips!(self.row_blocks, self.sum_of(products));
+    pub fn sum(&self, index: usize, products: &mut Blocks) {
+        with_strips!(self.row_blocks, self.sum_of(index, products));
     }
 
     #[inline(always)]
-    fn sum_of<const N: usize>(&self, products: &mut Blocks) {
+    fn sum_of<const N: usize>(&self, index: usize, products: &mut Blocks) {
         let (y_rows, phi_rows) = (self.y.as_chunks::<N>().0, self.phi.as_chunks::<N>().0);
-        let (strips, of_each) = ((self.row_blocks / N).max(1), self.of_each.max(1));
+        let (strips, of_each) = (self.strips::<N>(), self.of_each.max(1));
         let terms = |strip: usize| strip * self.capacity..strip * self.capacity + self.count;
         for (strip, columns) in products.as_chunks_mut::<N>().0.chunks_mut((4 * N * strips).max(1)).enumerate() {
             columns.fill([[0.0; 4]; N]);
@@ -246,7 +233,7 @@ impl Products<'_> {
                     for pair in 0..2 * N {
                         let (mut one, mut two) = ([[0.0; 4]; N], [[0.0; 4]; N]);
                         for (y, phi) in y_rows.chunks_exact(of_each).zip(phi) {
-                            let Some(row) = y.get(self.index) else { break };
+                            let Some(row) = y.get(index) else { break };
                             let phi = phi.as_flattened();
                             add_scaled(&mut one, phi[2 * pair], row);
                             add_scaled(&mut two, phi[2 * pair + 1], row);

@@ -7,7 +7,7 @@
 //! column cos qt:  (Z_{p+q} + Z_{p-q})/2        column sin qt:  (W_{p+q} - W_{p-q})/2
 //! ```
 
-use super::rows::{Products, row_blocks};
+use super::rows::{OuterProducts, row_blocks};
 use super::workspace::{Blocks, Parts};
 use crate::error::Error;
 use crate::simd::{dispatch, plus};
@@ -101,9 +101,9 @@ impl<'a> Assembly<'a> {
         dispatch!(self.products_kernel(symmetry, columns, stride));
     }
 
-    /// Sets the outer products.
-    pub fn set_products(&mut self, products: &Products) {
-        dispatch!(products.sum(self.products));
+    /// Sets the outer products to those with the rows Y of an index.
+    pub fn set_products(&mut self, outer: &OuterProducts, index: usize) {
+        dispatch!(outer.sum(index, self.products));
     }
 
     /// Adds `a ⊗ x - b ⊗ y` to the outer products: rows x and y, columns a and b.

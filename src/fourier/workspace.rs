@@ -156,6 +156,15 @@ impl<'a> Parts<'a> {
     }
 
     #[inline(always)]
+    pub fn take_arrays<const K: usize>(&mut self, length: usize) -> Result<[&'a mut [f64]; K], Error> {
+        let mut arrays = [(); K].map(|()| <&mut [f64]>::default());
+        for array in &mut arrays {
+            *array = self.take(length)?;
+        }
+        Ok(arrays)
+    }
+
+    #[inline(always)]
     pub fn take_blocks(&mut self, blocks: usize) -> Result<&'a mut Blocks, Error> {
         Ok(self.take(4 * blocks)?.as_chunks_mut().0)
     }

@@ -28,7 +28,7 @@ use crate::fourier::workspace::{Layout, Parts, Size};
 use crate::limits::check_coefficients;
 use crate::tag::Kind;
 use forces::Forces;
-use jacobian::{Context, Cuts, Sensitivity};
+use jacobian::{Context, Sensitivity};
 use runs::PeriodicPath;
 use samples::{Part, Samples};
 
@@ -83,35 +83,18 @@ impl<'a> Layout<'a> for Workspace<'a> {
         let capacity = count + 4;
         let fourier = FoldedFourier::take(parts, count, 2 * harmonics)?;
         let rows = Rows::take(parts, harmonics, count)?;
-        let mut array = || parts.take(sample_length(count));
-        let samples = Samples {
-            count,
-            displacement: array()?,
-            input: array()?,
-            load: array()?,
-            shift: array()?,
-            load_slope: array()?,
-            shift_slope: array()?,
-            stiffness: array()?,
-            xi: array()?,
-            eta: array()?,
-        };
-        let cut_shift = array()?;
-        let forces = Forces {
-            force: array()?,
-            cut_load: array()?,
-            cut_stiffness: array()?,
-            slope: array()?,
-            last_cut_force: array()?,
-            last_cut_load: array()?,
-        };
-        let (own, places) = ([array()?, array()?], array()?);
+        let [displacement, input, load, shift, load_slope, shift_slope, stiffness, xi, eta] =
+            parts.take_arrays(sample_length(count))?;
+        let samples = Samples { count, displacement, input, load, shift, load_slope, shift_slope, stiffness, xi, eta };
+        let [force, cut_shift, cut_load, cut_stiffness, slope, last_cut_force, last_cut_load, by_u, by_input, places] =
+            parts.take_arrays(sample_length(count))?;
+        let forces = Forces { force, cut_load, cut_stiffness, slope, last_cut_force, last_cut_load };
         let path = PeriodicPath { knots: parts.take_blocks(capacity)?, runs: parts.take_records(capacity)?, cut_shift };
         let pieces = parts.take_records(capacity)?;
         let stored = parts.take_blocks(2 * row_blocks(harmonics) * capacity)?;
-        let outer = OuterProducts::take(parts, harmonics, count)?;
+        let outer = OuterProducts::take(parts, harmonics, count, 2)?;
         let assembly = Assembly::take(parts, harmonics, 1.0 / count as f64)?;
-        let sensitivity = Sensitivity { rows, pieces, stored, places, outer, own };
+        let sensitivity = Sensitivity { rows, pieces, stored, places, outer, own: [by_u, by_input] };
         Ok(Workspace { size, fourier, samples, path, forces, sensitivity, assembly })
     }
 }
@@ -165,14 +148,16 @@ pub fn harmonic_force(
                 forces.evaluate::<false>(element, samples, cut_shift, runs);
             } else {
                 forces.evaluate::<true>(element, samples, cut_shift, runs);
-                let context = Context { element, samples, part };
-                let cuts = Cuts {
-                    shifts: path.cut_shift,
-                    loads: forces.cut_load,
-                    stiffnesses: forces.cut_stiffness,
+                let context = Context {
+                    element,
+                    samples,
+                    part,
+                    cut_shifts: path.cut_shift,
+                    cut_loads: forces.cut_load,
+                    cut_stiffnesses: forces.cut_stiffness,
                     slopes: forces.slope,
                 };
-                sensitivity.gather(&context, &cuts, runs);
+                sensitivity.gather(&context, runs);
             }
         }
     }
@@ -316,7 +301,7 @@ impl Workspace<'_> {
                 }
                 fourier.sum(own, assembly.sums);
                 let symmetry = if motion.half_wave { Some(sign) } else { None };
-                assembly.set_products(&sensitivity.outer.of(index));
+                assembly.set_products(&sensitivity.outer, index);
                 assembly.write(symmetry, columns, 2 * coefficients);
             } else {
                 columns.fill(0.0);

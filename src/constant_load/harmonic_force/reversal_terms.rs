@@ -38,7 +38,7 @@ pub(super) struct ReversalTerms<'a> {
     pub entries: &'a mut [Entry],
     /// G and Y of each.
     pub sums: &'a mut Blocks,
-    pub outer: OuterProducts<'a, 1>,
+    pub outer: OuterProducts<'a>,
 }
 
 impl ReversalTerms<'_> {

@@ -57,7 +57,7 @@ impl<'a> Layout<'a> for Workspace<'a> {
         let reversals = parts.take(3 * capacity)?.as_chunks_mut().0;
         let entries = parts.take_records(capacity)?;
         let sums = parts.take_blocks(2 * row_blocks(harmonics) * capacity)?;
-        let outer = OuterProducts::take(parts, harmonics, capacity)?;
+        let outer = OuterProducts::take(parts, harmonics, capacity, 1)?;
         let assembly = Assembly::take(parts, harmonics, 1.0 / count as f64)?;
         let derivatives = parts.take(PARAMETERS * count)?.as_chunks_mut().0;
         let path = Path { displacement, force, stiffness, scratch, branches };
@@ -97,7 +97,7 @@ pub(super) fn harmonic_force(
     if let Some(jacobian) = jacobian {
         terms.gather(path.branches.get(..branches).unwrap_or(&[]), path.stiffness);
         fourier.sum_from(farthest + 1, symmetry(1.0), path.stiffness, assembly.sums);
-        assembly.set_products(&terms.outer.of(0));
+        assembly.set_products(&terms.outer, 0);
         assembly.write(symmetry(1.0), jacobian, size.coefficients());
     }
 }

@@ -106,7 +106,7 @@ pub(super) struct Sensitivity<'a> {
     /// Term of each sample among the outer products, or -1.
     pub places: &'a mut [f64],
     /// Rows Y by u and by the input.
-    pub outer: OuterProducts<'a, 2>,
+    pub outer: OuterProducts<'a>,
     /// Weights of φ ⊗ φ for the derivatives by u and by the input.
     pub own: [&'a mut [f64]; 2],
 }
@@ -117,12 +117,17 @@ fn inverse(width: f64) -> f64 {
     1.0 / width.max(1e-300)
 }
 
-/// The motion.
+/// The motion, and the boundaries of its slip zones, packed: S, N and f.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Context<'c> {
     pub element: &'c Element,
     pub samples: &'c Samples<'c>,
     pub part: &'c Part,
+    pub cut_shifts: &'c [f64],
+    pub cut_loads: &'c [f64],
+    pub cut_stiffnesses: &'c [f64],
+    /// D of the pieces that samples made by sticking.
+    pub slopes: &'c [f64],
 }
 
 impl Context<'_> {
@@ -146,14 +151,14 @@ impl Context<'_> {
 impl Sensitivity<'_> {
     /// Gathers the derivatives along the runs.
     #[inline(never)]
-    pub fn gather(&mut self, context: &Context, cuts: &Cuts, runs: &[Run]) {
-        runs.iter().for_each(|run| self.write_own(context, cuts, run));
-        with_strips!(self.rows.blocks(), self.gather_strips(context, cuts, runs));
+    pub fn gather(&mut self, context: &Context, runs: &[Run]) {
+        runs.iter().for_each(|run| self.write_own(context, run));
+        with_strips!(self.rows.blocks(), self.gather_strips(context, runs));
     }
 
     /// Writes the weights of φ ⊗ φ of the samples of a run.
-    fn write_own(&mut self, context: &Context, cuts: &Cuts, run: &Run) {
-        let Context { element, samples, .. } = *context;
+    fn write_own(&mut self, context: &Context, run: &Run) {
+        let Context { element, samples, cut_stiffnesses, .. } = *context;
         let [by_u, by_input] = &mut self.own;
         let by_u = by_u.get_mut(run.samples()).unwrap_or(&mut []);
         let by_input = by_input.get_mut(run.samples()).unwrap_or(&mut []);
@@ -172,7 +177,7 @@ impl Sensitivity<'_> {
                 by_u.iter_mut().zip(run.of(samples.stiffness)).for_each(|(weight, stiffness)| *weight = *stiffness);
             }
             _ => {
-                let cuts = cuts.stiffnesses.get(run.cuts()).unwrap_or(&[]);
+                let cuts = cut_stiffnesses.get(run.cuts()).unwrap_or(&[]);
                 let values = cuts.iter().zip(run.of(samples.stiffness)).zip(run.of(samples.shift_slope));
                 for ((by_u, by_input), ((cut, stiffness), slope)) in by_u.iter_mut().zip(by_input).zip(values) {
                     *by_u = *cut;
@@ -183,7 +188,7 @@ impl Sensitivity<'_> {
     }
 
     #[inline(always)]
-    fn gather_strips<const N: usize>(&mut self, context: &Context, cuts: &Cuts, runs: &[Run]) {
+    fn gather_strips<const N: usize>(&mut self, context: &Context, runs: &[Run]) {
         dispatch!({
             let Sensitivity { rows, pieces, stored, places, outer, .. } = self;
             let stored = stored.as_chunks_mut::<N>().0.as_chunks_mut().0;
@@ -191,21 +196,11 @@ impl Sensitivity<'_> {
                 places.fill(-1.0);
                 let (rows, terms) = (rows.strips(strip), outer.terms(strip));
                 let stack = Stack { pieces, depth: 0 };
-                let mut gathering = Gathering { context, cuts, rows, stack, stored, places, terms };
+                let mut gathering = Gathering { context, rows, stack, stored, places, terms };
                 gathering.gather(runs);
             }
         });
     }
-}
-
-/// Boundaries of the slip zones, packed: S, N and f.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Cuts<'c> {
-    pub shifts: &'c [f64],
-    pub loads: &'c [f64],
-    pub stiffnesses: &'c [f64],
-    /// D of the pieces that samples made by sticking.
-    pub slopes: &'c [f64],
 }
 
 /// Pieces of the diagram: piece k ends at knot k, counted from the centre.
@@ -246,7 +241,6 @@ impl Stack<'_> {
 /// The derivatives in strips of N blocks.
 struct Gathering<'c, const N: usize> {
     context: &'c Context<'c>,
-    cuts: &'c Cuts<'c>,
     rows: RowStrips<'c, N>,
     stack: Stack<'c>,
     stored: &'c mut [[Strip<N>; 2]],
@@ -290,7 +284,7 @@ impl<const N: usize> Gathering<'_, N> {
                     if let Some(piece) = stack.depth.checked_sub(1).and_then(|top| stack.pieces.get_mut(top)) {
                         piece.cut = Cut { step: now as u64, count: count as u64, packed: packed.start as u64 };
                     }
-                    let cut = at(self.cuts.stiffnesses, packed.end.saturating_sub(1));
+                    let cut = at(self.context.cut_stiffnesses, packed.end.saturating_sub(1));
                     stack.push(&Piece { weights: [line.weights[0] - cut, 0.0], parameter: cut, ..line });
                 }
             }
@@ -327,12 +321,12 @@ impl<const N: usize> Gathering<'_, N> {
         let first = self.context.sample_at(step);
         let rows = self.rows.phi.get(first..first + count).unwrap_or(&[]);
         let packed = packed..packed + count;
-        let stiffnesses = self.cuts.stiffnesses.get(packed.clone()).unwrap_or(&[]);
+        let Context { cut_shifts, cut_loads, cut_stiffnesses, .. } = *self.context;
+        let [shifts, loads, stiffnesses] =
+            [cut_shifts, cut_loads, cut_stiffnesses].map(|values| values.get(packed.clone()).unwrap_or(&[]));
         let [constant, linear] = &mut sums;
         if piece.is_stuck() {
             let inner = self.context.inner_end(piece.sample as usize);
-            let (shifts, loads) =
-                (self.cuts.shifts.get(packed.clone()).unwrap_or(&[]), self.cuts.loads.get(packed).unwrap_or(&[]));
             for (((row, &shift), &load), &stiffness) in rows.iter().zip(shifts).zip(loads).zip(stiffnesses) {
                 piece.weights = inner.weights_to(piece.parameter, [shift, load, stiffness]);
                 add_scaled(constant, piece.weights[0], row);
@@ -380,12 +374,12 @@ impl<const N: usize> Gathering<'_, N> {
     /// Adds the sums of a piece that is removed to those of the samples that made it: `dT = -V_1 e_i - V_2 (e_j - e_i)`.
     #[inline(always)]
     fn distribute(&mut self, piece: &Piece, [constant, linear]: &[Strip<N>; 2]) {
-        let Context { element, samples, .. } = *self.context;
+        let Context { element, samples, slopes, .. } = *self.context;
         let (made, sample) = (piece.made, piece.sample as usize);
         let shift_slope = at(samples.shift_slope, sample);
         let mut difference = *linear;
         add_scaled(&mut difference, -1.0, constant);
-        let (before, slope) = (samples.before(sample), at(self.cuts.slopes, sample));
+        let (before, slope) = (samples.before(sample), at(slopes, sample));
         let own = (sample, linear, [-1.0, slope * shift_slope]);
         // One call in a loop: the function is long, and inlined.
         let (parts, count) = if !piece.is_stuck() {
