@@ -66,7 +66,7 @@ impl<'a> FoldedFourier<'a> {
         let weights = parts.take_blocks(blocks)?;
         let quads = parts.take_blocks(2 * orders * blocks)?.as_chunks_mut().0;
         let folded = parts.take_blocks(SYMMETRIES * blocks)?.as_chunks_mut().0;
-        Ok(FoldedFourier { samples, orders, weights, quads, folded, totals: parts.take_blocks(1 + 2 * orders)? })
+        Ok(FoldedFourier { samples, orders, weights, quads, folded, totals: parts.take_blocks(2 * orders)? })
     }
 
     /// Fills the tables.
@@ -128,20 +128,36 @@ impl<'a> FoldedFourier<'a> {
         continue_periodically(values, samples);
     }
 
-    /// Sums of a function whose samples from `first` on are evaluated, in an array of two periods. Under half-wave symmetry these are
-    /// half a period of samples, after which the function keeps (+1) or changes (-1) its sign.
+    /// Sums of a function whose samples from `first` on are evaluated, in an array of two periods.
     pub fn sum_from(&mut self, first: usize, half_wave: Option<f64>, values: &mut [f64], sums: &mut [f64]) {
         let samples = self.samples;
-        if let Some(sign) = half_wave
-            && let Some(period) = values.get_mut(first..first + samples)
-            && let Some((half, other)) = period.split_at_mut_checked(samples / 2)
-        {
-            other.iter_mut().zip(half).for_each(|(other, value)| *other = sign * *value);
-        }
         if let Some((period, next)) = values.split_at_mut_checked(samples) {
             period.iter_mut().zip(next).take(first).for_each(|(value, next)| *value = *next);
         }
-        self.sum(values.get_mut(..sample_length(samples)).unwrap_or(&mut []), sums);
+        self.sum_half_wave(first, half_wave, values.get_mut(..sample_length(samples)).unwrap_or(&mut []), sums);
+    }
+
+    /// Sums of a function. Under half-wave symmetry half a period of samples from `first` on is evaluated, after which the function
+    /// keeps (+1) or changes (-1) its sign.
+    pub fn sum_half_wave(&mut self, first: usize, half_wave: Option<f64>, values: &mut [f64], sums: &mut [f64]) {
+        let (samples, half) = (self.samples, self.samples / 2);
+        // The evaluated half starts in either half of the period.
+        let (starts_in_one, turn) = if first < half { (true, first) } else { (false, first - half) };
+        if let Some(sign) = half_wave
+            && let Some((one, two)) = values.get_mut(..samples).and_then(|period| period.split_at_mut_checked(half))
+            && let Some((one_before, one)) = one.split_at_mut_checked(turn)
+            && let Some((two_before, two)) = two.split_at_mut_checked(turn)
+        {
+            let evaluated_first = if starts_in_one {
+                [(one, two), (two_before, one_before)]
+            } else {
+                [(two, one), (one_before, two_before)]
+            };
+            for (evaluated, other) in evaluated_first {
+                other.iter_mut().zip(evaluated).for_each(|(other, value)| *other = sign * *value);
+            }
+        }
+        self.sum(values, sums);
     }
 
     /// Sums of the samples times 1, cos t, sin t, cos 2t, ..., one for each of `sums`. The first value is repeated after the period.
@@ -154,16 +170,15 @@ impl<'a> FoldedFourier<'a> {
             self.fold(values);
             let FoldedFourier { quads, folded, totals, .. } = self;
             let stride = (self.orders / 2).max(1);
-            // The constant, then blocks of four sums for each pair of orders.
             let mut total = [0.0; 4];
             for [_, _, even_cosines, _] in folded.iter() {
                 for k in 0..4 {
                     total[k] += even_cosines[k];
                 }
             }
-            let Some((constant, totals)) = totals.split_first_mut() else { return };
-            *constant = total;
-            let count = sums.len().saturating_sub(1).div_ceil(4);
+            let Some((first, sums)) = sums.split_first_mut() else { return };
+            *first = sum_of(total);
+            let count = sums.len().div_ceil(4);
             for (quad, totals) in totals.as_chunks_mut::<SYMMETRIES>().0.iter_mut().take(count).enumerate() {
                 let [mut a, mut b, mut c, mut d] = [[0.0; 4]; 4];
                 for (block, folded) in folded.iter().enumerate() {
@@ -178,8 +193,6 @@ impl<'a> FoldedFourier<'a> {
                 *totals = [a, b, c, d];
             }
             // Summed from memory, which keeps the loop above vectorised along the positions.
-            let Some((first, sums)) = sums.split_first_mut() else { return };
-            *first = sum_of(*constant);
             for (sum, total) in sums.iter_mut().zip(totals.iter()) {
                 *sum = sum_of(*total);
             }
@@ -225,25 +238,6 @@ pub(crate) fn continue_periodically(values: &mut [f64], samples: usize) {
     for beyond in beyond.chunks_mut(samples.max(1)) {
         if let Some(continued) = period.get(..beyond.len()) {
             beyond.copy_from_slice(continued);
-        }
-    }
-}
-
-/// Completes values that were evaluated in half a period from a sample and keep (+1) or change (-1) their sign after it.
-#[inline(always)]
-pub(crate) fn continue_half_wave(values: &mut [f64], start: usize, samples: usize, sign: f64) {
-    let half = samples / 2;
-    let Some((first, second)) = values.get_mut(..samples).and_then(|period| period.split_at_mut_checked(half)) else {
-        return;
-    };
-    // The evaluated half starts in either half of the period.
-    let turn = if start < half { start } else { start - half };
-    let from_first = start < half;
-    for (index, (first, second)) in first.iter_mut().zip(second).enumerate() {
-        if (index >= turn) == from_first {
-            *second = sign * *first;
-        } else {
-            *first = sign * *second;
         }
     }
 }

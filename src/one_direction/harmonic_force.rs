@@ -20,7 +20,7 @@ pub use crate::fourier::HarmonicOutput;
 
 use crate::element::Element;
 use crate::error::Error;
-use crate::fourier::folded::{FoldedFourier, continue_half_wave, sample_length};
+use crate::fourier::folded::{FoldedFourier, sample_length};
 use crate::fourier::normalise;
 use crate::fourier::rows::{OuterProducts, Rows, row_blocks};
 use crate::fourier::sampled_jacobian::Assembly;
@@ -267,10 +267,7 @@ impl Workspace<'_> {
         let weight = 1.0 / samples.count as f64;
         let (tangential, normal) = force.split_at_mut_checked(size.coefficients()).unwrap_or((&mut [], &mut []));
         if let Some(part) = part {
-            if motion.half_wave {
-                continue_half_wave(forces.force, part.start, samples.count, -1.0);
-            }
-            fourier.sum(forces.force, tangential);
+            fourier.sum_half_wave(part.start, motion.half_wave.then_some(-1.0), forces.force, tangential);
             normalise(tangential, weight);
         } else {
             tangential.fill(0.0);
@@ -296,11 +293,8 @@ impl Workspace<'_> {
             jacobian.split_at_mut_checked(2 * coefficients * coefficients).unwrap_or((&mut [], &mut []));
         for (index, (columns, sign)) in [(&mut *by_displacement, 1.0), (&mut *by_input, -1.0)].into_iter().enumerate() {
             if let (Some(part), Some(own)) = (part, sensitivity.own.get_mut(index)) {
-                if motion.half_wave {
-                    continue_half_wave(own, part.start, samples.count, sign);
-                }
-                fourier.sum(own, assembly.sums);
-                let symmetry = if motion.half_wave { Some(sign) } else { None };
+                let symmetry = motion.half_wave.then_some(sign);
+                fourier.sum_half_wave(part.start, symmetry, own, assembly.sums);
                 assembly.set_products(&sensitivity.outer, index);
                 assembly.write(symmetry, columns, 2 * coefficients);
             } else {
