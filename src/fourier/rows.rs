@@ -14,11 +14,6 @@ pub(crate) fn row_blocks(harmonics: usize) -> usize {
     if blocks <= 5 { blocks | 1 } else { blocks.next_multiple_of(5) }
 }
 
-/// Blocks of a row that are gathered together, and kept in registers: all up to 5.
-fn strip_blocks(row_blocks: usize) -> usize {
-    row_blocks.min(5)
-}
-
 /// A strip of a row.
 pub(crate) type Strip<const N: usize> = [[f64; 4]; N];
 
@@ -67,7 +62,7 @@ impl<'a> Rows<'a> {
     /// Fills the tables.
     pub fn fill(&mut self) {
         let Rows { harmonics, samples, .. } = *self;
-        let width = 4 * strip_blocks(row_blocks(harmonics));
+        let width = 4 * row_blocks(harmonics).min(5);
         let fill = |values: &mut Blocks, function: &dyn Fn(usize, usize) -> f64| {
             for (index, strip) in values.as_flattened_mut().chunks_exact_mut(width.max(4)).enumerate() {
                 let (first, n) = (index / samples.max(1) * width, index % samples.max(1));
@@ -154,8 +149,8 @@ pub(crate) struct OuterProducts<'a> {
 /// One strip of the rows of [`OuterProducts`].
 #[derive(Debug)]
 pub(crate) struct Terms<'a, const N: usize, const D: usize> {
-    count: &'a mut usize,
-    y: &'a mut [[Strip<N>; D]],
+    pub count: &'a mut usize,
+    pub y: &'a mut [[Strip<N>; D]],
     phi: &'a mut [Strip<N>],
 }
 
@@ -167,17 +162,6 @@ impl<const N: usize, const D: usize> Terms<'_, N, D> {
             (*y_place, *phi_place) = (y, *phi);
             *self.count += 1;
         }
-    }
-
-    #[inline(always)]
-    pub fn count(&self) -> usize {
-        *self.count
-    }
-
-    /// Rows Y of a term.
-    #[inline(always)]
-    pub fn y(&mut self, term: usize) -> Option<&mut [Strip<N>; D]> {
-        self.y.get_mut(term)
     }
 }
 

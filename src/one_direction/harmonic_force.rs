@@ -141,9 +141,7 @@ pub fn harmonic_force(
         fourier.synthesise(tangential, samples.displacement);
         let part = part.insert(samples.enter_steady_state(element, motion.half_wave));
         if needs_forces {
-            let extent = path.evaluate(element, samples, part);
-            let runs = path.runs.get(..extent.runs).unwrap_or(&[]);
-            let cut_shift = path.cuts(extent);
+            let (runs, cut_shift) = path.evaluate(element, samples, part);
             if jacobian.is_none() {
                 forces.evaluate::<false>(element, samples, cut_shift, runs);
             } else {
@@ -152,7 +150,7 @@ pub fn harmonic_force(
                     element,
                     samples,
                     part,
-                    cut_shifts: path.cut_shift,
+                    cut_shifts: cut_shift.as_flattened(),
                     cut_loads: forces.cut_load,
                     cut_stiffnesses: forces.cut_stiffness,
                     slopes: forces.slope,

@@ -111,12 +111,6 @@ pub(super) struct Sensitivity<'a> {
     pub own: [&'a mut [f64]; 2],
 }
 
-/// 1/width of a stuck piece: S rises, or rounding made two values equal.
-#[inline(always)]
-fn inverse(width: f64) -> f64 {
-    1.0 / width.max(1e-300)
-}
-
 /// The motion, and the boundaries of its slip zones, packed: S, N and f.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Context<'c> {
@@ -228,7 +222,8 @@ impl Stack<'_> {
         for (since, sample) in (now..).zip(range) {
             let [shift, load, stiffness] =
                 [at(samples.shift, sample), at(samples.load, sample), at(samples.stiffness, sample)];
-            let parameter = inverse(shift - inner.shift);
+            // S rises, or rounding made two values equal.
+            let parameter = 1.0 / (shift - inner.shift).max(1e-300);
             let weights = inner.weights_to(parameter, [shift, load, stiffness]);
             let (sample, since) = (sample as u64, since as u64);
             self.push(&Piece { made, sample, weights, since, parameter, cut: NO_CUT, stored: 0 });
@@ -406,11 +401,11 @@ impl<const N: usize> Gathering<'_, N> {
     fn add(&mut self, sample: usize, row: &Strip<N>, [by_u, by_input]: [f64; 2]) {
         let Some(place) = self.places.get_mut(sample) else { return };
         if *place < 0.0 {
-            *place = self.terms.count() as f64;
+            *place = *self.terms.count as f64;
             if let Some(phi) = self.rows.phi.get(sample) {
                 self.terms.push([scaled(by_u, row), scaled(by_input, row)], phi);
             }
-        } else if let Some(y) = self.terms.y(*place as usize) {
+        } else if let Some(y) = self.terms.y.get_mut(*place as usize) {
             let [mut u_row, mut input_row] = *y;
             add_scaled(&mut u_row, by_u, row);
             add_scaled(&mut input_row, by_input, row);

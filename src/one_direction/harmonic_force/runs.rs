@@ -142,20 +142,14 @@ pub(super) struct PeriodicPath<'a> {
     pub cut_shift: &'a mut [f64],
 }
 
-/// Number of runs, and of packed boundaries.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Extent {
-    pub runs: usize,
-    pub cuts: usize,
-}
-
-/// A walk along samples: the stack of knots, and the runs so far.
+/// A walk along samples: the stack of knots, and the runs and packed boundaries so far.
 struct Walk<'a> {
     knots: &'a mut [[f64; 4]],
     depth: usize,
     runs: &'a mut [Run],
+    run_count: usize,
     cut_shift: &'a mut [f64],
-    extent: Extent,
+    cut_count: usize,
 }
 
 impl Walk<'_> {
@@ -192,7 +186,7 @@ impl Walk<'_> {
         };
         let mut next = range.start;
         while let (Some(&x), Some(&y), Some(&input)) = (xi.get(next), eta.get(next), inputs.get(next))
-            && self.extent.runs < self.runs.len()
+            && self.run_count < self.runs.len()
         {
             let mut run = if part.opens && input <= 0.0 {
                 let closes = inputs.iter().skip(next).position(|input| *input > 0.0);
@@ -209,12 +203,12 @@ impl Walk<'_> {
                     self.slip(next, [xi, eta], [x, y], element.per_two_mu)
                 }
             };
-            (run.first, run.packed) = (next as u64, self.extent.cuts as u64);
+            (run.first, run.packed) = (next as u64, self.cut_count as u64);
             next += run.count as usize;
-            self.extent.cuts += if run.kind == Kind::SLIP { run.count as usize } else { 0 };
-            if let Some(place) = self.runs.get_mut(self.extent.runs) {
+            self.cut_count += if run.kind == Kind::SLIP { run.count as usize } else { 0 };
+            if let Some(place) = self.runs.get_mut(self.run_count) {
                 *place = run;
-                self.extent.runs += 1;
+                self.run_count += 1;
             }
         }
     }
@@ -291,7 +285,7 @@ impl Walk<'_> {
         };
         let ratio = if change > 0.0 { change / by.max(SMALLEST) } else { 0.0 };
         let (mut sample, mut last, mut last_cut) = (first, [f64::MIN; 2], 0.0);
-        let places = self.cut_shift.get_mut(self.extent.cuts..).unwrap_or(&mut []);
+        let places = self.cut_shift.get_mut(self.cut_count..).unwrap_or(&mut []);
         for place in places {
             let (Some(moving), Some(other)) = (moving.get(sample), other.get(sample)) else { break };
             let (x, y) = (sign * moving, sign * other);
@@ -323,15 +317,10 @@ impl Walk<'_> {
 const SMALLEST: f64 = 1e-150;
 
 impl PeriodicPath<'_> {
-    /// The packed boundaries in blocks of four.
-    pub fn cuts(&self, extent: Extent) -> &[[f64; 4]] {
-        self.cut_shift.as_chunks().0.get(..extent.cuts.div_ceil(4)).unwrap_or(&[])
-    }
-
     /// A walk from the diagram before the first sample of a part.
     fn walk(&mut self, part: &Part) -> Walk<'_> {
         let PeriodicPath { knots, runs, cut_shift } = self;
-        let mut walk = Walk { knots, depth: 0, runs, cut_shift, extent: Extent { runs: 0, cuts: 0 } };
+        let mut walk = Walk { knots, depth: 0, runs, run_count: 0, cut_shift, cut_count: 0 };
         walk.restart(0.0);
         if !part.opens {
             walk.push(Knot::CORE);
@@ -339,18 +328,19 @@ impl PeriodicPath<'_> {
         walk
     }
 
-    /// Finds the runs along a part of the period.
+    /// Finds the runs along a part of the period, and the packed boundaries in blocks of four.
     #[inline(never)]
-    pub fn evaluate(&mut self, element: &Element, samples: &Samples, part: &Part) -> Extent {
+    pub fn evaluate(&mut self, element: &Element, samples: &Samples, part: &Part) -> (&[Run], &[[f64; 4]]) {
         let mut walk = self.walk(part);
         for range in ranges(part, samples.count) {
             walk.advance(element, samples, part, range);
         }
-        let extent = walk.extent;
+        let (runs, cuts) = (walk.run_count, walk.cut_count);
         // Fills the last block of four.
-        let last = extent.cuts.checked_sub(1).map_or(0.0, |last| at(self.cut_shift, last));
-        self.cut_shift.iter_mut().skip(extent.cuts).take(3).for_each(|place| *place = last);
-        extent
+        let last = cuts.checked_sub(1).map_or(0.0, |last| at(self.cut_shift, last));
+        self.cut_shift.iter_mut().skip(cuts).take(3).for_each(|place| *place = last);
+        let cut_shift = self.cut_shift.as_chunks().0.get(..cuts.div_ceil(4));
+        (self.runs.get(..runs).unwrap_or(&[]), cut_shift.unwrap_or(&[]))
     }
 
     /// Energy \[J\] dissipated in the steps along a part of the period.
@@ -374,7 +364,7 @@ impl PeriodicPath<'_> {
                 }
                 energy += energy::dissipated(element, walk.used(), &Path { shift, displacement: end - start });
             }
-            walk.extent = Extent { runs: 0, cuts: 0 };
+            (walk.run_count, walk.cut_count) = (0, 0);
             walk.advance(element, samples, part, sample..sample + 1);
         }
         energy
