@@ -45,6 +45,12 @@ impl HarmonicOutput<'_> {
     }
 }
 
+/// A value of an array; 0 outside.
+#[inline(always)]
+pub(crate) fn at(values: &[f64], index: usize) -> f64 {
+    values.get(index).copied().unwrap_or(0.0)
+}
+
 /// `2π order sample/samples`; the number of periods is reduced to its fraction before the multiplication by π.
 pub(crate) fn angle(order: usize, sample: usize, samples: usize) -> f64 {
     let fraction = (order * sample % samples.max(1)) as f64 / samples.max(1) as f64;

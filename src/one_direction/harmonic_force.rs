@@ -86,9 +86,9 @@ impl<'a> Layout<'a> for Workspace<'a> {
         let [displacement, input, load, shift, load_slope, shift_slope, stiffness, xi, eta] =
             parts.take_arrays(sample_length(count))?;
         let samples = Samples { count, displacement, input, load, shift, load_slope, shift_slope, stiffness, xi, eta };
-        let [force, cut_shift, cut_load, cut_stiffness, slope, last_cut_force, last_cut_load, by_u, by_input, places] =
+        let [force, cut_shift, cut_load, cut_stiffness, slope, by_u, by_input, places] =
             parts.take_arrays(sample_length(count))?;
-        let forces = Forces { force, cut_load, cut_stiffness, slope, last_cut_force, last_cut_load };
+        let forces = Forces { force, cut_load, cut_stiffness, slope, last_cut: parts.take_records(count)? };
         let path = PeriodicPath { knots: parts.take_blocks(capacity)?, runs: parts.take_records(capacity)?, cut_shift };
         let pieces = parts.take_records(capacity)?;
         let stored = parts.take_blocks(2 * row_blocks(harmonics) * capacity)?;
@@ -107,7 +107,8 @@ struct MotionKind {
     /// u has only odd orders, the normal component only even ones, and the number of samples is even: after half a period ξ and -η
     /// have changed places, and the tangential force its sign.
     half_wave: bool,
-    /// The contact is open at all samples.
+    /// The contact is open at some samples, and at all.
+    opens: bool,
     open: bool,
 }
 
@@ -139,7 +140,7 @@ pub fn harmonic_force(
     if has_friction && (needs_forces || dissipated.is_some()) {
         let Workspace { fourier, samples, path, forces, sensitivity, .. } = workspace;
         fourier.synthesise(tangential, samples.displacement);
-        let part = part.insert(samples.enter_steady_state(element, motion.half_wave));
+        let part = part.insert(samples.enter_steady_state(element, motion));
         if needs_forces {
             let (runs, cut_shift) = path.evaluate(element, samples, part);
             if jacobian.is_none() {
@@ -176,11 +177,6 @@ pub fn harmonic_force(
     Ok(())
 }
 
-/// Rows of N.
-fn lower(column: &mut [f64], coefficients: usize) -> &mut [f64] {
-    column.get_mut(coefficients..).unwrap_or(&mut [])
-}
-
 impl Workspace<'_> {
     /// Checks a motion: all of a batch are checked before the first output is written.
     pub(crate) fn check(&mut self, element: &Element, displacement: &[f64]) -> Result<(), Error> {
@@ -212,6 +208,7 @@ impl Workspace<'_> {
         let mut motion = MotionKind {
             constant: amplitude == 0.0,
             half_wave: samples.count.is_multiple_of(2) && !has(tangential, 0) && !has(input, 1),
+            opens: false,
             open: false,
         };
         let rounding = if element.by_approach() {
@@ -240,7 +237,8 @@ impl Workspace<'_> {
             samples.input.fill(mean);
             samples.press_constantly(&element.normal(mean));
         } else {
-            if !element.is_closed(least) {
+            motion.opens = !element.is_closed(least);
+            if motion.opens {
                 let open = |input: f64| if element.is_closed(input) { input } else { input.min(0.0) };
                 samples.input.iter_mut().for_each(|input| *input = open(*input));
             }
@@ -299,7 +297,7 @@ impl Workspace<'_> {
                 columns.fill(0.0);
             }
             for column in columns.chunks_exact_mut(2 * coefficients) {
-                lower(column, coefficients).fill(0.0);
+                column.iter_mut().skip(coefficients).for_each(|value| *value = 0.0);
             }
         }
         if motion.open && element.by_approach() {
@@ -307,9 +305,8 @@ impl Workspace<'_> {
         }
         if motion.constant || !element.by_approach() {
             let slope = if element.by_approach() { samples.load_slope.first().copied().unwrap_or(0.0) } else { 1.0 };
-            let columns = by_input.chunks_exact_mut(2 * coefficients).map(|column| lower(column, coefficients));
-            for (index, column) in columns.enumerate() {
-                column.iter_mut().skip(index).take(1).for_each(|diagonal| *diagonal = slope);
+            for (row, column) in (coefficients..).zip(by_input.chunks_exact_mut(2 * coefficients)) {
+                column.iter_mut().skip(row).take(1).for_each(|diagonal| *diagonal = slope);
             }
         } else {
             fourier.sum(samples.load_slope, assembly.sums);

@@ -13,10 +13,10 @@ use crate::constant_load::memory::{Branch, Point, Reversal};
 use crate::constant_load::steady_state::SteadyState;
 use crate::error::Error;
 use crate::fourier::folded::FoldedFourier;
-use crate::fourier::normalise;
 use crate::fourier::rows::{OuterProducts, Rows, row_blocks};
 use crate::fourier::sampled_jacobian::Assembly;
 use crate::fourier::workspace::{Layout, Parts, Size};
+use crate::fourier::{at, normalise};
 use crate::parameters::{PARAMETERS, Sensitivity};
 use crate::simd::dispatch;
 use crate::tag::Kind;
@@ -216,11 +216,6 @@ impl Path<'_> {
         }
         used
     }
-}
-
-#[inline(always)]
-fn at(values: &[f64], index: usize) -> f64 {
-    values.get(index).copied().unwrap_or(0.0)
 }
 
 /// Number of samples, the first included, before the motion reverses or reaches the end of the branch.

@@ -1,10 +1,10 @@
 //! Tangential forces of the samples, run by run.
 
 use crate::element::Element;
+use crate::fourier::at;
 use crate::one_direction::harmonic_force::runs::{Kind, Place, Run};
-use crate::one_direction::harmonic_force::samples::{Samples, at};
+use crate::one_direction::harmonic_force::samples::Samples;
 use crate::simd::dispatch;
-use core::ops::Range;
 
 /// Arrays of the tangential forces.
 #[derive(Debug)]
@@ -16,9 +16,8 @@ pub(super) struct Forces<'a> {
     pub cut_stiffness: &'a mut [f64],
     /// D of the pieces that samples made by sticking.
     pub slope: &'a mut [f64],
-    /// T and N at the boundary of the slip zone at the last sample of a run.
-    pub last_cut_force: &'a mut [f64],
-    pub last_cut_load: &'a mut [f64],
+    /// N and T at the boundary of the slip zone at the last sample of a run.
+    pub last_cut: &'a mut [[f64; 2]],
 }
 
 impl Forces<'_> {
@@ -39,10 +38,12 @@ impl Forces<'_> {
     /// `[N, T]` at the end of a piece.
     #[inline(always)]
     fn at_place(&self, samples: &Samples, place: Place) -> [f64; 2] {
-        let (sample, is_end) = (place.sample(), place.is_end());
-        let loads = if is_end { &*samples.load } else { &*self.last_cut_load };
-        let forces = if is_end { &*self.force } else { &*self.last_cut_force };
-        [at(loads, sample), at(forces, sample)]
+        let sample = place.sample();
+        if place.is_end() {
+            [at(samples.load, sample), at(self.force, sample)]
+        } else {
+            self.last_cut.get(sample).copied().unwrap_or([0.0; 2])
+        }
     }
 
     /// Evaluates the forces of all runs, from the shifts at the boundaries, and what their derivatives need if `SLOPES`.
@@ -60,15 +61,16 @@ impl Forces<'_> {
             for run in runs {
                 let range = run.samples();
                 let inner = self.at_place(samples, run.inner);
-                let loads = samples.load.get(range.clone()).unwrap_or(&[]);
+                let loads = run.of(samples.load);
                 let forces = self.force.get_mut(range.clone()).unwrap_or(&mut []);
                 let mu = run.sign * friction_coefficient;
                 match run.kind {
-                    Kind::OPEN => forces.fill(0.0),
-                    Kind::GROSS_SLIP => forces.iter_mut().zip(loads).for_each(|(force, load)| *force = mu * load),
+                    Kind::OPEN | Kind::GROSS_SLIP => {
+                        forces.iter_mut().zip(loads).for_each(|(force, load)| *force = mu * load)
+                    }
                     Kind::STUCK => {
                         let slopes = self.slope.get_mut(range.clone()).unwrap_or(&mut []);
-                        stick(samples, run, range, mu, slopes, inner, forces);
+                        stick(samples, run, mu, slopes, inner, forces);
                     }
                     _ => {
                         let [inner_load, inner_force] = inner;
@@ -77,12 +79,8 @@ impl Forces<'_> {
                         for ((force, &load), &cut_load) in forces.iter_mut().zip(loads).zip(cuts) {
                             *force = inner_force + slope * (cut_load - inner_load) + mu * (load - cut_load);
                         }
-                        let last = range.end - 1;
-                        let cut_load = cuts.last().copied().unwrap_or(0.0);
-                        if let (Some(force), Some(load)) =
-                            (self.last_cut_force.get_mut(last), self.last_cut_load.get_mut(last))
-                        {
-                            (*force, *load) = (inner_force + slope * (cut_load - inner_load), cut_load);
+                        if let (Some(&cut_load), Some(place)) = (cuts.last(), self.last_cut.get_mut(range.end - 1)) {
+                            *place = [cut_load, inner_force + slope * (cut_load - inner_load)];
                         }
                     }
                 }
@@ -93,27 +91,17 @@ impl Forces<'_> {
 
 /// Slopes and forces of samples that stick.
 #[inline(always)]
-fn stick(
-    samples: &Samples,
-    run: &Run,
-    range: Range<usize>,
-    mu: f64,
-    slopes: &mut [f64],
-    [mut load_before, mut force_before]: [f64; 2],
-    forces: &mut [f64],
-) {
-    let before = samples.before(range.start);
+fn stick(samples: &Samples, run: &Run, mu: f64, slopes: &mut [f64], inner: [f64; 2], forces: &mut [f64]) {
+    let [mut load_before, mut force_before] = inner;
+    let before = samples.before(run.samples().start);
     let [mut xi_before, mut eta_before] =
         if run.inner == Place::CENTRE { [run.parameter; 2] } else { [at(samples.xi, before), at(samples.eta, before)] };
-    let xi = samples.xi.get(range.clone()).unwrap_or(&[]);
-    let eta = samples.eta.get(range.clone()).unwrap_or(&[]);
-    for ((slope, &xi), &eta) in slopes.iter_mut().zip(xi).zip(eta) {
+    for ((slope, &xi), &eta) in slopes.iter_mut().zip(run.of(samples.xi)).zip(run.of(samples.eta)) {
         let (falling, rising) = (xi_before - xi, eta - eta_before);
         *slope = mu * ((rising - falling) / (rising + falling).max(f64::MIN_POSITIVE));
         (xi_before, eta_before) = (xi, eta);
     }
-    let loads = samples.load.get(range).unwrap_or(&[]);
-    for ((force, &slope), &load) in forces.iter_mut().zip(slopes.iter()).zip(loads) {
+    for ((force, &slope), &load) in forces.iter_mut().zip(slopes.iter()).zip(run.of(samples.load)) {
         force_before += slope * (load - load_before);
         *force = force_before;
         load_before = load;

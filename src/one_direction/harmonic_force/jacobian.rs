@@ -17,10 +17,11 @@
 //! removed, the sum is added to those of the one or two samples that made it; in the end `J += Σ Y_j ⊗ φ_j`.
 
 use crate::element::Element;
+use crate::fourier::at;
 use crate::fourier::rows::{OuterProducts, RowStrips, Rows, Strip, Terms, add_scaled, scaled, with_strips};
 use crate::fourier::workspace::{Blocks, record};
 use crate::one_direction::harmonic_force::runs::{Kind, Run, closing};
-use crate::one_direction::harmonic_force::samples::{Part, Samples, at};
+use crate::one_direction::harmonic_force::samples::{Part, Samples};
 use crate::one_direction::step::Crossing;
 use crate::simd::dispatch;
 

@@ -4,10 +4,11 @@
 //! afterwards, all at once: the shifts of these boundaries are packed in the order of the samples that slip.
 
 use crate::element::Element;
+use crate::fourier::at;
 use crate::fourier::workspace::record;
 use crate::one_direction::diagram::slope;
 use crate::one_direction::energy::{self, Path};
-use crate::one_direction::harmonic_force::samples::{Part, Samples, at, ranges};
+use crate::one_direction::harmonic_force::samples::{Part, Samples, ranges};
 use crate::one_direction::step::Crossing;
 use core::ops::Range;
 

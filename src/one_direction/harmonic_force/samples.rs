@@ -1,6 +1,8 @@
 //! Normal states and characteristic coordinates of the samples.
 
+use super::MotionKind;
 use crate::element::{Element, Normal};
+use crate::fourier::at;
 use crate::simd::dispatch;
 
 /// Arrays over the samples of a period, continued periodically to whole blocks of four.
@@ -37,10 +39,6 @@ pub(super) struct Part {
 pub(super) fn ranges(part: &Part, samples: usize) -> [core::ops::Range<usize>; 2] {
     let end = part.start + part.length;
     if end <= samples { [part.start..end, 0..0] } else { [part.start..samples, 0..end - samples] }
-}
-
-pub(super) fn at(values: &[f64], index: usize) -> f64 {
-    values.get(index).copied().unwrap_or(0.0)
 }
 
 impl Samples<'_> {
@@ -119,43 +117,40 @@ impl Samples<'_> {
     /// - otherwise there is no gross slip and o = 0; the part of the diagram with D = 0 that is never reached ends at S = min(-X, Y)/mu.
     ///   At the sample where that is attained everything beyond is slip zone.
     #[inline(always)]
-    pub fn enter_steady_state(&mut self, element: &Element, half_wave_symmetric: bool) -> Part {
+    pub fn enter_steady_state(&mut self, element: &Element, motion: MotionKind) -> Part {
         dispatch!({
             let mu = element.friction_coefficient;
             let (mut largest, mut smallest) = ([f64::MIN; 4], [f64::MAX; 4]);
-            let mut least_input = [f64::MAX; 4];
             let blocks = self
                 .displacement
                 .as_chunks::<4>()
                 .0
                 .iter()
                 .zip(self.shift.as_chunks::<4>().0)
-                .zip(self.input.as_chunks::<4>().0)
                 .zip(self.xi.as_chunks_mut::<4>().0)
                 .zip(self.eta.as_chunks_mut::<4>().0);
-            for ((((displacement, shift), input), xi), eta) in blocks {
-                let (displacement, shift, input, [mut x, mut y]) = (*displacement, *shift, *input, [[0.0; 4]; 2]);
+            for (((displacement, shift), xi), eta) in blocks {
+                let (displacement, shift, [mut x, mut y]) = (*displacement, *shift, [[0.0; 4]; 2]);
                 for k in 0..4 {
                     let limit = mu * shift[k];
                     (x[k], y[k]) = (displacement[k] - limit, displacement[k] + limit);
                     largest[k] = if x[k] > largest[k] { x[k] } else { largest[k] };
                     smallest[k] = if y[k] < smallest[k] { y[k] } else { smallest[k] };
-                    least_input[k] = if input[k] < least_input[k] { input[k] } else { least_input[k] };
                 }
                 (*xi, *eta) = (x, y);
             }
             let largest = largest.into_iter().fold(f64::MIN, f64::max);
             let smallest = smallest.into_iter().fold(f64::MAX, f64::min);
-            let opens = least_input.iter().any(|least| *least <= 0.0);
             let first = |values: &[f64], value: f64| values.iter().position(|v| *v == value).unwrap_or(0);
-            let start = if opens {
+            let start = if motion.opens {
                 self.input.iter().position(|input| *input <= 0.0).unwrap_or(0)
             } else if largest > 0.0 || (smallest >= 0.0 && -largest <= smallest) {
                 first(self.xi, largest)
             } else {
                 first(self.eta, smallest)
             };
-            Part { start, length: if half_wave_symmetric { self.count / 2 } else { self.count }, opens }
+            let length = if motion.half_wave { self.count / 2 } else { self.count };
+            Part { start, length, opens: motion.opens }
         })
     }
 }
