@@ -66,7 +66,7 @@ impl<'a> FoldedFourier<'a> {
         let weights = parts.take_blocks(blocks)?;
         let quads = parts.take_blocks(2 * orders * blocks)?.as_chunks_mut().0;
         let folded = parts.take_blocks(SYMMETRIES * blocks)?.as_chunks_mut().0;
-        Ok(FoldedFourier { samples, orders, weights, quads, folded, totals: parts.take_blocks(2 * orders)? })
+        Ok(FoldedFourier { samples, orders, weights, quads, folded, totals: parts.take_blocks(1 + 2 * orders)? })
     }
 
     /// Fills the tables.
@@ -176,8 +176,11 @@ impl<'a> FoldedFourier<'a> {
                     total[k] += even_cosines[k];
                 }
             }
-            let Some((first, sums)) = sums.split_first_mut() else { return };
-            *first = sum_of(total);
+            let (Some((first, sums)), Some((constant, totals))) = (sums.split_first_mut(), totals.split_first_mut())
+            else {
+                return;
+            };
+            *constant = total;
             let count = sums.len().div_ceil(4);
             for (quad, totals) in totals.as_chunks_mut::<SYMMETRIES>().0.iter_mut().take(count).enumerate() {
                 let [mut a, mut b, mut c, mut d] = [[0.0; 4]; 4];
@@ -193,6 +196,7 @@ impl<'a> FoldedFourier<'a> {
                 *totals = [a, b, c, d];
             }
             // Summed from memory, which keeps the loop above vectorised along the positions.
+            *first = sum_of(*constant);
             for (sum, total) in sums.iter_mut().zip(totals.iter()) {
                 *sum = sum_of(*total);
             }

@@ -88,7 +88,8 @@ impl<'a> Layout<'a> for Workspace<'a> {
         let samples = Samples { count, displacement, input, load, shift, load_slope, shift_slope, stiffness, xi, eta };
         let [force, cut_shift, cut_load, cut_stiffness, slope, by_u, by_input, places] =
             parts.take_arrays(sample_length(count))?;
-        let forces = Forces { force, cut_load, cut_stiffness, slope, last_cut: parts.take_records(count)? };
+        let forces =
+            Forces { force, cut_load, cut_stiffness, slope, last_cut: parts.take_records(sample_length(count))? };
         let path = PeriodicPath { knots: parts.take_blocks(capacity)?, runs: parts.take_records(capacity)?, cut_shift };
         let pieces = parts.take_records(capacity)?;
         let stored = parts.take_blocks(2 * row_blocks(harmonics) * capacity)?;
