@@ -149,8 +149,7 @@ impl Element {
 
     /// Initialises an element in place; unchanged on an error. Checks all ranges before it writes.
     pub(crate) fn init(&mut self, geometry: &impl Geometry, components: Components) -> Result<(), Error> {
-        geometry.check()?;
-        let parameters = geometry.common();
+        let parameters = geometry.checked()?;
         let composite_modulus = parameters.composite_modulus()?;
         if parameters.normal_force <= 0.0 {
             return Err(Error::BadNormalForce);

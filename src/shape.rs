@@ -70,11 +70,8 @@ impl Quantity {
 
 /// Geometry, material and load from which a shape follows.
 pub(crate) trait Geometry {
-    /// Checks the ranges of all parameters.
-    fn check(&self) -> Result<(), Error>;
-
-    /// The parameters that all shapes have.
-    fn common(&self) -> Common;
+    /// Checks the ranges of all parameters; those that all shapes have.
+    fn checked(&self) -> Result<Common, Error>;
 
     /// The shape of parameters that were checked, N > 0, with a layer.
     /// Errors: `OutOfRange` if derived quantities are not representable; `LengthTooShort` if 2L <= b or if the tangential stiffness
@@ -283,7 +280,7 @@ impl Shape {
             let of_layer = self.layer.load_of_extent(value / unloaded);
             start = if of_layer < self.load(start) { self.at_load(of_layer) } else { start };
         }
-        logarithmic_newton(value, start, f64::INFINITY, |w| {
+        logarithmic_newton(value, start, |w| {
             let punch = self.punch_at(w);
             let [sum, compliance] = self.sums(quantity, &punch);
             if compliance <= 0.0 {

@@ -75,9 +75,8 @@ impl Contact {
     /// Errors: the error of the first parameter that is not allowed; `LengthTooShort` if 2L <= b or the initial stiffness would not
     /// be positive; `OutOfRange` if results are not representable.
     pub fn rounded_flat(parameters: &Parameters) -> Result<Contact, Error> {
-        parameters.check()?;
         let Parameters { flat_half_width, edge_radius, length, normal_force, .. } = *parameters;
-        let mut contact = Contact::open(&parameters.common())?;
+        let mut contact = Contact::open(&parameters.checked()?)?;
         if normal_force == 0.0 {
             return Ok(contact);
         }
@@ -97,9 +96,8 @@ impl Contact {
     /// Initialises an elliptical Hertz contact; a sphere if both semi-axes are equal.
     /// Errors: the error of the first parameter that is not allowed; `OutOfRange` if results are not representable.
     pub fn elliptic(parameters: &EllipticParameters) -> Result<Contact, Error> {
-        parameters.check()?;
         let EllipticParameters { semi_axis_x, semi_axis_y, normal_force, .. } = *parameters;
-        let mut contact = Contact::open(&parameters.common())?;
+        let mut contact = Contact::open(&parameters.checked()?)?;
         if normal_force == 0.0 {
             return Ok(contact);
         }

@@ -42,7 +42,7 @@ pub fn jenkins(contact: &Contact, amplitude: f64) -> Result<SpringSlider, Error>
     // With t = tan Θ/2 the inverse of the quotient grows as 4t/3 for small t, as π t²/4 for large ones.
     let start = if ratio > 1.0 { 0.75 / ratio } else { (4.0 / (PI * ratio)).sqrt() };
     let sine_and_cosine = |t: f64| (2.0 * t / (1.0 + t * t), (1.0 - t * t) / (1.0 + t * t));
-    let t = logarithmic_newton(1.0 / ratio, start, f64::INFINITY, |t| {
+    let t = logarithmic_newton(1.0 / ratio, start, |t| {
         let (sine, cosine) = sine_and_cosine(t);
         let quotient = minus_sine(4.0 * t.atan2(1.0)) / (2.0 * sine * sine);
         [quotient, 2.0 * (sine / quotient - cosine)]

@@ -19,7 +19,7 @@
 //! ```
 //!
 //! No term is a difference of larger ones, so small displacements keep their accuracy. σ is 0 for `MSLIP_CENTRE_POINT`. For an ellipse
-//! of bodies with given shapes b scales as (NR/E*)^(1/3), and all is elementary in the size c/b.
+//! of bodies with given shapes b scales as (NR/E*)^(1/3); N, μ, R and E* then have the same derivatives, with the moments of the ellipse.
 
 use crate::constant_load::contact::Contact;
 use crate::constant_load::evaluator::sign_of;

@@ -27,19 +27,14 @@ pub(crate) fn bracketed_newton(low: f64, high: f64, start: f64, evaluate: impl F
     at
 }
 
-/// The argument, at most the largest one, at which a growing function has a value > 0: Newton's method in the logarithms of argument and
+/// The argument at which a growing function has a value > 0: Newton's method in the logarithms of argument and
 /// function, given the function and the derivative of its logarithm by that of the argument.
-pub(crate) fn logarithmic_newton(
-    value: f64,
-    start: f64,
-    largest: f64,
-    mut function: impl FnMut(f64) -> [f64; 2],
-) -> f64 {
-    let mut argument = start.min(largest);
+pub(crate) fn logarithmic_newton(value: f64, start: f64, function: impl Fn(f64) -> [f64; 2]) -> f64 {
+    let mut argument = start;
     for _ in 0..30 {
         let [found, power] = function(argument);
         let step = (value / found).ln() / power;
-        argument = largest.min(argument * step.exp());
+        argument *= step.exp();
         // Quadratic convergence: the next step is below rounding.
         if step.abs() < 1e-8 {
             break;

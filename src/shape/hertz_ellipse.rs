@@ -24,12 +24,8 @@ use crate::shape::{Geometry, Layer, RoundedPunch, Shape, TINY};
 use core::f64::consts::{FRAC_PI_2, PI};
 
 impl Geometry for EllipticParameters {
-    fn check(&self) -> Result<(), Error> {
-        EllipticParameters::check(self)
-    }
-
-    fn common(&self) -> Common {
-        EllipticParameters::common(self)
+    fn checked(&self) -> Result<Common, Error> {
+        self.check().map(|()| self.common())
     }
 
     fn shape(&self, layer: Layer) -> Result<Shape, Error> {

@@ -20,12 +20,8 @@ use crate::shape::{Geometry, Layer, RoundedPunch, Shape};
 use core::f64::consts::{LN_2, PI};
 
 impl Geometry for Parameters {
-    fn check(&self) -> Result<(), Error> {
-        Parameters::check(self)
-    }
-
-    fn common(&self) -> Common {
-        Parameters::common(self)
+    fn checked(&self) -> Result<Common, Error> {
+        self.check().map(|()| self.common())
     }
 
     fn shape(&self, layer: Layer) -> Result<Shape, Error> {
