@@ -19,61 +19,48 @@ pub(crate) fn has_avx2() -> bool {
     false
 }
 
-/// Runs a kernel in code for AVX2; the caller checked the processor.
+/// The result of a kernel in code for AVX2, or the kernel if the processor has it not.
+#[inline(always)]
+pub(crate) fn on_avx2_only<R, K: FnOnce() -> R>(kernel: K) -> Result<R, K> {
+    #[cfg(target_arch = "x86_64")]
+    if has_avx2() {
+        // SAFETY: the processor has AVX2.
+        #[allow(unsafe_code)]
+        return Ok(unsafe { on_avx2(kernel) });
+    }
+    Err(kernel)
+}
+
 #[cfg(target_arch = "x86_64")]
 #[target_feature(enable = "avx2")]
 #[inline(never)]
-pub(crate) fn on_avx2<R>(kernel: impl FnOnce() -> R) -> R {
+fn on_avx2<R>(kernel: impl FnOnce() -> R) -> R {
     kernel()
 }
 
-/// Runs a kernel in code for all processors.
 #[inline(never)]
-pub(crate) fn on_baseline<R>(kernel: impl FnOnce() -> R) -> R {
+fn on_baseline<R>(kernel: impl FnOnce() -> R) -> R {
     kernel()
 }
 
-/// The result of a call of a kernel that is compiled for AVX2 only, if the processor has it.
-macro_rules! on_avx2_only {
-    ($call:expr) => {{
-        #[cfg(target_arch = "x86_64")]
-        if $crate::simd::has_avx2() {
-            // SAFETY: the processor has AVX2.
-            #[allow(unsafe_code)]
-            return Some(unsafe {
-                $crate::simd::on_avx2(
-                    #[inline(always)]
-                    move || $call,
-                )
-            });
-        }
-        None
-    }};
+/// The result of a kernel in the variant for the present processor.
+#[inline(always)]
+pub(crate) fn on_any<R>(kernel: impl FnOnce() -> R) -> R {
+    on_avx2_only(kernel).unwrap_or_else(on_baseline)
 }
 
 /// Returns the result of a call of a kernel, in the variant for the present processor: `dispatch!(kernel(x, y))`. The kernel must be
 /// `#[inline(always)]`, like the closures around the call, so that it is compiled for the processor of the function that runs it.
 macro_rules! dispatch {
-    ($call:expr) => {{
-        #[cfg(target_arch = "x86_64")]
-        if $crate::simd::has_avx2() {
-            // SAFETY: the processor has AVX2.
-            #[allow(unsafe_code)]
-            return unsafe {
-                $crate::simd::on_avx2(
-                    #[inline(always)]
-                    move || $call,
-                )
-            };
-        }
-        $crate::simd::on_baseline(
+    ($call:expr) => {
+        $crate::simd::on_any(
             #[inline(always)]
             move || $call,
         )
-    }};
+    };
 }
 
-pub(crate) use {dispatch, on_avx2_only};
+pub(crate) use dispatch;
 
 /// `target + scale row`. All values are loaded before one is stored: otherwise the compiler, which cannot exclude that they
 /// overlap, would not combine them in a vector.

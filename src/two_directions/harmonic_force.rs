@@ -397,7 +397,11 @@ fn wide_columns<const L: usize, const M: usize>(
     slip: &Slips,
     springs: &mut Columns<L>,
 ) -> Option<Both<[[f64; 4]; L]>> {
-    on_avx2_only!(columns_kernel(tables, contact, motion, slip, springs))
+    on_avx2_only(
+        #[inline(always)]
+        || columns_kernel(tables, contact, motion, slip, springs),
+    )
+    .ok()
 }
 
 #[inline(always)]
