@@ -12,7 +12,7 @@ if [ $# -ne 2 ]; then
 fi
 from=$1
 to=$2
-: "${AR:=ar}" "${LD:=ld}" "${NM:=nm}" "${OBJCOPY:=objcopy}"
+: "${AR:=ar}" "${LD:=ld}" "${NM:=nm}" "${OBJCOPY:=objcopy}" "${READELF:=readelf}"
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -45,7 +45,10 @@ $OBJCOPY --strip-debug --remove-section='.init_array*' --remove-section=.llvmbc 
     --redefine-syms="$work/unwrap" "$work/all.o" "$work/some.o"
 link -o "$work/reached.o" "$work/some.o"
 $OBJCOPY --keep-global-symbols="$work/keep" "$work/reached.o" "$work/local.o"
-$OBJCOPY --strip-unneeded "$work/local.o" "$work/microslip.o"
+# Names of sections are mangled names of up to 150 letters, whose symbols are gone: numbers do.
+$READELF -SW "$work/local.o" | grep -oE '\.(text|rodata)\.[^ ]*_[ZR][^ ]*' | sort -u |
+    awk '{ name = $1; sub(/_[ZR].*/, NR, name); print "--rename-section=" $1 "=" name }' > "$work/rename"
+$OBJCOPY --strip-unneeded "@$work/rename" "$work/local.o" "$work/microslip.o"
 
 mkdir -p "$(dirname "$to")"
 rm -f "$to"
