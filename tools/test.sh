@@ -20,12 +20,10 @@ installed() {
     step 'library: build, install, move' install_and_move
 }
 
+# By one command: the test of the library is compiled beside the library.
 # shellcheck disable=SC2086  # a list
-compile() {
-    "$CARGO" build $workspace && "$CARGO" test $workspace --no-run
-}
 compiled() {
-    step 'tools and tests: compiled' compile
+    step 'tools and tests: compiled' "$CARGO" build $workspace --all-targets
 }
 
 # shellcheck disable=SC2086  # a list
