@@ -25,11 +25,12 @@ version=$(sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml)
 isolated=
 if unshare -rn true 2> /dev/null; then isolated='unshare -rn'; fi
 # The daily tests share the compilation of the other ones; the wheel to be published is the one of `all`.
-build='--profile dev'
-[ "${1:-}$target" = '' ] || build="--release --zig --compatibility manylinux2014 ${target:+--target $target}"
+build='--profile dev' zig=
+[ "${1:-}$target" = '' ] || build="--release --zig --compatibility manylinux2014 ${target:+--target $target}" zig=ziglang
+# shellcheck disable=SC2086  # a package or none
 tools() {
-    "$tools/bin/python" -c 'import ziglang' 2> /dev/null ||
-        { "$PYTHON" -m venv "$tools" && "$tools/bin/pip" install 'maturin>=1.9.2,<2' 'cffi>=1.15' ziglang; }
+    "$tools/bin/python" -c "import maturin, cffi${zig:+, $zig}" 2> /dev/null ||
+        { "$PYTHON" -m venv "$tools" && "$tools/bin/pip" install 'maturin>=1.9.2,<2' 'cffi>=1.15' $zig; }
 }
 # shellcheck disable=SC2086  # flags are a list
 wheel() {
