@@ -29,11 +29,6 @@ pub struct HarmonicOutput<'a> {
 }
 
 impl HarmonicOutput<'_> {
-    /// Whether something is requested.
-    pub(crate) fn is_requested(&self) -> bool {
-        self.force.is_some() || self.jacobian.is_some() || self.dissipated.is_some()
-    }
-
     /// Checks the n coefficients of a displacement, and the lengths of the outputs.
     /// Errors: `BadArraySize`, `BadDisplacement`.
     pub(crate) fn check(&self, n: usize, displacement: &[f64]) -> Result<(), Error> {

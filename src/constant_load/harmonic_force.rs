@@ -131,7 +131,7 @@ pub fn harmonic_force(
         if let Some(dissipated) = output.dissipated {
             *dissipated = 0.0;
         }
-    } else if output.is_requested() {
+    } else if output.force.is_some() || output.jacobian.is_some() || output.dissipated.is_some() {
         match &mut workspace.0 {
             ByRule::UniformSampling(of_rule) => {
                 uniform_sampling::harmonic_force(contact, of_rule, displacement, output);

@@ -9,6 +9,7 @@ use crate::error::Error;
 use core::f64::consts::PI;
 
 /// Blocks of four in a row over the coefficients 1, cos t, sin t, cos 2t, ...
+#[inline(always)]
 pub(crate) fn row_blocks(harmonics: usize) -> usize {
     let blocks = (2 * harmonics + 1).div_ceil(4);
     if blocks <= 5 { blocks | 1 } else { blocks.next_multiple_of(5) }
@@ -37,7 +38,7 @@ pub(crate) fn scaled<const N: usize>(scale: f64, row: &Strip<N>) -> Strip<N> {
 /// `A(n) - A(m) = φ(m) + ... + φ(n-1)`. The first strips of all samples come first.
 #[derive(Debug)]
 pub(crate) struct Rows<'a> {
-    harmonics: usize,
+    pub harmonics: usize,
     samples: usize,
     phi: &'a mut Blocks,
     antiderivatives: &'a mut Blocks,
@@ -86,12 +87,6 @@ impl<'a> Rows<'a> {
             let scale = 0.5 / (PI * order as f64 / samples as f64).sin();
             scale * if is_sine(c) { -angle.cos() } else { angle.sin() }
         });
-    }
-
-    /// Blocks of a row.
-    #[inline(always)]
-    pub fn blocks(&self) -> usize {
-        row_blocks(self.harmonics)
     }
 
     /// The strips of all samples; N is that of [`with_strips`].

@@ -227,13 +227,8 @@ impl<'m, 'c, 's> Period<'m, 'c, 's> {
             self.integrate_constant(buffers, span);
             return half_wave_symmetric;
         }
-        let (mut first, mut farthest) = (0, -1.0);
-        for index in 0..count {
-            let distance = buffers.instant(index).displacement.abs();
-            if distance > farthest {
-                (first, farthest) = (index, distance);
-            }
-        }
+        let distance = |index: usize| buffers.instant(index).displacement.abs();
+        let first = (1..count).fold(0, |first, index| if distance(index) > distance(first) { index } else { first });
         let mut from = buffers.instant(first);
         self.now = self.law.begin(from.displacement);
         for index in (first + 1..count).chain(0..=first) {
@@ -266,13 +261,8 @@ impl<'m, 'c, 's> Period<'m, 'c, 's> {
     /// Integrates from one reversal of the motion to the next, along one branch and its continuations.
     fn integrate_half_cycle(&mut self, buffers: &mut Buffers, from: Instant, to: Instant) {
         let present = self.law.branch().direction;
-        let direction = if to.displacement == from.displacement {
-            present
-        } else if to.displacement < from.displacement {
-            -1.0
-        } else {
-            1.0
-        };
+        let change = to.displacement - from.displacement;
+        let direction = if change == 0.0 { present } else { change.signum() };
         if direction != present {
             self.reverse(buffers, from, direction);
         }

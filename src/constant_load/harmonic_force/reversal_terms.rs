@@ -8,7 +8,7 @@
 //! Y_r = k_r G_r - Σ k φ,     Y_q -= k_r G_r,     G_q += G_r.
 //! ```
 
-use crate::fourier::rows::{OuterProducts, RowStrips, Rows, Strip, Terms, add_scaled, with_strips};
+use crate::fourier::rows::{OuterProducts, RowStrips, Rows, Strip, Terms, add_scaled, row_blocks, with_strips};
 use crate::fourier::workspace::{Blocks, record};
 use crate::simd::dispatch;
 
@@ -45,7 +45,7 @@ impl ReversalTerms<'_> {
     /// Gathers the terms along the branches, with the stiffness at the samples of two periods.
     #[inline(always)]
     pub fn gather(&mut self, branches: &[Branch], stiffness: &[f64]) {
-        with_strips!(self.rows.blocks(), self.gather_strips(branches, stiffness));
+        with_strips!(row_blocks(self.rows.harmonics), self.gather_strips(branches, stiffness));
     }
 
     #[inline(always)]

@@ -21,20 +21,6 @@ pub(super) struct Forces<'a> {
 }
 
 impl Forces<'_> {
-    /// Evaluates N, and 1/K_t if requested, at the boundaries of the slip zones: whole blocks of four.
-    #[inline(always)]
-    fn evaluate_cuts<const SLOPES: bool>(&mut self, element: &Element, cut_shift: &[[f64; 4]]) {
-        let loads = self.cut_load.as_chunks_mut::<4>().0;
-        let stiffnesses = self.cut_stiffness.as_chunks_mut::<4>().0;
-        for ((shift, load), stiffness) in cut_shift.iter().zip(loads).zip(stiffnesses) {
-            let (loads, stiffnesses) = element.loads_at::<SLOPES, 4>(shift);
-            *load = loads;
-            if SLOPES {
-                *stiffness = stiffnesses;
-            }
-        }
-    }
-
     /// `[N, T]` at the end of a piece.
     #[inline(always)]
     fn at_place(&self, samples: &Samples, place: Place) -> [f64; 2] {
@@ -56,7 +42,16 @@ impl Forces<'_> {
         runs: &[Run],
     ) {
         dispatch!({
-            self.evaluate_cuts::<SLOPES>(element, cut_shift);
+            // Whole blocks of four at the boundaries of the slip zones.
+            let loads = self.cut_load.as_chunks_mut::<4>().0;
+            let stiffnesses = self.cut_stiffness.as_chunks_mut::<4>().0;
+            for ((shift, load), stiffness) in cut_shift.iter().zip(loads).zip(stiffnesses) {
+                let (loads, stiffnesses) = element.loads_at::<SLOPES, 4>(shift);
+                *load = loads;
+                if SLOPES {
+                    *stiffness = stiffnesses;
+                }
+            }
             let friction_coefficient = element.friction_coefficient;
             for run in runs {
                 let range = run.samples();

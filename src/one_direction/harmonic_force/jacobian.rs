@@ -18,7 +18,7 @@
 
 use crate::element::Element;
 use crate::fourier::at;
-use crate::fourier::rows::{OuterProducts, RowStrips, Rows, Strip, Terms, add_scaled, scaled, with_strips};
+use crate::fourier::rows::{OuterProducts, RowStrips, Rows, Strip, Terms, add_scaled, row_blocks, scaled, with_strips};
 use crate::fourier::workspace::{Blocks, record};
 use crate::one_direction::harmonic_force::runs::{Kind, Run, closing};
 use crate::one_direction::harmonic_force::samples::{Part, Samples};
@@ -148,7 +148,7 @@ impl Sensitivity<'_> {
     #[inline(never)]
     pub fn gather(&mut self, context: &Context, runs: &[Run]) {
         runs.iter().for_each(|run| self.write_own(context, run));
-        with_strips!(self.rows.blocks(), self.gather_strips(context, runs));
+        with_strips!(row_blocks(self.rows.harmonics), self.gather_strips(context, runs));
     }
 
     /// Writes the weights of φ ⊗ φ of the samples of a run.
@@ -159,11 +159,7 @@ impl Sensitivity<'_> {
         let by_input = by_input.get_mut(run.samples()).unwrap_or(&mut []);
         let mu = run.sign * element.friction_coefficient;
         match run.kind {
-            Kind::OPEN => {
-                by_u.fill(0.0);
-                by_input.fill(0.0);
-            }
-            Kind::GROSS_SLIP => {
+            Kind::OPEN | Kind::GROSS_SLIP => {
                 by_u.fill(0.0);
                 by_input.iter_mut().zip(run.of(samples.load_slope)).for_each(|(weight, slope)| *weight = mu * slope);
             }

@@ -127,11 +127,6 @@ impl Knot {
 
     /// The far end of the part with D = 0.
     const CORE: Knot = Knot { xi: -1e200, eta: 1e200, place: Place::CENTRE };
-
-    /// A knot as in other diagrams, which have forces.
-    fn numbers(&self) -> [f64; 4] {
-        [self.xi, self.eta, f64::from_bits(self.place.code), 0.0]
-    }
 }
 
 /// Memory of the diagram and the runs along a periodic path.
@@ -160,18 +155,15 @@ impl Walk<'_> {
         self.push(Knot::centre(displacement));
     }
 
-    fn used(&self) -> &[[f64; 4]] {
-        self.knots.get(..self.depth).unwrap_or(&[])
-    }
-
     fn knot(&self, index: usize) -> Knot {
         let [xi, eta, code, _] = self.knots.get(index).copied().unwrap_or([0.0; 4]);
         Knot { xi, eta, place: Place { code: code.to_bits() } }
     }
 
+    /// Pushes a knot as in other diagrams, which have forces.
     fn push(&mut self, knot: Knot) {
         if let Some(place) = self.knots.get_mut(self.depth) {
-            *place = knot.numbers();
+            *place = [knot.xi, knot.eta, f64::from_bits(knot.place.code), 0.0];
             self.depth += 1;
         }
     }
@@ -363,7 +355,8 @@ impl PeriodicPath<'_> {
                 } else if is_open {
                     end = closing(samples, element, sample).displacement;
                 }
-                energy += energy::dissipated(element, walk.used(), &Path { shift, displacement: end - start });
+                let knots = walk.knots.get(..walk.depth).unwrap_or(&[]);
+                energy += energy::dissipated(element, knots, &Path { shift, displacement: end - start });
             }
             (walk.run_count, walk.cut_count) = (0, 0);
             walk.advance(element, samples, part, sample..sample + 1);
@@ -374,5 +367,6 @@ impl PeriodicPath<'_> {
 
 /// Where the path from the open sample before a sample closes the contact.
 pub(super) fn closing(samples: &Samples, element: &Element, sample: usize) -> Crossing {
-    Crossing::between(element, samples.motion(samples.before(sample)), samples.motion(sample))
+    let motion = |sample| [at(samples.displacement, sample), at(samples.input, sample)];
+    Crossing::between(element, motion(samples.before(sample)), motion(sample))
 }

@@ -46,11 +46,6 @@ impl Samples<'_> {
         sample.checked_sub(1).unwrap_or(self.count.saturating_sub(1))
     }
 
-    /// Displacement and normal component.
-    pub fn motion(&self, sample: usize) -> [f64; 2] {
-        [at(self.displacement, sample), at(self.input, sample)]
-    }
-
     pub fn is_open(&self, sample: usize) -> bool {
         at(self.input, sample) <= 0.0
     }
