@@ -108,9 +108,10 @@ struct MotionKind {
     /// u has only odd orders, the normal component only even ones, and the number of samples is even: after half a period ξ and -η
     /// have changed places, and the tangential force its sign.
     half_wave: bool,
-    /// The contact is open at some samples, and at all.
-    opens: bool,
+    /// The contact is open at all samples.
     open: bool,
+    /// The least normal component of the samples.
+    least_input: f64,
 }
 
 /// Units of rounding by which a sample of the normal force may be negative, over the sum of the magnitudes of its coefficients.
@@ -209,8 +210,8 @@ impl Workspace<'_> {
         let mut motion = MotionKind {
             constant: amplitude == 0.0,
             half_wave: samples.count.is_multiple_of(2) && !has(tangential, 0) && !has(input, 1),
-            opens: false,
             open: false,
+            least_input: mean,
         };
         let rounding = if element.by_approach() {
             motion.open = !element.is_closed(mean + amplitude);
@@ -238,8 +239,8 @@ impl Workspace<'_> {
             samples.input.fill(mean);
             samples.press_constantly(&element.normal(mean));
         } else {
-            motion.opens = !element.is_closed(least);
-            if motion.opens {
+            motion.least_input = least;
+            if !element.is_closed(least) {
                 let open = |input: f64| if element.is_closed(input) { input } else { input.min(0.0) };
                 samples.input.iter_mut().for_each(|input| *input = open(*input));
             }

@@ -61,7 +61,7 @@ impl Forces<'_> {
                 let mu = run.sign * friction_coefficient;
                 match run.kind {
                     Kind::OPEN | Kind::GROSS_SLIP => {
-                        forces.iter_mut().zip(loads).for_each(|(force, load)| *force = mu * load)
+                        forces.iter_mut().zip(loads).for_each(|(force, load)| *force = mu * load);
                     }
                     Kind::STUCK => {
                         let slopes = self.slope.get_mut(range.clone()).unwrap_or(&mut []);

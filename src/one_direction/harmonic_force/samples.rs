@@ -137,7 +137,8 @@ impl Samples<'_> {
             let largest = largest.into_iter().fold(f64::MIN, f64::max);
             let smallest = smallest.into_iter().fold(f64::MAX, f64::min);
             let first = |values: &[f64], value: f64| values.iter().position(|v| *v == value).unwrap_or(0);
-            let start = if motion.opens {
+            let opens = !element.is_closed(motion.least_input);
+            let start = if opens {
                 self.input.iter().position(|input| *input <= 0.0).unwrap_or(0)
             } else if largest > 0.0 || (smallest >= 0.0 && -largest <= smallest) {
                 first(self.xi, largest)
@@ -145,7 +146,7 @@ impl Samples<'_> {
                 first(self.eta, smallest)
             };
             let length = if motion.half_wave { self.count / 2 } else { self.count };
-            Part { start, length, opens: motion.opens }
+            Part { start, length, opens }
         })
     }
 }
