@@ -227,7 +227,7 @@ impl Law for ConstantLoad {
         step.result(energy)
     }
 
-    /// The copy holds at most [`REVERSALS_OF_COPY`] reversals.
+    /// The copy holds at most `REVERSALS_OF_COPY` reversals.
     #[inline(never)]
     fn path_in_copy(contact: &Contact, state: &[f64], path: &[f64], output: PathOutput<Self>) {
         let mut copy = [0.0; state::state_length(REVERSALS_OF_COPY)];
