@@ -16,12 +16,7 @@ fn between(random: &mut Random, low: f64, high: f64) -> f64 {
 
 /// A flat of a/b from 0 to 0.999 or an ellipse under 1000 N, and its layer: compliances of 0.01 to 100 times those of the contact, N_c of
 /// 1 N to 1e6 N, one in four without.
-fn element(random: &mut Random) -> Element {
-    let poisson_ratio = 0.5 * random.next();
-    element_of(random, poisson_ratio)
-}
-
-fn element_of(random: &mut Random, poisson_ratio: f64) -> Element {
+fn element(random: &mut Random, poisson_ratio: f64) -> Element {
     let material = [Material { young_modulus: 2e11, poisson_ratio }; 2];
     let (normal_force, friction_coefficient) = (1000.0, 0.5);
     let build = |flat_half_width: f64, ratio: f64, layer: Layer| {
@@ -71,7 +66,7 @@ fn long_slides_carry_the_friction_force_and_dissipate_their_work() {
     let mut random = Random(11);
     for k in 0..150 {
         let poisson_ratio = if k < 120 { 0.5 * random.next() } else { 0.0 };
-        let element = element_of(&mut random, poisson_ratio);
+        let element = element(&mut random, poisson_ratio);
         let load = 1000.0 * (0.3 + 0.7 * random.next());
         let (sin, cos) = (TAU * random.next()).sin_cos();
         // Closing, a tenfold load after a small slide, and a constant load.
@@ -109,7 +104,8 @@ fn long_slides_carry_the_friction_force_and_dissipate_their_work() {
 fn the_stiffness_of_a_stuck_contact_is_that_of_the_curve() {
     let mut random = Random(12);
     for _ in 0..200 {
-        let element = element(&mut random);
+        let poisson_ratio = 0.5 * random.next();
+        let element = element(&mut random, poisson_ratio);
         let load = 1000.0 * between(&mut random, 1e-2, 1.0);
         let mut contact = Contact::new(&element);
         contact.to([0.0, 0.0, 1000.0]);
@@ -148,7 +144,8 @@ fn jump(of: impl Fn(f64) -> [[f64; 2]; 2]) -> f64 {
 fn jumps(random: &mut Random, elements: usize, by_load: f64) -> f64 {
     let mut largest = 0.0f64;
     for _ in 0..elements {
-        let element = element(random);
+        let poisson_ratio = 0.5 * random.next();
+        let element = element(random, poisson_ratio);
         let scale = between(random, 0.1, 4.0) * slip_displacement(&element, 1000.0);
         let (mut contact, mut at) = (Contact::new(&element), [0.0, 0.0, 700.0]);
         for k in 0..60 {

@@ -418,7 +418,6 @@ fn springs_of_another_element_relax() {
     for other in [
         Parameters { friction_coefficient: 0.5, ..own },
         Parameters { edge_radius: 0.06, ..own },
-        Parameters { length: 0.03, ..own },
         Parameters { displacement_reference: RIGID_STRIP, ..own },
         Parameters { layer: layer_of(&first, (1.0, 0.3)), ..own },
     ] {
