@@ -1,5 +1,5 @@
-"""pages.py DIRECTORY: the documents as pages of the site, with figures, formulas as MathML, and a search over all sections. Everything
-opens from a file, without a network. Links to files of the repository lead to copies of them."""
+"""pages.py DIRECTORY: the documents as pages of the site, with figures, formulas as MathML, and a search over all sections and functions.
+Everything opens from a file, without a network. Links to files of the repository lead to copies of them."""
 
 import html
 import json
@@ -13,23 +13,24 @@ from latex2mathml.converter import convert
 
 ORDER = ("README docs/guide docs/spring-sliders fortran_examples/README docs/identification docs/cluster docs/validation docs/accuracy "
          "docs/benchmarks docs/derivation docs/paper docs/architecture docs/extending CONTRIBUTING CHANGELOG").split()  # fmt: skip
-REFERENCES = {"C": "c/index.html", "Fortran": "fortran/index.html", "Rust": "rust/microslip/index.html"}
+REFERENCES = {"c/index.html": "C reference", "fortran/index.html": "Fortran reference", "rust/microslip/index.html": "Rust reference"}
 STYLE = """body{font:16px/1.5 sans-serif;max-width:60em;margin:auto;padding:0 1em 4em;color:#222}nav{border-bottom:1px solid #ccc;padding:.6em 0}
-nav a{margin-right:.8em;white-space:nowrap}img{max-width:100%}table{border-collapse:collapse}td,th{border:1px solid #ccc;padding:.2em .5em}
-pre{background:#f5f5f5;padding:.6em;overflow:auto}#found{background:#fffbe6}#query{font-size:1em;width:18em}math{font-size:1.1em}math[display=block]{margin:.6em 0}"""
+nav a{margin-right:.8em;white-space:nowrap}img{max-width:100%}table{border-collapse:collapse;margin:1em 0}td,th{border:1px solid #ccc;padding:.2em .5em}
+td[style*=right]{white-space:nowrap}pre{background:#f5f5f5;padding:.6em;overflow:auto;font-size:.8em}
+#found{background:#fffbe6}#query{font-size:1em;width:18em}math{font-size:1.1em}math[display=block]{margin:.6em 0}"""
 SEARCH = """function find(text){const words=text.toLowerCase().split(/\\s+/).filter(w=>w);document.getElementById('found').innerHTML=
-words.length?sections.filter(s=>words.every(w=>(s[0]+s[2]).toLowerCase().includes(w))).slice(0,20).map(s=>'<p><a href="'+up+s[1]+'">'
+words.length?sections.filter(s=>words.every(w=>(s[0]+s[2]).toLowerCase().includes(w))).slice(0,99).map(s=>'<p><a href="'+up+s[1]+'">'
 +s[0]+'</a></p>').join('')||'<p>nothing</p>':''}"""
 
 site = Path(sys.argv[1]).resolve()
 root = Path(__file__).resolve().parents[2]
 folders = ("*.md", "docs/*.md", "packaging/*.md", "*/README.md", "*/*/README.md")
 documents = sorted({str(path.relative_to(root)) for folder in folders for path in root.glob(folder) if "target" not in path.parts})
+titles = {f"{name}.html": (root / f"{name}.md").read_text(encoding="utf-8").partition("\n")[0].strip("# ") for name in ORDER}
 sections: list[tuple[str, str, str]] = []
 
 
-def slug(heading: str, _: str) -> str:
-    """The anchors of tools/links.sh."""
+def slug(heading: str, _: str) -> str:  # the anchors of tools/links.sh
     return re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-")
 
 
@@ -37,15 +38,14 @@ def page(name: str) -> str:
     formulas: list[str] = []
 
     def formula(match: re.Match[str]) -> str:
-        block = match[0].startswith(("$$", "```"))
-        formulas.append(convert(match[1] or match[2] or match[3], display="block" if block else "inline"))
+        spaced = re.sub(r"\\(ln|sin|cos)(\^\d)?", r"\\,\g<0>\\,", match[1] or match[2] or match[3])
+        formulas.append(convert(spaced, display="block" if match[0].startswith(("$$", "```")) else "inline"))
         return f"FORMULA{len(formulas) - 1}END"
 
     text = (root / name).read_text(encoding="utf-8")
     text = re.sub(r"\$\$(.*?)\$\$|```math\n(.*?)```|\$`(.*?)`\$", formula, text, flags=re.S)
     body = markdown.markdown(text, extensions=["tables", "fenced_code", "toc", "sane_lists"], extension_configs={"toc": {"slugify": slug}})
-    body = re.sub(r"FORMULA(\d+)END", lambda match: formulas[int(match[1])], body)
-    body = body.replace("\\|", "|")  # of code in tables
+    body = re.sub(r"FORMULA(\d+)END", lambda match: formulas[int(match[1])], body).replace("\\|", "|")  # of code in tables
     up = "../" * name.count("/")
 
     def link(match: re.Match[str]) -> str:
@@ -68,9 +68,7 @@ def page(name: str) -> str:
     for anchor, heading, rest in re.findall(r'<h[1-3] id="([^"]*)">(.*?)</h[1-3]>(.*?)(?=<h[1-3]|\Z)', body, flags=re.S):
         plain = html.unescape(re.sub(r"<[^>]*>", " ", rest))
         sections.append((f"{title}: {re.sub('<[^>]*>', '', heading)}", f"{Path(name).with_suffix('.html')}#{anchor}", plain))
-    names = {document: (root / f"{document}.md").read_text(encoding="utf-8").partition("\n")[0].strip("# ") for document in ORDER}
-    links = " ".join(f'<a href="{up}{document}.html">{html.escape(names[document])}</a>' for document in ORDER)
-    links += " " + " ".join(f'<a href="{up}{target}">{reference} reference</a>' for reference, target in REFERENCES.items())
+    links = " ".join(f'<a href="{up}{target}">{html.escape(heading)}</a>' for target, heading in (titles | REFERENCES).items())
     return f"""<!DOCTYPE html>
 <html lang="en"><head><meta charset="utf-8"><title>{title}</title><style>{STYLE}</style></head><body>
 <nav>{links}<br><input id="query" placeholder="search all documents" oninput="find(this.value)"></nav><div id="found"></div>
@@ -83,5 +81,7 @@ for name in documents:
     target = site / Path(name).with_suffix(".html")
     target.parent.mkdir(parents=True, exist_ok=True)
     target.write_text(page(name), encoding="utf-8")
+functions = (site / "c/globals_func.html").read_text(encoding="utf-8")
+sections += [(f"C reference: {name}", f"c/{link}", "") for name, link in re.findall(r'<li>(mslip_\w+)\(\).*?href="([^"]*)', functions)]
 (site / "search.js").write_text(f"const sections = {json.dumps(sections)};\n{SEARCH}\n", encoding="utf-8")
 shutil.copy(site / "README.html", site / "index.html")

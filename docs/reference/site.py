@@ -1,5 +1,5 @@
 """site.py DIRECTORY: makes the references one site that opens from a file, without a network: FORD's pages take Bootstrap from Debian's
-copy, and MathJax, for which the module has no formulas, from nowhere. Fails if a link leads to no file."""
+copy, and MathJax, for which the module has no formulas, from nowhere; long names wrap. Fails if a link leads to no file."""
 
 import re
 import shutil
@@ -17,7 +17,7 @@ for name in FILES:
     shutil.copy(BOOTSTRAP / name, fortran / name)
 for page in fortran.rglob("*.html"):
     text = page.read_text(encoding="utf-8")
-    text = re.sub(r"<script src=\"[^\"]*MathJax[^>]*></script>", "", text)
+    text = re.sub(r"<script src=\"[^\"]*MathJax[^>]*></script>", "<style>li{overflow-wrap:anywhere}</style>", text)
     up = "../" * (len(page.relative_to(fortran).parts) - 1)
     text = re.sub(r"\"https://cdn\.jsdelivr\.net/npm/bootstrap@[^/]*/dist/([^\"]*)\"\s+", rf'"{up}\1" ', text)
     text = re.sub(r"\s+integrity=\"[^\"]*\"\s+crossorigin=\"[^\"]*\"", "", text)
