@@ -237,7 +237,7 @@ impl StickZones {
     }
 
     /// The stick zone of a size with the load g and `s = g/g_b`. In the form Λ τ + h the consumed shift is no difference of two large
-    /// terms if the curve is nearly straight.
+    /// terms if the curve is nearly straight; that of the layer, a logarithm which the iteration does not need, is not in it.
     #[inline(always)]
     fn zone(&self, punch: &RoundedPunch, load: f64, remaining: f64) -> StickZone {
         let (full_stick, beta) = (self.contact.compliance, self.beta_of(punch, load));
@@ -252,21 +252,20 @@ impl StickZones {
             size_parameter: Some(punch.w / self.b.w),
         };
         if self.has_layer() {
-            zone.shift.consumed += self.layer.shift(self.layer.lost(load));
             zone.shift.remaining += self.layer.shift(remaining);
             zone.compliance_increase += self.layer.increase(load);
         }
         zone
     }
 
-    /// A size close to that at a remaining shift. The shift of the contact alone is at most the sum, and at most about the power 2/3 of
-    /// the load that the layer alone would have; then with Λ + λ + β constant, first at its smallest value.
+    /// A size close to that at a remaining shift. The shift of the contact alone is at most the sum, and at most the root of the load that
+    /// the layer alone would have (a power of about 2/3); then with Λ + λ + β constant, first at its smallest value.
     fn initial_guess(&self, remaining: f64) -> RoundedPunch {
         let slip_shift = self.contact.compliance + self.beta;
         let mut own = remaining;
         if self.has_layer() {
             let of_layer = self.layer.load_of_extent(remaining / self.layer.tangential);
-            own = own.min(slip_shift * of_layer.cbrt().powi(2)).max(f64::MIN_POSITIVE);
+            own = own.min(slip_shift * of_layer.sqrt()).max(f64::MIN_POSITIVE);
         }
         if self.is_elliptic() {
             return self.punch((own / slip_shift).sqrt());
@@ -368,7 +367,10 @@ impl StickZones {
         if load.consumed <= 0.5 {
             return self.small_load.at_load(load, self.slip_shift);
         }
-        let zone = self.zone(&self.size_under(load.remaining), load.remaining * self.load, load.remaining);
+        let mut zone = self.zone(&self.size_under(load.remaining), load.remaining * self.load, load.remaining);
+        if self.has_layer() {
+            zone.shift.consumed += self.layer.shift(self.layer.lost(load));
+        }
         let vanishes = load.remaining <= 0.0 && self.b.flat <= 0.0;
         StickZone { compliance_increase: if vanishes { f64::INFINITY } else { zone.compliance_increase }, ..zone }
     }
