@@ -278,8 +278,7 @@ impl StickZones {
 
     /// The stick zone at a remaining shift, from a size close to it; its size, and the inverse of the remaining shift close to it.
     ///
-    /// The iteration raises an error to its fourth power. The last step is an expansion in which fourth powers of 2e-5, over the
-    /// cube of the compliance if that is small, are below rounding. Third powers are not: those of the load, `dg/dw = 4 w ψ`, are included.
+    /// The iteration raises an error to its fourth power.
     fn refine(&self, remaining: f64, start: RoundedPunch) -> (StickZone, RoundedPunch, InversePower) {
         let is_ellipse = self.is_elliptic();
         if is_ellipse && !self.has_layer() {
@@ -315,34 +314,42 @@ impl StickZones {
             let step = inverse.step(remaining);
             iterations_left -= 1;
             if step.abs() <= 2e-5 * compliance.min(1.0) * w || iterations_left == 0 {
-                let moved = punch.moved(step);
-                let (rise, increase) = if is_ellipse {
-                    let square = moved.w * moved.w;
-                    (step * (square + w * (moved.w + w)), self.increase_of(&moved) - self.increase_of(&punch))
-                } else {
-                    // Relative change of c², and -½ ln(1 + change).
-                    let change = step * (2.0 * w + step) / c2;
-                    let per_size = self.b.flat / c2;
-                    let square =
-                        2.0 * (punch.psi + w * per_size) + step * (4.0 / 3.0) * self.b.flat * per_size * per_size;
-                    (
-                        step * (4.0 * w * punch.psi + step * square),
-                        -0.5 * change * (1.0 - change * (0.5 - change * (1.0 / 3.0))),
-                    )
-                };
-                let load = Complement::of_remaining(now.load.remaining + rise / self.load.max(TINY));
-                let rise_of_layer =
-                    if self.has_layer() { self.layer.increase(load) - self.layer.increase(now.load) } else { 0.0 };
-                let zone = StickZone {
-                    load,
-                    shift: Complement { consumed: self.slip_shift - remaining, remaining },
-                    compliance_increase: now.compliance_increase + increase + rise_of_layer,
-                    size_parameter: Some(moved.w / self.b.w),
-                };
+                let (zone, moved) = self.last_step(&now, &punch, step, remaining);
                 return (zone, moved, inverse);
             }
             punch = self.punch((w + step).max(0.0));
         }
+    }
+
+    /// The stick zone at a remaining shift, a last step of the size away: an expansion in which fourth powers of 2e-5, over the cube of
+    /// the compliance if that is small, are below rounding. Third powers are not: those of the load, `dg/dw = 4 w ψ`, are included.
+    #[inline(always)]
+    fn last_step(&self, now: &StickZone, punch: &RoundedPunch, step: f64, remaining: f64) -> (StickZone, RoundedPunch) {
+        let (w, c2) = (punch.w, (punch.half_width * punch.half_width).max(TINY));
+        let moved = punch.moved(step);
+        let (rise, increase) = if self.is_elliptic() {
+            let square = moved.w * moved.w;
+            (step * (square + w * (moved.w + w)), self.increase_of(&moved) - self.increase_of(punch))
+        } else {
+            // Relative change of c², and -½ ln(1 + change).
+            let change = step * (2.0 * w + step) / c2;
+            let per_size = self.b.flat / c2;
+            let square = 2.0 * (punch.psi + w * per_size) + step * (4.0 / 3.0) * self.b.flat * per_size * per_size;
+            (
+                step * (4.0 * w * punch.psi + step * square),
+                -0.5 * change * (1.0 - change * (0.5 - change * (1.0 / 3.0))),
+            )
+        };
+        let load = Complement::of_remaining(now.load.remaining + rise / self.load.max(TINY));
+        let rise_of_layer =
+            if self.has_layer() { self.layer.increase(load) - self.layer.increase(now.load) } else { 0.0 };
+        let zone = StickZone {
+            load,
+            shift: Complement { consumed: self.slip_shift - remaining, remaining },
+            compliance_increase: now.compliance_increase + increase + rise_of_layer,
+            size_parameter: Some(moved.w / self.b.w),
+        };
+        (zone, moved)
     }
 
     /// Finds the points of the curve at a sequence of decreasing remaining shifts, the first of which is close to x_s. Each starts from

@@ -208,6 +208,8 @@ struct Walk<'a> {
     springs: Values,
     slip: Slips,
     inverse: Both<super::tables::Matrix>,
+    /// The derivative of the logarithm of the reference size by the largest normal component.
+    by_top: f64,
 }
 
 /// What a step gives besides the state.
@@ -239,8 +241,10 @@ impl<'a> Walk<'a> {
             springs: [[0.0; N]; SPRINGS / N],
             slip: Slips::NONE,
             inverse: [[[0.0; N]; N]; 2],
+            by_top: 0.0,
         };
         walk.press(top);
+        walk.by_top = if walk.normal.load >= walk.units.load * 0.99 { 0.5 * walk.slopes.size } else { 0.0 };
         walk
     }
 
@@ -288,7 +292,6 @@ impl<'a> Walk<'a> {
         workspace: &mut Workspace,
         taken: &Taken,
         samples: [Option<usize>; 3],
-        by_top: f64,
         [fades, counts]: [bool; 2],
     ) {
         if taken.closed != [true, true] {
@@ -299,9 +302,9 @@ impl<'a> Walk<'a> {
         if !taken.closed[1] {
             workspace.forces.fill(0.0);
         } else if workspace.lanes == NARROW {
-            differentiate::<{ NARROW / 4 }, { NARROW / 4 + 1 }>(workspace, self, taken, samples, by_top);
+            differentiate::<{ NARROW / 4 }, { NARROW / 4 + 1 }>(workspace, self, taken, samples);
         } else {
-            differentiate::<{ WIDE / 4 }, { WIDE / 4 + 1 }>(workspace, self, taken, samples, by_top);
+            differentiate::<{ WIDE / 4 }, { WIDE / 4 + 1 }>(workspace, self, taken, samples);
         }
         if counts && let [_, Some(index), _] = samples {
             let basis = row(workspace.basis, workspace.size.coefficients(), index);
@@ -467,8 +470,6 @@ fn walk(element: &Element, workspace: &mut Workspace, output: HarmonicOutput) {
             workspace.sums.fill(0.0);
         }
         let mut walk = Walk::new(element, units, (tables, dual_tables), top);
-        // Of the logarithm of the reference size by the normal component.
-        let by_top = if top_load >= units.load * 0.99 { 0.5 * walk.slopes.size } else { 0.0 };
         let mut before = None;
         for step in 0..=(periods + 1) * count {
             let index = (largest + step).checked_rem(count).unwrap_or(0);
@@ -477,7 +478,7 @@ fn walk(element: &Element, workspace: &mut Workspace, output: HarmonicOutput) {
                 walk.advance(workspace.place(index), Requested { energy: requested.energy && counts, ..requested });
             if requested.tangent {
                 let fades = step % FADING == 0;
-                walk.differentiate(workspace, &taken, [before, Some(index), Some(largest)], by_top, [fades, counts]);
+                walk.differentiate(workspace, &taken, [before, Some(index), Some(largest)], [fades, counts]);
             }
             before = Some(index);
             energy += taken.dissipated;
@@ -575,7 +576,6 @@ fn differentiate<const L: usize, const M: usize>(
     walk: &mut Walk,
     taken: &Taken,
     samples: [Option<usize>; 3],
-    by_top: f64,
 ) {
     let n = workspace.coefficients();
     let [start, end, top] = samples.map(|index| index.map_or(&[][..], |index| row(workspace.basis, n, index)));
@@ -607,7 +607,7 @@ fn differentiate<const L: usize, const M: usize>(
             // The load at the start of the first step is that of the largest one.
             let [from, to, top] = [from, to, at(top, coefficient)].map(|input| per_scale * input);
             parameters[START][part][lane] = if start.is_empty() { top } else { from };
-            (parameters[END][part][lane], parameters[ALIGNMENT][part][lane]) = (to, by_top * top);
+            (parameters[END][part][lane], parameters[ALIGNMENT][part][lane]) = (to, walk.by_top * top);
         }
         let motion = Motion { before: shift, by, constant_load: motion.constant_load };
         let mut springs = Columns { values: old, springs: memory, parameters: &parameters };
