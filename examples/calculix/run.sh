@@ -61,11 +61,11 @@ table() {
          NF == 46 && $1 == 5000     { print time "," tip "," $4 "," $3 "," $5 }' "$1.dat"
 }
 
-# table_element HEADER NAME: the same of the element with a normal direction and, according to the header, m components.
+# table_element HEADER NAME: the same of the element with a normal direction, m components by the header; rounding errors as 0.
 table_element() {
     echo "$1"
     awk -v m=$(($(echo "$1" | tr -cd , | wc -c) / 3)) '
-         function append(first) { for (i = first; i < first + m; i++) line = line "," $i }
+         function append(first) { for (i = first; i < first + m; i++) line = line "," ($i^2 < 1e-20 ? 0 : $i) }
          / and time /               { time = $NF }
          NF == 4 && $1 == 113       { line = time; append(5 - m) }
          NF > 46 && $1 == 5000      { append(3 + m); append(3); print line "," $(3 + 2*m) }' "$2.dat"
