@@ -154,7 +154,7 @@ impl Element {
         if parameters.normal_force <= 0.0 {
             return Err(Error::BadNormalForce);
         }
-        let mut shape = geometry.shape(Layer::default())?;
+        let mut shape = geometry.shape()?;
         (shape.layer, _) = Layer::new(&parameters.layer, parameters.normal_force)?;
         geometry.check_element(composite_modulus)?;
         shape.largest = shape.largest_in_plane();
@@ -233,21 +233,17 @@ impl Element {
         });
     }
 
-    /// S along y, from a load and its shift along x.
+    /// S along y and its derivative, from N and S along x and theirs.
     #[inline(always)]
-    pub(crate) fn lateral_shift(&self, load: f64, shift: f64) -> f64 {
+    pub(crate) fn lateral(&self, normal: &Normal) -> [f64; 2] {
         let ([ratio, per_load], layer) = (self.lateral, &self.shape.layer);
-        let linear = ratio * shift + per_load * load;
-        if layer.is_linear() { linear } else { linear + (1.0 - ratio) * layer.shift(load) }
-    }
-
-    /// The derivative of S along y.
-    #[inline(always)]
-    pub(crate) fn lateral_slope(&self, normal: &Normal) -> f64 {
-        let ([ratio, per_load], layer) = (self.lateral, &self.shape.layer);
-        let Normal { load, load_slope, shift_slope, .. } = *normal;
-        let linear = ratio * shift_slope + per_load * load_slope;
-        if layer.is_linear() { linear } else { linear + (1.0 - ratio) * (layer.compliance(load) * load_slope) }
+        let Normal { load, shift, load_slope, shift_slope } = *normal;
+        let linear = [ratio * shift + per_load * load, ratio * shift_slope + per_load * load_slope];
+        if layer.is_linear() {
+            return linear;
+        }
+        let rest = 1.0 - ratio;
+        [linear[0] + rest * layer.shift(load), linear[1] + rest * (layer.compliance(load) * load_slope)]
     }
 
     /// The size w under a load > 0.
@@ -396,8 +392,8 @@ impl Element {
         if direction == 0 {
             return NormalPoint { value: shift, slope: shift_slope };
         }
-        let slope = self.lateral_slope(&Normal { load, shift, load_slope: 1.0, shift_slope });
-        NormalPoint { value: self.lateral_shift(load, shift), slope }
+        let [value, slope] = self.lateral(&Normal { load, shift, load_slope: 1.0, shift_slope });
+        NormalPoint { value, slope }
     }
 
     /// Half-width of the contact \[m\] (elliptical: the semi-axis x) under a normal force \[N\]; 0 if that is 0.

@@ -73,10 +73,10 @@ pub(crate) trait Geometry {
     /// Checks the ranges of all parameters; those that all shapes have.
     fn checked(&self) -> Result<Common, Error>;
 
-    /// The shape of parameters that were checked, N > 0, with a layer.
+    /// The shape of parameters that were checked, N > 0, without their layer.
     /// Errors: `OutOfRange` if derived quantities are not representable; `LengthTooShort` if 2L <= b or if the tangential stiffness
     /// at b would not be positive.
-    fn shape(&self, layer: Layer) -> Result<Shape, Error>;
+    fn shape(&self) -> Result<Shape, Error>;
 
     /// Errors: `OutOfRange` if the laws of an element would not be representable.
     fn check_element(&self, modulus: f64) -> Result<(), Error>;

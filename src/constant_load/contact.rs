@@ -80,7 +80,7 @@ impl Contact {
         if normal_force == 0.0 {
             return Ok(contact);
         }
-        let shape = parameters.shape(Layer::default())?;
+        let shape = parameters.shape()?;
         let (half_width, composite_modulus) = (shape.reference.0, contact.composite_modulus);
         (contact.half_width, contact.flat_half_width) = (half_width, flat_half_width.abs());
         contact.pressure_scale = normal_force / length / half_width;
@@ -103,7 +103,7 @@ impl Contact {
         }
         let composite_modulus = contact.composite_modulus;
         contact.half_width = semi_axis_x;
-        contact.stiffness_scale = 1.0 / parameters.shape(Layer::default())?.compliance(Quantity::Shift, semi_axis_x);
+        contact.stiffness_scale = 1.0 / parameters.shape()?.compliance(Quantity::Shift, semi_axis_x);
         contact.pressure_scale = normal_force / semi_axis_x / semi_axis_y;
         contact.zones = StickZones::of_ellipse(contact.layer(&parameters.layer, normal_force, 1.0)?);
         // The radius of the sphere with this semi-axis.

@@ -28,7 +28,7 @@ impl Geometry for EllipticParameters {
         self.check().map(|()| self.common())
     }
 
-    fn shape(&self, layer: Layer) -> Result<Shape, Error> {
+    fn shape(&self) -> Result<Shape, Error> {
         let EllipticParameters { semi_axis_x, semi_axis_y, normal_force, ref material, .. } = *self;
         let composite_modulus = Pair::new(material).composite_modulus;
         for axis in [semi_axis_x, semi_axis_y] {
@@ -57,7 +57,7 @@ impl Geometry for EllipticParameters {
             pressure_scale: 1.5 / PI * (normal_force / (semi_axis_x * semi_axis_y) / semi_axis_x),
             reference: (semi_axis_x, RoundedPunch::default()),
             composite_modulus,
-            layer,
+            layer: Layer::default(),
             ..Shape::default()
         })
     }

@@ -9,7 +9,9 @@
 //! U2 = c_n f,   S2 = c_t f,   M2 = c_t m,   f = (N_r + N_c) ln(1 + N/N_c),   m = ∫ N df = (N_r + N_c) [N - N_c ln(1 + N/N_c)]
 //! ```
 //!
-//! N_c infinite: f = N, m = N²/2. A shape has the sums.
+//! N_c infinite: f = N, m = N²/2. A shape has the sums at a size, `stick_zone` those between two sizes. Of the laws, `contact` brings the
+//! layer into its units, `interpolant` and `curve` follow the knee of a small N_c, `sensitivity` differentiates by the layer, and `element`
+//! adds it along y.
 
 use crate::error::Error;
 use crate::limits::in_range;

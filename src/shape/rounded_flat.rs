@@ -24,7 +24,7 @@ impl Geometry for Parameters {
         self.check().map(|()| self.common())
     }
 
-    fn shape(&self, layer: Layer) -> Result<Shape, Error> {
+    fn shape(&self) -> Result<Shape, Error> {
         // A zero without its sign, which would show in results.
         let flat = self.flat_half_width.abs();
         let Parameters { edge_radius, length, normal_force, .. } = *self;
@@ -57,7 +57,7 @@ impl Geometry for Parameters {
             pressure_scale: 4.0 / PI * (load_scale / length),
             reference,
             composite_modulus: modulus,
-            layer,
+            layer: Layer::default(),
             ..Shape::default()
         };
         if slenderness <= 0.5 || shape.full_stick() <= 0.0 {
@@ -139,7 +139,7 @@ mod tests {
             FLATS.into_iter().flat_map(|flat| [(flat, CENTRE_POINT), (flat, RIGID_STRIP)])
         {
             let parameters = Parameters { displacement_reference, ..parameters(flat) };
-            let Shape { per_approach, per_load, compliance_scale, .. } = parameters.shape(Layer::default()).unwrap();
+            let Shape { per_approach, per_load, compliance_scale, .. } = parameters.shape().unwrap();
             let kappa = Pair::new(&parameters.material).mean(|nu| nu / (1.0 - nu));
             assert!((per_approach[0] + per_approach[1] - (2.0 + kappa)).abs() < 1e-15);
             assert!((per_load[0] + per_load[1]).abs() < 1e-15 * compliance_scale, "{displacement_reference}");

@@ -31,12 +31,11 @@ impl Pressed<f64> {
         let [per_load, per_shift, per_size] = [units.load, units.shift, units.size].map(f64::recip);
         let w = element.size_under(load);
         let (size, slope) = (w * per_size, element.shape().size_slope(w) * load_slope * per_size * per_size);
-        let lateral = [element.lateral_shift(load, shift), element.lateral_slope(normal)];
         let (inner, scale) = (element.normal(INSIDE_EDGE * input), element.input_scale());
+        let [lateral, lateral_inside] = [normal, &inner].map(|normal| element.lateral(normal));
         let inside = [
-            [inner.load, inner.shift, element.lateral_shift(inner.load, inner.shift)],
-            [inner.load_slope, inner.shift_slope, element.lateral_slope(&inner)]
-                .map(|slope| INSIDE_EDGE * scale * slope),
+            [inner.load, inner.shift, lateral_inside[0]],
+            [inner.load_slope, inner.shift_slope, lateral_inside[1]].map(|slope| INSIDE_EDGE * scale * slope),
         ];
         let of = |load: f64, [x, y]: [f64; 2], size: f64, [inner_load, inner_x, inner_y]: [f64; 3]| Pressed {
             load: load * per_load,
