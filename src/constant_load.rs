@@ -4,7 +4,6 @@
 pub(crate) mod complex_stiffness;
 pub(crate) mod contact;
 pub(crate) mod curve;
-pub(crate) mod cycle;
 pub(crate) mod energy;
 pub mod equivalents;
 pub(crate) mod evaluator;

@@ -286,7 +286,7 @@ impl Contact {
         }
         let y = not_zero * self.inner_scale;
         if y <= 1.0
-            && let Some((real, slope)) = self.interpolant().cycle(y)
+            && let Some((real, slope)) = self.interpolant().stiffness_of_cycle(y)
         {
             return (initial * real, (initial * self.inner_scale * slope).min(0.0));
         }

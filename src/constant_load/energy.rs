@@ -1,10 +1,57 @@
-//! Energy dissipated along a load history (Eq. 13-16 with Masing's rule).
+//! Dissipated energy: of a cycle of prescribed amplitude (Eq. 13-16), and along a load history, by Masing's rule.
 //!
 //! One initial loading dissipates a quarter of the energy of its cycle, a branch twice that of its half range. Segments that
 //! follow each other on one branch are one segment, and only its ends are evaluated.
 
 use crate::constant_load::contact::Contact;
 use crate::constant_load::memory::Segment;
+use crate::error::Error;
+use crate::numerics::fp_class::in_0_to;
+use crate::shape::Complement;
+use crate::shape::stick_zone::StickZone;
+
+impl Contact {
+    /// Energy \[J\] dissipated per cycle between ± a force amplitude \[N\], at most mu N (Eq. 13-16).
+    /// Errors: `BadForceAmplitude` if the amplitude is not finite or negative, `ForceExceedsSlip` if it exceeds mu N.
+    pub fn dissipated_energy(&self, force_amplitude: f64) -> Result<f64, Error> {
+        self.check_force_amplitude(force_amplitude)?;
+        let point = self.curve_at_force(force_amplitude)?;
+        let dissipation = |zone: StickZone| self.stick_zones().dissipation(zone.load, zone.compliance_increase).0;
+        Ok(point.stick_zone().map_or(0.0, |zone| self.energy_scale() * dissipation(zone)))
+    }
+
+    pub(crate) fn check_force_amplitude(&self, force_amplitude: f64) -> Result<(), Error> {
+        if in_0_to(f64::MAX, force_amplitude) {
+            self.check_force(force_amplitude)
+        } else {
+            Err(Error::BadForceAmplitude)
+        }
+    }
+
+    /// Energy \[J\] dissipated per cycle with a displacement amplitude up to that of gross slip, and its derivative with respect to the
+    /// amplitude \[N\].
+    #[inline(always)]
+    pub(crate) fn cycle_energy(&self, amplitude: Complement) -> (f64, f64) {
+        let zones = self.stick_zones();
+        let (load, stiffness) = self.load_at(amplitude).unwrap_or_else(|| {
+            let zone = self.stick_zone_before_slip(amplitude);
+            (zone.load, self.stiffness_of(&zone))
+        });
+        let compliance = self.stiffness_scale / stiffness.max(f64::MIN_POSITIVE);
+        let (dissipation, slope) = zones.dissipation(load, compliance - zones.small_load.compliance);
+        (self.energy_scale() * dissipation, self.displacement_scale * slope * stiffness)
+    }
+
+    /// Energy \[J\] dissipated per cycle from the interpolant, in the range of its first polynomial.
+    #[inline(always)]
+    pub(crate) fn inner_cycle_energy(&self, amplitude: f64) -> Option<f64> {
+        let y = amplitude * self.inner_scale;
+        if y > 1.0 {
+            return None;
+        }
+        Some(self.initial_stiffness * amplitude * amplitude * self.interpolant().cycle_energy(y)?)
+    }
+}
 
 /// Adds up the energy of segments.
 #[derive(Debug)]
