@@ -194,8 +194,9 @@ impl Contact {
                 let (mut zeta, mut weights) = (*nodes, *weights);
                 if bend < 0.4 {
                     for k in 0..4 {
-                        let argument = largest * zeta[k];
-                        (zeta[k], weights[k]) = (bend * argument.sinh(), weights[k] * bend * largest * argument.cosh());
+                        let sinh = (largest * zeta[k]).sinh();
+                        weights[k] *= bend * largest * (1.0 + sinh * sinh).sqrt();
+                        zeta[k] = bend * sinh;
                     }
                 }
                 let [mut x, mut rho, mut rates] = [[0.0; 4]; 3];
