@@ -378,7 +378,7 @@ fn fade(derivatives: &mut [f64]) {
     }
 }
 
-/// A step in columns: the derivatives of both forces.
+/// A step in columns: the derivatives of both forces. Many columns have long code, which exists for AVX2 only.
 fn columns<const L: usize, const M: usize>(
     tables: &DualRows,
     contact: &Contact<Dual<1>>,
@@ -387,24 +387,13 @@ fn columns<const L: usize, const M: usize>(
     springs: &mut Columns<L>,
 ) -> Both<[[f64; 4]; L]> {
     if 4 * L > NARROW {
-        return wide_columns(tables, contact, motion, slip, springs).unwrap_or([[[0.0; 4]; L]; 2]);
+        let forces = on_avx2_only(
+            #[inline(always)]
+            || columns_kernel(tables, contact, motion, slip, springs),
+        );
+        return forces.unwrap_or([[[0.0; 4]; L]; 2]);
     }
     dispatch!(columns_kernel(tables, contact, motion, slip, springs))
-}
-
-/// Many columns have long code, which exists for AVX2 only.
-fn wide_columns<const L: usize, const M: usize>(
-    tables: &DualRows,
-    contact: &Contact<Dual<1>>,
-    motion: &Motion<Dual<1>, Dual<M>>,
-    slip: &Slips,
-    springs: &mut Columns<L>,
-) -> Option<Both<[[f64; 4]; L]>> {
-    on_avx2_only(
-        #[inline(always)]
-        || columns_kernel(tables, contact, motion, slip, springs),
-    )
-    .ok()
 }
 
 #[inline(always)]

@@ -28,7 +28,7 @@ impl Path {
             [true, false] => (element.crossing(start, end.min(0.0)), [0.0; 2]),
             [false, true] if element.by_approach() => {
                 let (start, per) = (start.min(0.0), 1.0 / (end - start.min(0.0)).max(f64::MIN_POSITIVE));
-                (end * per, [end * per * per, -start * per * per])
+                (end * per, [end * per * per, -start * per * per].map(|slope| element.input_scale() * slope))
             }
             _ => (1.0, [0.0; 2]),
         };
@@ -40,8 +40,7 @@ impl Path {
         Path {
             by: distance.map(|distance| part * distance * per_scale),
             per_distance: part / unit * per_scale,
-            per_input: distance
-                .map(|distance| slopes.map(|slope| distance * (element.input_scale() * slope) * per_scale)),
+            per_input: distance.map(|distance| slopes.map(|slope| distance * slope * per_scale)),
             scale,
         }
     }

@@ -382,7 +382,7 @@ impl Slip {
     fn solve(&mut self, other: &Slip, problem: &Problem, guess: &Guess, derivatives: bool) -> bool {
         let Problem { r: r_trial, contact, end, .. } = problem;
         let end = (*end).min(N);
-        (self.set, self.e) = (guess.set, guess.e);
+        (self.set, self.e, self.v, self.r) = (guess.set, guess.e, problem.v, problem.r);
         let mut steps = 0;
         'sets: for _ in 0..CHANGES {
             let set = self.set;

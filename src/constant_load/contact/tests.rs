@@ -77,8 +77,8 @@ fn factors_out_of_range_are_rejected() {
     assert_eq!(Contact::rounded_flat(&extreme).map(|_| ()), Err(Error::OutOfRange));
 }
 
-/// The example `cattaneo` of the program CONTACT; millimetres and newtons, results printed with five digits. The friction work is
-/// that of the initial loading, a quarter of that of a cycle.
+/// The example `cattaneo` of the program CONTACT; millimetres and newtons, results printed with five digits. The friction work of
+/// the initial loading is a quarter of the energy of a cycle.
 #[test]
 fn cattaneo_problem_has_the_published_shift_and_friction_work() {
     let (normal_force, radius, friction, ratio) = (9.1954, 50.0, 0.4, 0.42);
