@@ -1,6 +1,5 @@
 //! The drivers in C and Fortran with floating-point traps, against the library installed at `MICROSLIP_PREFIX`, or else
-//! against the archive as cargo builds it. If that is for another processor, `MICROSLIP_TARGET` is its triple, `MICROSLIP_RUNNER`
-//! the command that runs its programs.
+//! against the archive as cargo builds it.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -44,9 +43,8 @@ fn run(command: &mut Command) -> Result<String, String> {
 fn compiler() -> Command {
     static HOST: LazyLock<String> = LazyLock::new(|| run(Command::new("rustc").arg("-vV")).unwrap());
     let host = HOST.lines().find_map(|line| line.strip_prefix("host: ")).expect("the host triple");
-    let target = std::env::var("MICROSLIP_TARGET").unwrap_or(host.to_string());
     let mut compiler =
-        cc::Build::new().target(&target).host(host).opt_level(1).cargo_metadata(false).get_compiler().to_command();
+        cc::Build::new().target(host).host(host).opt_level(1).cargo_metadata(false).get_compiler().to_command();
     compiler.args(["-Wall", "-Wextra", "-Wpedantic", "-Werror", "-pthread", "-std=c99"]);
     compiler
 }
@@ -61,10 +59,7 @@ fn drive(mut compiler: Command, sources: &[PathBuf], program: &str) -> Result<()
         compiler.arg("-Wl,-u,__llvm_profile_runtime");
     }
     run(compiler.arg("-o").arg(&path))?;
-    let runner = std::env::var("MICROSLIP_RUNNER").unwrap_or("env".to_string());
-    let mut words = runner.split_whitespace();
-    let mut command = Command::new(words.next().unwrap_or("env"));
-    let text = run(command.args(words).arg(&path).arg("--trap").current_dir(*ROOT))?;
+    let text = run(Command::new(&path).arg("--trap").current_dir(*ROOT))?;
     let last = text.lines().last().unwrap_or_default();
     if last.ends_with(" passed, 0 failed") && !last.starts_with("0 ") {
         Ok(())
