@@ -14,35 +14,47 @@ program balance
   real(wp), parameter :: stiffness(2, 2) = reshape([2.5e7_wp, -2.0e7_wp, -2.0e7_wp, 2.1e7_wp], [2, 2])    ! N/m
   real(wp), parameter :: excitation = 15                                                ! N, cosine at mass 1
   real(wp), parameter :: frequency(8) = [300, 500, 650, 690, 710, 750, 790, 900]        ! Hz
-  real(wp) :: linear(n, n), jacobian(n, n), residual(n), x(n), trial(n), step(n), size_of_residual
-  integer :: i, iteration, halving, pivots(n), info
+  real(wp) :: linear(n, n), jacobian(n, n), residual(n), x(n)
+  integer :: i
   external :: dgesv                                    ! LAPACK
 
   call contact_init(harmonics)
   print '(a)', 'frequency_hz,amplitude_1_um,amplitude_2_um,contact_energy_uj'
+  x = 0                                                ! the first step is that of the stuck contact
   do i = 1, size(frequency)
-    x = 0                                              ! the first step is that of the stuck contact
-    call linear_part(2*pi*frequency(i))
-    call evaluate(x)
-    size_of_residual = norm2(residual)
-    do iteration = 1, 60
-      if (size_of_residual < tolerance*excitation) exit
-      step = residual
-      call dgesv(n, 1, jacobian, n, pivots, step, n, info)
-      trial = x
-      do halving = 0, 10                               ! a step that does not reduce the residual is halved
-        x = trial - step/2**halving
-        call evaluate(x)
-        if (norm2(residual) < size_of_residual) exit
-      end do
-      size_of_residual = norm2(residual)
-    end do
-    if (iteration > 60) error stop 'no convergence'
+    call follow(frequency(max(1, i - 1)), frequency(i))
     print '(f6.1, 3(",", f11.6))', frequency(i), 1e6_wp*hypot(x(2), x(3)), 1e6_wp*hypot(x(m + 2), x(m + 3)), &
       1e-6_wp*nint(1e12_wp*contact_energy(2*pi*frequency(i)))             ! rounded, so that 0 has no sign
   end do
 
 contains
+
+  ! From the solution at one frequency to that at another, by Newton's method; if it fails, by way of the frequency between.
+  recursive subroutine follow(from, to)
+    real(wp), intent(in) :: from, to
+    real(wp) :: start(n), last(n), step(n), size_of_residual
+    integer :: iteration, halving, pivots(n), info
+
+    start = x
+    call linear_part(2*pi*to)
+    call evaluate(x)
+    do iteration = 1, 30
+      size_of_residual = norm2(residual)
+      if (size_of_residual < tolerance*excitation) return
+      last = x
+      step = residual
+      call dgesv(n, 1, jacobian, n, pivots, step, n, info)
+      do halving = 0, 10                               ! a step that does not reduce the residual is halved
+        x = last - step/2**halving
+        call evaluate(x)
+        if (norm2(residual) < size_of_residual) exit
+      end do
+    end do
+    if (abs(to - from) < 1e-3_wp) error stop 'no convergence'
+    x = start
+    call follow(from, (from + to)/2)
+    call follow((from + to)/2, to)
+  end subroutine follow
 
   ! The matrix of all harmonics: K - (k w)^2 M on both coefficients of harmonic k, and k w D from one to the other.
   subroutine linear_part(omega)
