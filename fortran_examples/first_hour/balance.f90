@@ -9,7 +9,7 @@ program balance
   implicit none
   integer, parameter :: wp = kind(1.0d0), harmonics = 5, m = 2*harmonics + 1, n = 2*m
   real(wp), parameter :: pi = acos(-1.0_wp), tolerance = 1e-12_wp      ! of the excitation: rounding errors are smaller
-  real(wp), parameter :: mass(2) = [1.0_wp, 0.5_wp]                                     ! kg
+  real(wp), parameter :: mass(2, 2) = reshape([1.0_wp, 0.0_wp, 0.0_wp, 0.5_wp], [2, 2])  ! kg
   real(wp), parameter :: damping(2, 2) = reshape([30.0_wp, -10.0_wp, -10.0_wp, 10.0_wp], [2, 2])      ! N s/m
   real(wp), parameter :: stiffness(2, 2) = reshape([2.5e7_wp, -2.0e7_wp, -2.0e7_wp, 2.1e7_wp], [2, 2])    ! N/m
   real(wp), parameter :: excitation = 15                                                ! N, cosine at mass 1
@@ -37,7 +37,7 @@ contains
 
     start = x
     call linear_part(2*pi*to)
-    call evaluate(x)
+    call evaluate
     do iteration = 1, 30
       size_of_residual = norm2(residual)
       if (size_of_residual < tolerance*excitation) return
@@ -46,7 +46,7 @@ contains
       call dgesv(n, 1, jacobian, n, pivots, step, n, info)
       do halving = 0, 10                               ! a step that does not reduce the residual is halved
         x = last - step/2**halving
-        call evaluate(x)
+        call evaluate
         if (norm2(residual) < size_of_residual) exit
       end do
     end do
@@ -59,32 +59,24 @@ contains
   ! The matrix of all harmonics: K - (k w)^2 M on both coefficients of harmonic k, and k w D from one to the other.
   subroutine linear_part(omega)
     real(wp), intent(in) :: omega
-    integer :: p, q, k, r, c
+    integer :: k
 
     linear = 0
-    do p = 1, 2
-      do q = 1, 2
-        r = (p - 1)*m
-        c = (q - 1)*m
-        linear(r + 1, c + 1) = stiffness(p, q)
-        do k = 1, harmonics
-          linear(r + 2*k, c + 2*k) = stiffness(p, q)
-          if (p == q) linear(r + 2*k, c + 2*k) = stiffness(p, q) - (k*omega)**2*mass(p)
-          linear(r + 2*k + 1, c + 2*k + 1) = linear(r + 2*k, c + 2*k)
-          linear(r + 2*k, c + 2*k + 1) = k*omega*damping(p, q)
-          linear(r + 2*k + 1, c + 2*k) = -k*omega*damping(p, q)
-        end do
-      end do
+    linear(1::m, 1::m) = stiffness
+    do k = 1, harmonics
+      linear(2*k::m, 2*k::m) = stiffness - (k*omega)**2*mass
+      linear(2*k + 1::m, 2*k + 1::m) = linear(2*k::m, 2*k::m)
+      linear(2*k::m, 2*k + 1::m) = k*omega*damping
+      linear(2*k + 1::m, 2*k::m) = -k*omega*damping
     end do
   end subroutine linear_part
 
-  ! The residual and its Jacobian: the structure, less the excitation, plus the contact at mass 2.
-  subroutine evaluate(motion)
-    real(wp), intent(in) :: motion(n)
+  ! The residual at x and its Jacobian: the structure, less the excitation, plus the contact at mass 2.
+  subroutine evaluate
     real(wp) :: force(m), slope(m, m)
 
-    call contact_force(motion(m + 1:), force, slope)
-    residual = matmul(linear, motion)
+    call contact_force(x(m + 1:), force, slope)
+    residual = matmul(linear, x)
     residual(2) = residual(2) - excitation
     residual(m + 1:) = residual(m + 1:) + force
     jacobian = linear
