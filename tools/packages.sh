@@ -145,9 +145,9 @@ check 'make, shared library' make_client "$shared" "$so"
 check 'README: gcc, shared library' readme_program c gcc "$shared" "$so"
 check 'README: gfortran, shared library' readme_program f90 gfortran "$shared" "$so"
 examples() { # a relative prefix, seen from the directory of the examples
-    cp -R fortran_examples "$work/examples" && make -C "$work/examples" clean &&
-        make -C "$work/examples" short PREFIX=../shared &&
-        (cd / && "$work/examples/build/static_first") && [ "$(needs "$work/examples/build/forced_response")" = "$so" ]
+    programs=$tree/fortran_examples/build && make -C "$tree/fortran_examples" clean &&
+        make -C "$tree/fortran_examples" short PREFIX=../../shared &&
+        (cd / && "$programs/static_first") && [ "$(needs "$programs/forced_response")" = "$so" ]
 }
 check 'Fortran examples, shared library' examples
 check 'CMake: clients of both libraries' cmake_client "both libraries" 4 -DCMAKE_PREFIX_PATH="$shared"

@@ -16,7 +16,7 @@ set xlabel 'displacement [µm]'
 set ylabel 'force [N]'
 set key top left samplen 2.5
 plot file('why_loop') using (1e6*$2):3 with lines ls 1 title 'microslip', \
-     file('why_loop') using (1e6*$2):(initial_stiffness*$2) with lines ls 2 title 'spring-slider'
+     file('why_loop') every ::::100 using (1e6*$2):(initial_stiffness*$2) with lines ls 2 title 'spring-slider' # one way: dashes
 set title 'loss factor'
 set logscale xy
 set xlabel 'amplitude / amplitude at gross slip'
