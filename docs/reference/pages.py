@@ -18,9 +18,9 @@ STYLE = """body{font:16px/1.5 sans-serif;max-width:60em;margin:auto;padding:0 1e
 nav a{margin-right:.8em;white-space:nowrap}img{max-width:100%}table{border-collapse:collapse;margin:1em 0}td,th{border:1px solid #ccc;padding:.2em .5em}
 td[style*=right]{white-space:nowrap}pre{background:#f5f5f5;padding:.6em;overflow:auto;font-size:.8em}
 #found{background:#fffbe6}#query{font-size:1em;width:18em}math{font-size:1.1em}math[display=block]{margin:.6em 0}"""
-SEARCH = """function find(text){const words=text.toLowerCase().split(/\\s+/).filter(w=>w);document.getElementById('found').innerHTML=
-words.length?sections.filter(s=>words.every(w=>(s[0]+s[2]).toLowerCase().includes(w))).slice(0,99).map(s=>'<p><a href="'+up+s[1]+'">'
-+s[0]+'</a></p>').join('')||'<p>nothing</p>':''}"""
+SEARCH = """function find(text){const words=text.toLowerCase().split(/\\s+/).filter(w=>w),has=t=>words.every(w=>t.toLowerCase().includes(w))
+document.getElementById('found').innerHTML=words.length?sections.filter(s=>has(s[0]+s[2])).sort((a,b)=>has(b[0])-has(a[0])).slice(0,99)
+.map(s=>'<p><a href="'+up+s[1]+'">'+s[0]+'</a></p>').join('')||'<p>nothing</p>':''}"""
 
 site = Path(sys.argv[1]).resolve()
 root = Path(__file__).resolve().parents[2]
