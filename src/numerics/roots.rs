@@ -28,12 +28,13 @@ pub(crate) fn bracketed_newton(low: f64, high: f64, start: f64, evaluate: impl F
 }
 
 /// The argument at which a growing function has a value > 0: Newton's method in the logarithms of argument and
-/// function, given the function and the derivative of its logarithm by that of the argument.
+/// function, given the function and the derivative of its logarithm by that of the argument. Where the function hardly grows, a step
+/// downwards is at most to a twentieth; steps upwards do not pass the root of a function whose logarithm is concave.
 pub(crate) fn logarithmic_newton(value: f64, start: f64, function: impl Fn(f64) -> [f64; 2]) -> f64 {
     let mut argument = start;
     for _ in 0..30 {
         let [found, power] = function(argument);
-        let step = (value / found).ln() / power;
+        let step = ((value / found).ln() / power).max(-3.0);
         argument *= step.exp();
         // Quadratic convergence: the next step is below rounding.
         if step.abs() < 1e-8 {

@@ -25,40 +25,21 @@ pub fn quiet<T>(what: &str, call: impl FnOnce() -> T) -> T {
 }
 
 /// The result of a call, and the exceptions of that kind that it raised.
-pub fn flags_of<T>(call: impl FnOnce() -> T) -> (T, u32) {
-    let result = flags::clear_for(call);
-    (result, flags::raised())
-}
-
 #[cfg(target_arch = "x86_64")]
-mod flags {
-    use std::arch::asm;
-
-    pub fn clear_for<T>(call: impl FnOnce() -> T) -> T {
-        let default = 0x1f80u32;
-        // SAFETY: the word of the default environment, without flags.
-        unsafe { asm!("ldmxcsr [{}]", in(reg) &raw const default, options(nostack)) };
-        call()
-    }
-
-    pub fn raised() -> u32 {
-        let mut word = 0u32;
-        // SAFETY: writes the word.
-        unsafe { asm!("stmxcsr [{}]", in(reg) &raw mut word, options(nostack)) };
-        word & 0x0d
-    }
+pub fn flags_of<T>(call: impl FnOnce() -> T) -> (T, u32) {
+    let mut word = 0x1f80u32;
+    // SAFETY: the word of the default environment, without flags.
+    unsafe { std::arch::asm!("ldmxcsr [{}]", in(reg) &raw const word, options(nostack)) };
+    let result = call();
+    // SAFETY: writes the word.
+    unsafe { std::arch::asm!("stmxcsr [{}]", in(reg) &raw mut word, options(nostack)) };
+    (result, word & 0x0d)
 }
 
 /// Elsewhere exceptions are not seen.
 #[cfg(not(target_arch = "x86_64"))]
-mod flags {
-    pub fn clear_for<T>(call: impl FnOnce() -> T) -> T {
-        call()
-    }
-
-    pub fn raised() -> u32 {
-        0
-    }
+pub fn flags_of<T>(call: impl FnOnce() -> T) -> (T, u32) {
+    (call(), 0)
 }
 
 fn ok(what: &str, call: impl FnOnce() -> i32) {
