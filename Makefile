@@ -175,7 +175,7 @@ dist:
 recipes:
 	tools/recipes.sh $(URL)
 
-## release: build all artefacts into target/publish, each tested as it is installed; URL= of the tarball; an hour or more
+## release: build all artefacts into target/publish, each tested as it is installed; URL= of the tarball; half an hour or more
 release:
 	tools/release.sh $(URL)
 

@@ -1,7 +1,7 @@
 #!/bin/sh
 # aarch64.sh PREFIX: the library for Linux on aarch64, built by cross compilers and run by QEMU: symbols, clients of archive
 # and shared library, drivers in C and Fortran, the unit tests, and the wheel. Its results are compared with those of the library
-# that is installed at PREFIX for this machine. QEMU takes fifty times as long as this machine, so it runs what depends on the
+# that is installed at PREFIX for this machine. QEMU takes thirty times as long as this machine, so it runs what depends on the
 # processor: layouts, reference tables, exceptions and stack in a tenth of the random calls, joins of formulas. Rejected arguments
 # and the properties of histories follow from the equal bits.
 set -eu

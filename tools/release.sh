@@ -1,6 +1,6 @@
 #!/bin/sh
 # release.sh [URL]: build all artefacts of a release from the last commit into target/publish, each tested as it is installed in a
-# clean environment, with their SHA-256 sums. URL is the address that the source tarball will have. It takes an hour or more.
+# clean environment, with their SHA-256 sums. URL is the address that the source tarball will have. It takes half an hour or more.
 set -eu
 cd "$(dirname "$0")/.."
 . tools/steps.sh
