@@ -24,9 +24,6 @@ export CARGO CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER CARGO_TARGET_AARCH64_
 standard_library() {
     [ -d "$(rustc --print sysroot)/lib/rustlib/$triple" ] || rustup target add $triple
 }
-symbols() {
-    CC=${cross}gcc NM=${cross}nm OBJDUMP=${cross}objdump tools/symbols.sh "$installed"
-}
 # Products and sums are fused where that computes a rounding error, by name, and nowhere else.
 fused() {
     [ "$(${cross}objdump -d --no-show-raw-insn "$installed/lib/libmicroslip.a" | grep -cE '\<fn?m(add|sub|la|ls)\>')" -eq \
@@ -58,9 +55,6 @@ drivers() {
         esac && shift && $emulator "$work/driver" --trap "$@" || return
     done
 }
-unit_tests() {
-    "$CARGO" test --locked --package microslip --target $triple --lib
-}
 
 # application COMPILER PREFIX PROGRAM FLAG...: the program that makes all calls.
 application() {
@@ -84,14 +78,14 @@ same_bits() {
 check 'Rust for aarch64' standard_library
 check 'library: build, install' make install TARGET=$triple SHARED=1 PREFIX="$installed"
 [ "$failed" -eq 0 ] || { counts; exit; }
-check 'archive: symbols and sections' symbols
+check 'archive: symbols and sections' env CC=${cross}gcc NM=${cross}nm OBJDUMP=${cross}objdump tools/symbols.sh "$installed"
 check 'archive: multiplication and addition are fused by name only' fused
 check 'shared library: clients' clients "libmicroslip.so.$abi"
 rm "$installed"/lib/libmicroslip.so*
 check 'archive: clients' clients
 check 'with the same mathematical functions: the bits of this machine' same_bits
 check 'drivers in C and Fortran, with the reference tables' drivers
-check 'unit tests' unit_tests
+check 'unit tests' "$CARGO" test --locked --package microslip --target $triple --lib
 # Zig links it.
 check 'wheel' env -u CARGO_TARGET_AARCH64_UNKNOWN_LINUX_GNU_LINKER TARGET=$triple tools/python.sh
 counts
