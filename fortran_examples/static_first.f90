@@ -74,23 +74,26 @@ contains
     jacobian = body
     c = (directions - 1)*n                                                ! the component that is shaken, with w
     do level = 0, 4
-      excitation(c + 2) = 25*level
-      excitation(unknowns - 1) = 0.3_wp*excitation(c + 2)
-      call balance
+      call follow(25.0_wp*max(0, level - 1), 25.0_wp*level)
       print '(f8.0,a,f11.4,a,f7.3,a,f8.1,a,f8.1,a,f8.3,a,es9.1)', excitation(c + 2), ' N', 1e6*norm2(x(c + 2:c + 3)), ' um', &
         1e6*abs(x(1)), ' um', force(1), ' N', force(unknowns - 2), ' N', 1e6*dissipated, ' uJ', drift
     end do
   end subroutine vibrate
 
-  ! The contact carries the static forces at x = 0, so that they are subtracted from its mean forces.
-  subroutine balance
-    real(wp) :: residual(unknowns), matrix(unknowns, unknowns)
+  ! From the solution at one excitation to that at another, by Newton's method; if it fails, by way of the excitation between. The
+  ! contact carries the static forces at x = 0, so that they are subtracted from its mean forces.
+  recursive subroutine follow(from, to)
+    real(wp), intent(in) :: from, to
+    real(wp) :: start(unknowns), residual(unknowns), matrix(unknowns, unknowns)
     integer :: iteration, pivots(unknowns), info
     external :: dgesv                                                     ! LAPACK
 
+    start = x
+    excitation(c + 2) = to
+    excitation(unknowns - 1) = 0.3_wp*to
     do iteration = 1, 30
       call mslip_element_harmonic_force(element, workspace, static + x, status, force, jacobian, dissipated, drift)
-      call check
+      if (status /= MSLIP_OK) exit
       residual = matmul(body, x) + force - excitation
       residual(1) = residual(1) - shear
       residual(unknowns - 2) = residual(unknowns - 2) - normal_force
@@ -99,8 +102,11 @@ contains
       call dgesv(unknowns, 1, matrix, unknowns, pivots, residual, unknowns, info)
       x = x - residual
     end do
-    error stop 'no equilibrium'
-  end subroutine balance
+    if (to - from < 0.1_wp) error stop 'no equilibrium'
+    x = start
+    call follow(from, (from + to)/2)
+    call follow((from + to)/2, to)
+  end subroutine follow
 
   subroutine check
     if (status /= MSLIP_OK) then
