@@ -8,7 +8,7 @@
 
 /// Whether kernels run on AVX2.
 #[inline(always)]
-pub(crate) fn has_avx2() -> bool {
+fn has_avx2() -> bool {
     #[cfg(test)]
     if tests::is_baseline() {
         return false;
@@ -17,18 +17,6 @@ pub(crate) fn has_avx2() -> bool {
     return std::is_x86_feature_detected!("avx2");
     #[cfg(not(target_arch = "x86_64"))]
     false
-}
-
-/// The result of a kernel in code for AVX2, or the kernel if the processor has it not.
-#[inline(always)]
-pub(crate) fn on_avx2_only<R, K: FnOnce() -> R>(kernel: K) -> Result<R, K> {
-    #[cfg(target_arch = "x86_64")]
-    if has_avx2() {
-        // SAFETY: the processor has AVX2.
-        #[allow(unsafe_code)]
-        return Ok(unsafe { on_avx2(kernel) });
-    }
-    Err(kernel)
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -46,7 +34,13 @@ fn on_baseline<R>(kernel: impl FnOnce() -> R) -> R {
 /// The result of a kernel in the variant for the present processor.
 #[inline(always)]
 pub(crate) fn on_any<R>(kernel: impl FnOnce() -> R) -> R {
-    on_avx2_only(kernel).unwrap_or_else(on_baseline)
+    #[cfg(target_arch = "x86_64")]
+    if has_avx2() {
+        // SAFETY: the processor has AVX2.
+        #[allow(unsafe_code)]
+        return unsafe { on_avx2(kernel) };
+    }
+    on_baseline(kernel)
 }
 
 /// Returns the result of a call of a kernel, in the variant for the present processor: `dispatch!(kernel(x, y))`. The kernel must be

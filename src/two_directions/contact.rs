@@ -1,6 +1,6 @@
 //! The springs under a present load: the shell at the edge, which ends at the present size, and the springs by the tractions.
 
-use super::scalar::{Dual, Real, both};
+use super::scalar::{Dual, Linear, Real, both};
 use super::tables::{
     BIAS, Both, DualRows, END, FINE, FINE_SECANT, FINE_STIFFNESS, FLEXIBILITY, LEAST_STIFFNESS, LOAD, MAP, MOST_PARTS,
     Matrix, N, PER_MAP, POINTS, PRESSURE, Row, Rows, SECANT, SHIFT, SIZE, STIFFNESS, Tables, Units, WEIGHT, at_edge,
@@ -142,15 +142,11 @@ impl Contact<f64> {
     }
 
     /// The contact with derivatives.
-    pub fn derived(&self, tables: &impl Tables<Dual<1>>, slopes: &Pressed<f64>) -> Contact<Dual<1>> {
+    #[inline(never)]
+    pub fn derived(&self, tables: &DualRows, slopes: &Pressed<f64>) -> Contact<Dual<1>> {
         let now = self.now.dual(slopes, END);
         Contact::new(tables, &now, [self.last, self.part], self.under_flat)
     }
-}
-
-/// The derivatives that are multiplied with columns are those by the load at the end and the alignment.
-pub(crate) fn derive(contact: &Contact<f64>, tables: &DualRows, slopes: &Pressed<f64>) -> Contact<Dual<1>> {
-    dispatch!({ contact.derived(&tables, slopes) })
 }
 
 impl<A: Real> Contact<A> {

@@ -7,23 +7,25 @@
 //! springs are aligned with the largest normal force.
 //!
 //! The Jacobian is the exact derivative of these steps: the derivatives of the state with respect to all coefficients are carried
-//! along. The tables and the contact have derivatives by the load at both ends of a step and by the alignment, the springs by the
-//! coefficients too, to which the former are added after each step.
+//! along. Those of a step by parameters of the contact, the load at both ends and the alignment, are computed once; those by the
+//! springs at its start are advanced for a few coefficients at once, and the former are added to them.
 
 use super::Requested;
-use super::contact::{Contact, Pressed, derive};
+use super::contact::{Contact, Pressed};
 use super::path::Path;
-use super::scalar::{Dual, Real};
+use super::scalar::{Dual, Linear};
 use super::slip::Slips;
-use super::step::{advance, bounded, separated, step};
-use super::tables::{ALIGNMENT, Both, DualRows, END, N, PARAMETERS, ROWS, Rows, START, Units, fill, under_flat};
-use super::trial::{Motion, SPRINGS, Springs, Values, trial};
+use super::step::{advance, bounded, derivatives, separated, step};
+use super::tables::{
+    ALIGNMENT, Both, DualRows, END, Matrix, N, PARAMETERS, ROWS, Rows, START, Units, fill, under_flat,
+};
+use super::trial::{Derivatives, Motion, SPRINGS, Springs, Values, trial};
 use crate::element::{Element, Normal};
 use crate::error::Error;
 use crate::fourier::angle;
 use crate::fourier::workspace::{Layout, Parts, Size};
 use crate::limits::check_coefficients;
-use crate::simd::{dispatch, has_avx2, on_avx2_only, plus};
+use crate::simd::{dispatch, plus};
 use crate::tag::Kind;
 
 pub use crate::fourier::HarmonicOutput;
@@ -45,9 +47,9 @@ pub fn workspace_init(harmonics: usize, samples: usize, periods: usize, workspac
 /// nodes are close, and a rounding error over it.
 const NEIGHBOUR: f64 = 1e-6;
 
-/// Columns that are advanced at once: for one harmonic and without AVX2, and for more harmonics.
-const NARROW: usize = 12;
-const WIDE: usize = 36;
+/// Columns that are advanced at once, those of the normal component, of u and of v in a block each.
+const COLUMNS: usize = 12;
+type Columns = Dual<{ COLUMNS / 4 }>;
 
 /// Doubles of a sample: the motion, the normal force and its derivative, and the tangential forces.
 const SAMPLE: usize = 8;
@@ -56,14 +58,11 @@ const SAMPLE: usize = 8;
 #[derive(Debug)]
 pub struct Workspace<'a> {
     size: Size,
-    /// Columns that are advanced at once.
-    lanes: usize,
     /// Values of `[1, cos t, sin t, ...]`, sample after sample.
     basis: &'a mut [f64],
     samples: &'a mut [[f64; SAMPLE]],
-    /// Tables of the springs, those of a slightly larger and a smaller reference size, and with the derivatives by its logarithm.
+    /// Tables of the springs, their derivatives by the logarithm of the reference size, and those of a slightly smaller one.
     tables: &'a mut [Rows],
-    dual_tables: &'a mut [DualRows],
     /// Derivatives of the springs, and those of both forces, block after block of columns.
     derivatives: &'a mut [f64],
     forces: &'a mut [f64],
@@ -80,22 +79,16 @@ impl<'a> Layout<'a> for Workspace<'a> {
     }
 
     fn take(size: Size, parts: &mut Parts<'a>) -> Result<Workspace<'a>, Error> {
-        // One column for each coefficient of the motion, in whole blocks: in each, those of the normal component, of u and of v.
-        let columns = |lanes: usize| lanes * size.coefficients().div_ceil(lanes / 3);
-        let widest = if 3 * size.coefficients() <= NARROW { NARROW } else { WIDE };
-        let lanes = if has_avx2() { widest } else { NARROW };
-        let (reserved, columns, sums) = (columns(widest), columns(lanes), 2 * size.coefficients());
-        let first = |count: usize, values: &'a mut [f64]| values.get_mut(..count).unwrap_or(&mut []);
+        // One column for each coefficient of the motion, in whole blocks.
+        let (columns, sums) = (COLUMNS * size.coefficients().div_ceil(COLUMNS / 3), 2 * size.coefficients());
         Ok(Workspace {
             size,
-            lanes,
             basis: parts.take(size.coefficients() * size.samples)?,
             samples: parts.take(SAMPLE * size.samples)?.as_chunks_mut().0,
             tables: parts.take(3 * N * ROWS)?.as_chunks_mut::<N>().0.as_chunks_mut().0,
-            dual_tables: parts.take(4 * N * ROWS)?.as_chunks_mut().0.as_chunks_mut::<N>().0.as_chunks_mut().0,
-            derivatives: first(SPRINGS * columns, parts.take(SPRINGS * reserved)?),
-            forces: first(2 * columns, parts.take(2 * reserved)?),
-            sums: first(sums * columns, parts.take(sums * reserved)?),
+            derivatives: parts.take(SPRINGS * columns)?,
+            forces: parts.take(2 * columns)?,
+            sums: parts.take(sums * columns)?,
         })
     }
 
@@ -197,8 +190,7 @@ fn first_of_largest_load(workspace: &Workspace) -> (usize, f64) {
 struct Walk<'a> {
     element: &'a Element,
     units: Units,
-    tables: &'a Rows,
-    dual_tables: &'a DualRows,
+    tables: DualRows<'a>,
     at: [f64; 3],
     /// The contact, its derivatives by the normal component, those with respect to parameters, and its normal force.
     contact: Contact<f64>,
@@ -207,7 +199,9 @@ struct Walk<'a> {
     normal: Normal,
     springs: Values,
     slip: Slips,
-    inverse: Both<super::tables::Matrix>,
+    inverse: Both<Matrix>,
+    /// Derivatives of the springs after a step by the parameters.
+    by_parameters: [[f64; 4]; SPRINGS],
     /// The derivative of the logarithm of the reference size by the largest normal component.
     by_top: f64,
 }
@@ -227,12 +221,11 @@ struct Taken {
 
 impl<'a> Walk<'a> {
     /// Pressed by a normal component.
-    fn new(element: &'a Element, units: Units, tables: (&'a Rows, &'a DualRows), top: f64) -> Walk<'a> {
+    fn new(element: &'a Element, units: Units, tables: DualRows<'a>, top: f64) -> Walk<'a> {
         let mut walk = Walk {
             element,
             units,
-            tables: tables.0,
-            dual_tables: tables.1,
+            tables,
             at: [0.0, 0.0, top],
             contact: Contact::NONE,
             slopes: Pressed::NONE,
@@ -241,6 +234,7 @@ impl<'a> Walk<'a> {
             springs: [[0.0; N]; SPRINGS / N],
             slip: Slips::NONE,
             inverse: [[[0.0; N]; N]; 2],
+            by_parameters: [[0.0; 4]; SPRINGS],
             by_top: 0.0,
         };
         walk.press(top);
@@ -258,7 +252,8 @@ impl<'a> Walk<'a> {
         self.at = to;
         if !closes {
             let energy = was_closed && requested.energy;
-            let dissipated = if energy { separated(self.tables, &from, &Pressed::NONE, path.by, &old) } else { 0.0 };
+            let dissipated =
+                if energy { separated(self.tables.values, &from, &Pressed::NONE, path.by, &old) } else { 0.0 };
             self.open();
             let motion = path.motion(&from, &from, true);
             return Taken { force: [0.0; 2], dissipated: dissipated * path.scale, old, motion, path, before, closed };
@@ -267,11 +262,11 @@ impl<'a> Walk<'a> {
             self.press(to[2]);
         }
         let motion = path.motion(&from, &self.contact, same);
-        let trial = trial(self.tables, &self.contact, &motion, &old);
-        self.slip.find(self.tables, &self.contact, &self.inverse, &motion, (&trial, &old), requested.tangent);
+        let trial = trial(self.tables.values, &self.contact, &motion, &old);
+        self.slip.find(self.tables.values, &self.contact, &self.inverse, &motion, (&trial, &old), requested.tangent);
         let contacts = [&from, &self.contact];
         let (force, dissipated) =
-            advance(self.tables, contacts, &motion, &self.slip, requested.energy, &mut self.springs);
+            advance(self.tables.values, contacts, &motion, &self.slip, requested.energy, &mut self.springs);
         let force = bounded(force, self.contact.now.load);
         Taken { force, dissipated: dissipated * path.scale, old, motion, path, before, closed }
     }
@@ -282,7 +277,7 @@ impl<'a> Walk<'a> {
         let now;
         [now, self.slopes] = Pressed::new(self.element, &self.units, input, &self.normal);
         let under_flat = under_flat(self.element, &self.units);
-        self.contact = Contact::press(self.tables, &now, under_flat, &mut self.inverse);
+        self.contact = Contact::press(self.tables.values, &now, under_flat, &mut self.inverse);
         self.derived = None;
     }
 
@@ -299,12 +294,10 @@ impl<'a> Walk<'a> {
         } else if fades {
             fade(workspace.derivatives);
         }
-        if !taken.closed[1] {
-            workspace.forces.fill(0.0);
-        } else if workspace.lanes == NARROW {
-            differentiate::<{ NARROW / 4 }, { NARROW / 4 + 1 }>(workspace, self, taken, samples);
+        if taken.closed[1] {
+            differentiate(workspace, self, taken, samples);
         } else {
-            differentiate::<{ WIDE / 4 }, { WIDE / 4 + 1 }>(workspace, self, taken, samples);
+            workspace.forces.fill(0.0);
         }
         if counts && let [_, Some(index), _] = samples {
             let basis = row(workspace.basis, workspace.size.coefficients(), index);
@@ -317,53 +310,41 @@ impl<'a> Walk<'a> {
     }
 }
 
-/// Columns of the springs in the workspace, beside their values at the start of a step.
-struct Columns<'a, const L: usize> {
+/// Derivatives of the parameters of a contact by the coefficients of the normal component.
+type Parameters = [[f64; 4]; PARAMETERS];
+
+/// Columns, and what follows from the derivatives by the parameters of the contact.
+#[inline(always)]
+fn with_parameters(mut columns: Columns, slopes: &[f64; 4], parameters: &Parameters) -> Columns {
+    for p in 0..PARAMETERS {
+        columns.0[0] = plus(columns.0[0], slopes[p], parameters[p]);
+    }
+    columns
+}
+
+/// Columns of the springs in the workspace, beside their values at the start of a step and their derivatives after it by the parameters.
+struct SpringColumns<'a> {
     values: &'a Values,
-    springs: &'a mut [[[f64; 4]; L]; SPRINGS],
-    /// Derivatives of the parameters of a contact by the coefficients.
-    parameters: &'a [[[f64; 4]; L]; PARAMETERS],
+    columns: &'a mut [[[f64; 4]; COLUMNS / 4]; SPRINGS],
+    slopes: &'a [[f64; 4]; SPRINGS],
+    parameters: &'a Parameters,
 }
 
-impl<const L: usize> Columns<'_, L> {
-    /// Columns of a number: derivatives by the parameters, which are in its first block, are added.
+impl Springs<Columns> for SpringColumns<'_> {
     #[inline(always)]
-    fn of<const M: usize>(&self, x: &Dual<M>) -> [[f64; 4]; L] {
-        let mut columns = [[0.0; 4]; L];
-        for (column, slopes) in columns.iter_mut().zip(x.0.iter().skip(1)) {
-            *column = *slopes;
-        }
-        let slopes = &x.0[0];
-        for p in 0..PARAMETERS {
-            for c in 0..L / 3 {
-                columns[c] = plus(columns[c], slopes[p], self.parameters[p][c]);
-            }
-        }
-        columns
-    }
-}
-
-/// With a block of the parameters: M = L + 1.
-impl<const L: usize, const M: usize> Springs<Dual<M>> for Columns<'_, L> {
-    const KEPT: bool = true;
-
-    #[inline(always)]
-    fn get(&self, place: usize) -> Dual<M> {
-        let mut dual = Dual::constant(0.0);
-        if let (Some(value), Some(columns)) = (self.values.as_flattened().get(place), self.springs.get(place)) {
-            dual = Dual::constant(*value);
-            for (slopes, column) in dual.0.iter_mut().skip(1).zip(columns) {
-                *slopes = *column;
-            }
-        }
-        dual
+    fn value(&self, place: usize) -> f64 {
+        self.values.as_flattened().get(place).copied().unwrap_or(0.0)
     }
 
     #[inline(always)]
-    fn put(&mut self, place: usize, x: Dual<M>) {
-        let columns = self.of(&x);
-        if let Some(place) = self.springs.get_mut(place) {
-            *place = columns;
+    fn get(&self, place: usize) -> Columns {
+        self.columns.get(place).map_or(Dual::constant(0.0), |columns| Dual(*columns))
+    }
+
+    #[inline(always)]
+    fn put(&mut self, place: usize, x: Columns) {
+        if let (Some(there), Some(slopes)) = (self.columns.get_mut(place), self.slopes.get(place)) {
+            *there = with_parameters(x, slopes, self.parameters).0;
         }
     }
 }
@@ -378,52 +359,12 @@ fn fade(derivatives: &mut [f64]) {
     }
 }
 
-/// A step in columns: the derivatives of both forces. Many columns have long code, which exists for AVX2 only.
-fn columns<const L: usize, const M: usize>(
-    tables: &DualRows,
-    contact: &Contact<Dual<1>>,
-    motion: &Motion<Dual<1>, Dual<M>>,
-    slip: &Slips,
-    springs: &mut Columns<L>,
-) -> Both<[[f64; 4]; L]> {
-    if 4 * L > NARROW {
-        let forces = on_avx2_only(
-            #[inline(always)]
-            || columns_kernel(tables, contact, motion, slip, springs),
-        );
-        return forces.unwrap_or([[[0.0; 4]; L]; 2]);
-    }
-    dispatch!(columns_kernel(tables, contact, motion, slip, springs))
-}
-
-#[inline(always)]
-fn columns_kernel<const L: usize, const M: usize>(
-    tables: &DualRows,
-    contact: &Contact<Dual<1>>,
-    motion: &Motion<Dual<1>, Dual<M>>,
-    slip: &Slips,
-    springs: &mut Columns<L>,
-) -> Both<[[f64; 4]; L]> {
-    let force = step(&tables, contact, motion, slip, springs);
-    [springs.of(&force[0]), springs.of(&force[1])]
-}
-
-/// Tables with their derivatives by the logarithm of the reference size, from those of a slightly larger and a smaller one.
-fn derive_tables(
-    element: &Element,
-    units: &Units,
-    tables: &Rows,
-    [larger, smaller]: [&mut Rows; 2],
-    dual_tables: &mut DualRows,
-) {
-    fill(larger, element, units, 1.0 + NEIGHBOUR);
+/// Tables of a slightly smaller reference size, and derivatives by its logarithm in place of the tables of a larger one.
+fn derive_tables(element: &Element, units: &Units, [slopes, smaller]: [&mut Rows; 2]) {
+    fill(slopes, element, units, 1.0 + NEIGHBOUR);
     fill(smaller, element, units, 1.0 - NEIGHBOUR);
-    let neighbours = larger.as_flattened().iter().zip(smaller.as_flattened());
-    let places = dual_tables.as_flattened_mut().iter_mut().zip(tables.as_flattened());
-    for ((place, value), (larger, smaller)) in places.zip(neighbours) {
-        let mut dual = Dual::<1>::constant(*value);
-        dual.0[0][ALIGNMENT] = (larger - smaller) * (0.5 / NEIGHBOUR);
-        [*place] = dual.0;
+    for (larger, smaller) in slopes.as_flattened_mut().iter_mut().zip(smaller.as_flattened()) {
+        *larger = (*larger - smaller) * (0.5 / NEIGHBOUR);
     }
 }
 
@@ -450,15 +391,15 @@ fn walk(element: &Element, workspace: &mut Workspace, output: HarmonicOutput) {
     let opens = workspace.samples.iter().any(|sample| !element.is_closed(sample[2]));
     let periods = if opens { 1 } else { periods };
     let (mut energy, mut largest_change) = (0.0, 0.0f64);
-    let memory = (core::mem::take(&mut workspace.tables), core::mem::take(&mut workspace.dual_tables));
-    if slides && let ([tables, larger, smaller, ..], [dual_tables, ..]) = (&mut *memory.0, &mut *memory.1) {
+    let memory = core::mem::take(&mut workspace.tables);
+    if slides && let [tables, slopes, smaller] = &mut *memory {
         fill(tables, element, &units, 1.0);
         if requested.tangent {
-            derive_tables(element, &units, tables, [larger, smaller], dual_tables);
+            derive_tables(element, &units, [slopes, smaller]);
             workspace.derivatives.fill(0.0);
             workspace.sums.fill(0.0);
         }
-        let mut walk = Walk::new(element, units, (tables, dual_tables), top);
+        let mut walk = Walk::new(element, units, DualRows { values: tables, slopes: (1.0, slopes) }, top);
         let mut before = None;
         for step in 0..=(periods + 1) * count {
             let index = (largest + step).checked_rem(count).unwrap_or(0);
@@ -481,7 +422,7 @@ fn walk(element: &Element, workspace: &mut Workspace, output: HarmonicOutput) {
     } else {
         without_friction(element, workspace.samples);
     }
-    (workspace.tables, workspace.dual_tables) = memory;
+    workspace.tables = memory;
     if let Some(dissipated) = dissipated {
         *dissipated = energy * unit * element.friction_coefficient * units.shift;
     }
@@ -515,10 +456,9 @@ fn write_jacobian(workspace: &Workspace, unit: Option<f64>, jacobian: &mut [f64]
     let (n, per_sample) = (workspace.coefficients(), 1.0 / workspace.size.samples as f64);
     let columns = workspace.forces.len() / 2;
     let weight = |c: usize| if c == 0 { per_sample } else { 2.0 * per_sample };
-    let lanes = if workspace.lanes == NARROW { NARROW } else { WIDE };
     let lane = |j: usize| {
         let (component, coefficient) = ((j / n + 1) % 3, j % n);
-        coefficient / (lanes / 3) * lanes + component * (lanes / 3) + coefficient % (lanes / 3)
+        coefficient / 4 * COLUMNS + component * 4 + coefficient % 4
     };
     for (j, column) in jacobian.chunks_exact_mut(3 * n).enumerate() {
         for (c, place) in column.iter_mut().enumerate().take(2 * n) {
@@ -560,46 +500,56 @@ fn accumulate(sums: &mut [f64], basis: &[f64], forces: &[f64]) {
 }
 
 /// Derivatives of the springs and of the tangential forces at the end of a step between samples.
-fn differentiate<const L: usize, const M: usize>(
-    workspace: &mut Workspace,
-    walk: &mut Walk,
-    taken: &Taken,
-    samples: [Option<usize>; 3],
-) {
+fn differentiate(workspace: &mut Workspace, walk: &mut Walk, taken: &Taken, samples: [Option<usize>; 3]) {
     let n = workspace.coefficients();
     let [start, end, top] = samples.map(|index| index.map_or(&[][..], |index| row(workspace.basis, n, index)));
     let at = |basis: &[f64], c: usize| basis.get(c).copied().unwrap_or(0.0);
     let per_scale = 1.0 / walk.element.input_scale();
     let Taken { motion, path, before, old, .. } = taken;
-    if walk.derived.is_none() {
-        walk.derived = Some(derive(&walk.contact, walk.dual_tables, &walk.slopes));
-    }
-    let Some(contact) = &walk.derived else { return };
-    let mut shift = motion.before.map(Dual::constant);
-    shift.iter_mut().zip(before.shift).for_each(|(shift, slope)| shift.0[0][START] = slope);
+    let derived = walk.derived.get_or_insert_with(|| walk.contact.derived(&walk.tables, &walk.slopes));
+    let mut dual = Motion {
+        before: motion.before.map(Dual::constant),
+        by: motion.by.map(Dual::constant),
+        constant_load: motion.constant_load,
+    };
+    dual.before.iter_mut().zip(before.shift).for_each(|(shift, slope)| shift.0[0][START] = slope);
+    let slopes = &mut walk.by_parameters;
+    let force = derivatives(
+        &walk.tables,
+        (derived, &walk.inverse),
+        &dual,
+        &walk.slip,
+        &mut Derivatives { values: old, slopes },
+    );
+    // What the bound makes of derivatives of the force.
+    let [x, y] = force.map(|force| force.value());
+    let within =
+        bounded([Dual([[1.0, 0.0, 0.0, x]]), Dual([[0.0, 1.0, 0.0, y]])], Dual::constant(walk.contact.now.load));
+    let force = bounded(force, derived.now.load);
     let (forces_x, forces_y) = workspace.forces.split_at_mut(workspace.forces.len() / 2);
-    let blocks = workspace.derivatives.as_chunks_mut::<4>().0.as_chunks_mut::<L>().0;
+    let blocks = workspace.derivatives.as_chunks_mut::<4>().0.as_chunks_mut::<{ COLUMNS / 4 }>().0;
     let memories = blocks.as_chunks_mut::<SPRINGS>().0.iter_mut();
     let [forces_x, forces_y] = [forces_x, forces_y].map(|forces| forces.as_chunks_mut::<4>().0.as_chunks_mut().0);
-    for (block, (memory, (x, y))) in memories.zip(forces_x.iter_mut().zip(forces_y)).enumerate() {
-        let mut by = motion.by.map(Dual::<M>::constant);
-        let mut parameters = [[[0.0; 4]; L]; PARAMETERS];
-        let each = 4 * L / 3;
-        for c in 0..each.min(n - block * each) {
-            let (coefficient, part, lane) = (block * each + c, c / 4, c % 4);
-            let (from, to) = (at(start, coefficient), at(end, coefficient));
+    for (block, (columns, (to_x, to_y))) in memories.zip(forces_x.iter_mut().zip(forces_y)).enumerate() {
+        let (mut by, mut parameters) = ([Columns::constant(0.0); 2], [[0.0; 4]; PARAMETERS]);
+        for lane in 0..4.min(n - 4 * block) {
+            let (from, to) = (at(start, 4 * block + lane), at(end, 4 * block + lane));
             for k in 0..2 {
-                by[k].0[1 + part][lane] =
-                    path.per_input[k][0] * (per_scale * from) + path.per_input[k][1] * (per_scale * to);
-                by[k].0[1 + (1 + k) * (L / 3) + part][lane] = path.per_distance * (to - from);
+                by[k].0[0][lane] = path.per_input[k][0] * (per_scale * from) + path.per_input[k][1] * (per_scale * to);
+                by[k].0[1 + k][lane] = path.per_distance * (to - from);
             }
             // The load at the start of the first step is that of the largest one.
-            let [from, to, top] = [from, to, at(top, coefficient)].map(|input| per_scale * input);
-            parameters[START][part][lane] = if start.is_empty() { top } else { from };
-            (parameters[END][part][lane], parameters[ALIGNMENT][part][lane]) = (to, walk.by_top * top);
+            let [from, to, top] = [from, to, at(top, 4 * block + lane)].map(|input| per_scale * input);
+            parameters[START][lane] = if start.is_empty() { top } else { from };
+            (parameters[END][lane], parameters[ALIGNMENT][lane]) = (to, walk.by_top * top);
         }
-        let motion = Motion { before: shift, by, constant_load: motion.constant_load };
-        let mut springs = Columns { values: old, springs: memory, parameters: &parameters };
-        [*x, *y] = columns(walk.dual_tables, contact, &motion, &walk.slip, &mut springs);
+        let motion = Motion { before: motion.before, by, constant_load: motion.constant_load };
+        let mut springs = SpringColumns { values: old, columns, slopes, parameters: &parameters };
+        let (rows, contact, slip) = (walk.tables.values, (&walk.contact, &walk.inverse), &walk.slip);
+        let [x, y] = dispatch!(step(&rows, contact, &motion, slip, &mut springs));
+        for (k, to) in [to_x, to_y].into_iter().enumerate() {
+            let [by_x, by_y, ..] = within[k].0[0];
+            *to = with_parameters(x.scale(by_x) + y.scale(by_y), &force[k].0[0], &parameters).0;
+        }
     }
 }

@@ -1,4 +1,4 @@
-//! Numbers over which the law is written: f64, and dual numbers, a value with derivatives.
+//! Numbers over which the law is written: f64, dual numbers, which are a value with derivatives, and derivatives of known values.
 
 use crate::simd::plus;
 use core::ops::{Add, Mul, Sub};
@@ -21,11 +21,12 @@ macro_rules! both {
 
 pub(crate) use both;
 
-/// A number of the law. Guards and choices depend on the value only.
-pub(crate) trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
+/// A number of the law.
+pub(crate) trait Linear: Copy + Add<Output = Self> + Sub<Output = Self> {
     /// Whether it has derivatives.
     const DERIVED: bool;
     fn constant(value: f64) -> Self;
+    /// The value; 0 if it is known elsewhere.
     fn value(&self) -> f64;
     fn scale(self, factor: f64) -> Self;
     /// A function of the number, from its value and its derivative.
@@ -33,7 +34,10 @@ pub(crate) trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Outp
 
     /// `self += x factor`
     fn add_scaled(&mut self, x: &Self, factor: f64);
+}
 
+/// A number that has its value. Guards and choices depend on the value only.
+pub(crate) trait Real: Linear + Mul<Output = Self> {
     /// The number, or another one that is larger: guards divisors, as the compiler may divide before it compares.
     #[inline(always)]
     fn at_least(self, least: f64) -> Self {
@@ -55,16 +59,39 @@ pub(crate) trait Real: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Outp
     }
 }
 
-/// Numbers that those of a contact scale: the latter have the first of their derivatives only.
-pub(crate) trait Over<A>: Real {
+/// Numbers that those of a contact scale.
+pub(crate) trait Over<A>: Linear {
     fn minus(self, a: A) -> Self;
     fn times(self, a: A) -> Self;
 
+    /// The product of two numbers, of which these are the values.
+    fn product(self, other: Self, values: [f64; 2]) -> Self;
+
     /// `self += x a`
-    fn add_product(&mut self, x: &Self, a: A);
+    #[inline(always)]
+    fn add_product(&mut self, x: &Self, a: A) {
+        *self = *self + x.times(a);
+    }
 }
 
-impl Real for f64 {
+impl<A: Real> Over<A> for A {
+    #[inline(always)]
+    fn minus(self, a: A) -> A {
+        self - a
+    }
+
+    #[inline(always)]
+    fn times(self, a: A) -> A {
+        self * a
+    }
+
+    #[inline(always)]
+    fn product(self, other: A, _: [f64; 2]) -> A {
+        self * other
+    }
+}
+
+impl Linear for f64 {
     const DERIVED: bool = false;
 
     #[inline(always)]
@@ -93,24 +120,10 @@ impl Real for f64 {
     }
 }
 
-impl Over<f64> for f64 {
-    #[inline(always)]
-    fn minus(self, a: f64) -> f64 {
-        self - a
-    }
+impl Real for f64 {}
 
-    #[inline(always)]
-    fn times(self, a: f64) -> f64 {
-        self * a
-    }
-
-    #[inline(always)]
-    fn add_product(&mut self, x: &f64, a: f64) {
-        *self += x * a;
-    }
-}
-
-/// Derivatives and, in the last lane of the first block, a value: blocks of four lanes are what the compiler makes vectors of.
+/// Derivatives in blocks of four lanes, which the compiler makes vectors of. The last lane of a single block is the value; several blocks
+/// have none.
 #[derive(Debug, Clone, Copy)]
 #[repr(align(32))]
 pub(crate) struct Dual<const B: usize>(pub [[f64; 4]; B]);
@@ -121,19 +134,14 @@ const VALUE: usize = 3;
 impl<const B: usize> Dual<B> {
     #[inline(always)]
     fn with_value(mut self, value: f64) -> Self {
-        self.0[0][VALUE] = value;
-        self
-    }
-
-    /// Adds the derivatives of a number of a contact, times a factor.
-    #[inline(always)]
-    fn plus_slopes(mut self, factor: f64, Dual([[x, y, z, _]]): Dual<1>) -> Self {
-        self.0[0] = plus(self.0[0], factor, [x, y, z, 0.0]);
+        if B == 1 {
+            self.0[0][VALUE] = value;
+        }
         self
     }
 }
 
-impl<const B: usize> Real for Dual<B> {
+impl<const B: usize> Linear for Dual<B> {
     const DERIVED: bool = true;
 
     #[inline(always)]
@@ -143,7 +151,7 @@ impl<const B: usize> Real for Dual<B> {
 
     #[inline(always)]
     fn value(&self) -> f64 {
-        self.0[0][VALUE]
+        if B == 1 { self.0[0][VALUE] } else { 0.0 }
     }
 
     #[inline(always)]
@@ -165,6 +173,28 @@ impl<const B: usize> Real for Dual<B> {
         for b in 0..B {
             self.0[b] = plus(self.0[b], factor, x.0[b]);
         }
+    }
+}
+
+impl Real for Dual<1> {}
+
+/// Derivatives of known values by what a contact does not depend on.
+impl<const B: usize> Over<f64> for Dual<B> {
+    #[inline(always)]
+    fn minus(self, _: f64) -> Self {
+        self
+    }
+
+    #[inline(always)]
+    fn times(self, a: f64) -> Self {
+        self.scale(a)
+    }
+
+    #[inline(always)]
+    fn product(self, other: Self, [value, other_value]: [f64; 2]) -> Self {
+        let mut product = self.scale(other_value);
+        product.add_scaled(&other, value);
+        product
     }
 }
 
@@ -192,32 +222,12 @@ impl<const B: usize> Sub for Dual<B> {
     }
 }
 
-impl<const B: usize> Mul for Dual<B> {
+impl Mul for Dual<1> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
         let (value, mut product) = (self.value(), self.scale(other.value()));
         product.add_scaled(&other, value);
         product.with_value(value * other.value())
-    }
-}
-
-/// The numbers of a contact have one block.
-impl<const B: usize> Over<Dual<1>> for Dual<B> {
-    #[inline(always)]
-    fn minus(mut self, a: Dual<1>) -> Self {
-        let ([x, y, z, w], [p, q, r, s]) = (self.0[0], a.0[0]);
-        self.0[0] = [x - p, y - q, z - r, w - s];
-        self
-    }
-
-    #[inline(always)]
-    fn times(self, a: Dual<1>) -> Self {
-        self.scale(a.value()).plus_slopes(self.value(), a)
-    }
-
-    #[inline(always)]
-    fn add_product(&mut self, x: &Self, a: Dual<1>) {
-        *self = *self + x.times(a);
     }
 }

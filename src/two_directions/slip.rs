@@ -52,15 +52,16 @@ pub(crate) struct Slips {
     pub end: Slip,
     /// The part in which the contact slides far.
     pub slides: f64,
-    /// The springs at the end.
+    /// The springs of the trial state, and at the end.
+    pub trial: Both<Row<f64>>,
     pub v: Both<Row<f64>>,
     pub fine: FineSlips,
     /// Tractions at the start of the step before.
     start: Both<Row<f64>>,
 }
 
-/// Fine springs that slip, each on its own: e, the direction of v/limit, and 1/(x y |v/limit|) with the limits x and y, which is 0 for a spring
-/// that sticks.
+/// Fine springs, of which each slips on its own: e, the direction of v/limit, and 1/(x y |v/limit|) with the limits x and y, negative for a
+/// spring that sticks.
 pub(crate) struct FineSlips([[Row<f64>; FINE / N]; 3]);
 
 impl FineSlips {
@@ -99,7 +100,7 @@ pub(crate) fn direction(v: Both<f64>, [x, y]: Both<f64>) -> [f64; 3] {
     let square = across * across + along * along;
     // A sum: of a maximum, the compiler would divide by what is less.
     let per_length = 1.0 / (square + TINY).sqrt();
-    [across * per_length, along * per_length, if square > bound * bound { per_length } else { 0.0 }]
+    [across * per_length, along * per_length, if square > bound * bound { per_length } else { -per_length }]
 }
 
 /// Points that slip, and what derivatives need.
@@ -111,7 +112,7 @@ pub(crate) struct Slip {
     pub e: Both<Row<f64>>,
     pub sigma: Both<Row<f64>>,
     /// The springs after slip, and r of the points that stick.
-    v: Both<Row<f64>>,
+    pub v: Both<Row<f64>>,
     r: Both<Row<f64>>,
     /// K, and the inverse of the derivative of the residual by the angles, as `[m][i]`.
     pub k: Both<Matrix>,
@@ -144,6 +145,7 @@ impl Slips {
         middle: Slip::NONE,
         end: Slip::NONE,
         slides: 0.0,
+        trial: [[0.0; N]; 2],
         v: [[0.0; N]; 2],
         fine: FineSlips::NONE,
         start: [[0.0; N]; 2],
@@ -167,13 +169,14 @@ impl Slips {
         let slips = self;
         dispatch!({
             let (end, start) = ((contact.last + 1).min(N), &trial.start);
-            (slips.middle.set, slips.end.set, slips.slides, slips.v) = (0, 0, 0.0, trial.v);
+            (slips.middle.set, slips.end.set, slips.slides) = (0, 0, 0.0);
+            (slips.trial, slips.v) = (trial.v, trial.v);
             slips.fine.find(t, contact, motion, old);
             // Under a constant load, the middle sticks if the end does.
             if trial.sticks && motion.constant_load {
                 return;
             }
-            slips.slides = slid(&t, contact, &trial.v);
+            slips.slides = slid(&t, contact, &trial.v, &trial.v);
             let theta = 0.5 * (1.0 + slips.slides);
             (slips.middle.level, slips.end.level) = ([1.0; N], [1.0; N]);
             if !motion.constant_load {
@@ -405,13 +408,13 @@ impl Slip {
             let mut renewed = [false; 2];
             loop {
                 let ([e_x, e_y], level) = (self.e, self.level);
+                let mut excess = *r_trial;
                 for k in 0..2 {
-                    let mut excess = r_trial[k];
                     for i in 0..N {
-                        excess[i] = slips[i] * (excess[i] - level[i] * self.e[k][i]);
+                        excess[k][i] = slips[i] * (excess[k][i] - level[i] * self.e[k][i]);
                     }
-                    self.sigma[k] = times(&self.k[k], [first, end], &excess);
                 }
+                self.sigma = times([&self.k[0], &self.k[1]], [first, end], &excess);
                 let (mut residual, mut diagonal) = ([0.0; N], [0.0; N]);
                 let [s_x, s_y] = self.sigma;
                 for i in 0..N {
@@ -438,7 +441,7 @@ impl Slip {
                 if done {
                     return true;
                 }
-                let turns = times(&self.inverse, [first, end], &residual);
+                let [turns] = times([&self.inverse], [first, end], &[residual]);
                 let (before, mut largest) = (turn, 0.0);
                 for i in 0..N {
                     let size = slips[i] * turns[i].abs();
@@ -584,13 +587,15 @@ fn dot(x: &Row<f64>, y: &Row<f64>) -> f64 {
     (sums[0] + sums[1]) + (sums[2] + sums[3])
 }
 
-/// Σ x_m matrix[m][i]: rows of points that stick are 0.
+/// Σ x_m matrix[m][i] of several matrices: rows of points that stick are 0.
 #[inline(always)]
-fn times(matrix: &Matrix, [first, end]: [usize; 2], x: &Row<f64>) -> Row<f64> {
-    let mut y = [0.0; N];
+fn times<const K: usize>(matrices: [&Matrix; K], [first, end]: [usize; 2], x: &[Row<f64>; K]) -> [Row<f64>; K] {
+    let mut y = [[0.0; N]; K];
     for m in first..end {
-        for i in 0..N {
-            y[i] += x[m] * matrix[m][i];
+        for k in 0..K {
+            for i in 0..N {
+                y[k][i] += x[k][m] * matrices[k][m][i];
+            }
         }
     }
     y

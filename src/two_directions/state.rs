@@ -12,12 +12,14 @@
 
 use super::contact::{Contact, Pressed};
 use super::path::{LONGEST, Path};
-use super::scalar::{Dual, Real};
+use super::scalar::{Dual, Linear};
 use super::slip::Slips;
-use super::step::{advance, bounded, separated, step};
+use super::step::{advance, bounded, derivatives, separated};
 use super::stick;
-use super::tables::{Both, END, FINE, MOST_PARTS, Matrix, N, ROWS, Row, Rows, Units, fill, starts, under_flat};
-use super::trial::{FINE_SPRING, Motion, SPRINGS, Values, trial};
+use super::tables::{
+    Both, DualRows, END, FINE, MOST_PARTS, Matrix, N, ROWS, Row, Rows, Units, fill, starts, under_flat,
+};
+use super::trial::{Derivatives, FINE_SPRING, Motion, SPRINGS, Values, trial};
 use super::{Requested, Step, TwoDirections};
 use crate::element::{Directions, Element, Normal};
 use crate::error::Error;
@@ -175,9 +177,12 @@ impl Law for TwoDirections {
                 by
             });
             let motion = Motion { before: motion.before.map(Dual::constant), by, constant_load: same };
-            let force = tangent(memory.tables, &contact, &slopes, &motion, &slip, memory.springs);
+            let rows = DualRows::without_slopes(memory.tables);
+            let contact = contact.derived(&rows, &slopes);
+            let mut springs = Derivatives { values: memory.springs, slopes: &mut [] };
+            let force = derivatives(&rows, (&contact, memory.inverse), &motion, &slip, &mut springs);
             result.tangent = tangent_of(
-                force.map(|force| force.0[0]),
+                bounded(force, contact.now.load).map(|force| force.0[0]),
                 [force_unit, force_unit / element.input_scale()],
                 normal.load_slope,
             );
@@ -370,19 +375,4 @@ fn tangent_of(slopes: Both<[f64; 4]>, [per_distance, per_input]: [f64; 2], load_
     let [[w_x, x_x, x_y, _], [w_y, y_x, y_y, _]] = slopes;
     let [xx, yx, xy, yy] = [x_x, y_x, x_y, y_y].map(|slope| per_distance * slope);
     [xx, yx, 0.0, xy, yy, 0.0, per_input * w_x, per_input * w_y, load_slope]
-}
-
-/// The force of a step with its derivatives: by the normal component, u and v. On any processor in code for the baseline, which is half
-/// the code and, with one block of derivatives, about as fast.
-#[inline(never)]
-fn tangent(
-    tables: &Rows,
-    contact: &Contact<f64>,
-    slopes: &Pressed<f64>,
-    motion: &Motion<Dual<1>, Dual<1>>,
-    slip: &Slips,
-    mut springs: &Values,
-) -> Both<Dual<1>> {
-    let contact = contact.derived(&tables, slopes);
-    step(&tables, &contact, motion, slip, &mut springs)
 }

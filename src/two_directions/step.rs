@@ -2,22 +2,35 @@
 //!
 //! The springs stick at first; a load that rises engages new ones, which follow the part of the motion from there on. If |r| then exceeds 1
 //! at a point, the points slip: `slip` finds which and how, and the springs, of values. Derivatives are those of one more step of Newton's
-//! method from there, in dual numbers. The end of the step is written once for both: the fine springs, with limits of their own, and the
-//! force.
+//! method from there: by what the contact depends on in dual numbers, by what the motion and the springs depend on as a linear function. The
+//! end of the step is written once for values and derivatives: the fine springs, with limits of their own, and the force.
 
 use super::contact::{Contact, Pressed};
-use super::scalar::{Over, Real, both};
+use super::scalar::{Dual, Linear, Over, Real, both};
 use super::slip::{SLIPPED, Slip, Slips};
-use super::tables::{Both, FINE, INSIDE, Matrix, N, Row, Rows, SHIFT, Tables, starts};
-use super::trial::{FINE_SPRING, LEAST, Motion, Springs, Values, limits_before, moved, slid};
+use super::tables::{Both, DualRows, FINE, INSIDE, Matrix, N, Row, Rows, SHIFT, Tables, starts};
+use super::trial::{Derivatives, FINE_SPRING, LEAST, Motion, Springs, Values, limits_before, moved, slid};
 use crate::shape::TINY;
 use crate::simd::dispatch;
 
-/// A step whose slip is known, in dual numbers: the force.
+/// The derivatives of a step whose slip is known, by parameters of the contact and by what the motion depends on: of the force, which is not
+/// yet bounded, and of the springs.
+#[inline(never)]
+pub(crate) fn derivatives(
+    t: &DualRows,
+    contact: (&Contact<Dual<1>>, &Both<Matrix>),
+    motion: &Motion<Dual<1>, Dual<1>>,
+    slip: &Slips,
+    springs: &mut Derivatives,
+) -> Both<Dual<1>> {
+    dispatch!(step(t, contact, motion, slip, springs))
+}
+
+/// A step whose slip is known, in numbers with derivatives, of a contact with its C⁻¹: the force, which is not yet bounded.
 #[inline(always)]
-pub(crate) fn step<A: Over<A>, X: Over<A>, T: Tables<A>, S: Springs<X>>(
+pub(crate) fn step<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     t: &T,
-    c: &Contact<A>,
+    (c, inverse): (&Contact<A>, &Both<Matrix>),
     motion: &Motion<A, X>,
     slip: &Slips,
     s: &mut S,
@@ -30,48 +43,56 @@ pub(crate) fn step<A: Over<A>, X: Over<A>, T: Tables<A>, S: Springs<X>>(
             v[k][j] = s.get(k * N + j) + moved(c.limit(t, k, start[j]), rise[k], motion.by[k]);
         }
     }
-    let slides = if slip.slides > 0.0 { slid(t, c, &v) } else { zero };
-    let (far, one) = (slip.slides > 0.0, A::constant(1.0));
-    let theta = (slides + X::constant(1.0)).scale(0.5);
+    let far = slip.slides > 0.0;
+    let slides = if far { slid(t, c, &v, &slip.trial) } else { zero };
+    let part = 0.5 * (1.0 + slip.slides);
+    let theta = slides.chain(part, 0.5);
     for stage in 0..2 {
         let (middle, now) = if stage == 0 { (true, &slip.middle) } else { (false, &slip.end) };
         if now.set == 0 {
             continue;
         }
         let first = (now.set.trailing_zeros() as usize).min(end);
-        let mut limits = Limits { start: [one; N], rise: [one; N], part: None };
-        if middle {
-            let before = limits_before(t, c, rise[0]);
-            limits.part = if far { Some(theta) } else { None };
-            for i in first..end {
-                limits.rise[i] = one - before[i];
-                limits.start[i] = if far { before[i] } else { (before[i] + one).scale(0.5) };
-            }
-            in_part(&mut v, s, limits.part, 0.5, [first, end]);
+        let mut level = None;
+        if A::DERIVED || far {
+            level = Some([X::constant(1.0); N]);
         }
-        slide(t, c, &limits, &mut v, now);
         if middle {
-            let per = if far { Some(theta.inverse()) } else { None };
-            in_part(&mut v, s, per, 2.0, [first, end]);
+            if let Some(level) = &mut level {
+                let before = limits_before(t, c, rise[0]);
+                for i in first..end {
+                    level[i] = level[i].times(before[i]) + theta.times(A::constant(1.0) - before[i]);
+                }
+            }
+            in_part(&mut v, &slip.trial, s, (far.then_some(theta), part), [first, end]);
+        }
+        slide(t, c, inverse, level.as_ref(), &mut v, now);
+        if middle {
+            let per = 1.0 / part;
+            in_part(&mut v, &now.v, s, (far.then_some(theta.chain(per, -per * per)), per), [first, end]);
         }
     }
-    bounded(finish(t, c, motion, slip, slides, v, s), c.now.load)
+    finish(t, c, motion, slip, slides, &mut v, s)
 }
 
-/// Springs after a part of their motion, which is a constant if none is given.
+/// Springs, with these values, after a part of their motion, which is a constant if only its value is given.
 #[inline(always)]
-fn in_part<X: Real, S: Springs<X>>(
+fn in_part<A: Real, X: Over<A>, S: Springs<X>>(
     v: &mut Both<Row<X>>,
+    values: &Both<Row<f64>>,
     s: &S,
-    part: Option<X>,
-    constant: f64,
+    (part, value): (Option<X>, f64),
     [first, end]: [usize; 2],
 ) {
     for k in 0..2 {
         for j in first..end.min(N) {
             let old = s.get(k * N + j);
             let by = v[k][j] - old;
-            v[k][j] = old + if let Some(part) = part { by * part } else { by.scale(constant) };
+            v[k][j] = old
+                + match part {
+                    Some(part) => by.product(part, [values[k][j] - s.value(k * N + j), value]),
+                    None => by.scale(value),
+                };
         }
     }
 }
@@ -84,22 +105,19 @@ fn finish<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     motion: &Motion<A, X>,
     slip: &Slips,
     part: X,
-    mut v: Both<Row<X>>,
+    v: &mut Both<Row<X>>,
     s: &mut S,
 ) -> Both<X> {
     let (zero, start, end) = (X::constant(0.0), starts(c.under_flat), (c.last + 1).min(N));
     let rise = both!(|k| c.now.shift[k] - motion.before[k]);
     let mut force = [zero; 2];
-    let far = if slip.slides > 0.0 { Some(Far::new(t, c, part, &v)) } else { None };
+    let far = if slip.slides > 0.0 { Some(Far::new(t, c, part, v, slip)) } else { None };
     for k in 0..2 {
         for j in 0..end {
             if let Some(far) = &far {
-                v[k][j] = far.blend(k, v[k][j], c.limit(t, k, start[j]));
+                v[k][j] = far.blend(k, v[k][j], slip.v[k][j], c.limit(t, k, start[j]));
             }
             force[k].add_product(&v[k][j], c.stiffness(t, k, j));
-        }
-        if !S::KEPT {
-            continue;
         }
         for j in 0..N {
             s.put(k * N + j, v[k][j]);
@@ -125,11 +143,9 @@ fn finish<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     v = returned(v, &limit, slip.fine.at(INSIDE), far.as_ref());
     for k in 0..2 {
         force[k].add_product(&v[k], c.fine_inside(k));
-        if S::KEPT {
-            s.put(FINE_SPRING + k * FINE + INSIDE, v[k]);
-            for f in part + 1..INSIDE {
-                s.put(FINE_SPRING + k * FINE + f, zero);
-            }
+        s.put(FINE_SPRING + k * FINE + INSIDE, v[k]);
+        for f in part + 1..INSIDE {
+            s.put(FINE_SPRING + k * FINE + f, zero);
         }
     }
     force
@@ -137,10 +153,10 @@ fn finish<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
 
 /// A force within Coulomb's bound.
 #[inline(always)]
-pub(crate) fn bounded<A: Real, X: Over<A>>(force: Both<X>, bound: A) -> Both<X> {
+pub(crate) fn bounded<X: Real>(force: Both<X>, bound: X) -> Both<X> {
     let square = force[0] * force[0] + force[1] * force[1];
     if square.value() > bound.value() * bound.value() {
-        let scale = square.at_least(TINY).sqrt().inverse().times(bound);
+        let scale = square.at_least(TINY).sqrt().inverse() * bound;
         return both!(|k| force[k] * scale);
     }
     force
@@ -148,33 +164,41 @@ pub(crate) fn bounded<A: Real, X: Over<A>>(force: Both<X>, bound: A) -> Both<X> 
 
 /// Gross slip in the direction of the force, `v = (S_b - S) e`, into which springs of a contact that slides far are blended.
 pub(crate) struct Far<X> {
-    rest: X,
+    rest: (X, f64),
     slides: Both<X>,
 }
 
-impl<X: Real> Far<X> {
+impl<X: Linear> Far<X> {
     #[inline(always)]
-    fn new<A: Real>(t: &impl Tables<A>, c: &Contact<A>, part: X, v: &Both<Row<X>>) -> Far<X>
+    fn new<A: Real>(t: &impl Tables<A>, c: &Contact<A>, part: X, v: &Both<Row<X>>, slip: &Slips) -> Far<X>
     where
         X: Over<A>,
     {
-        let mut force = [X::constant(0.0); 2];
+        let (mut force, mut values) = ([X::constant(0.0); 2], [0.0; 2]);
         for k in 0..2 {
             for j in 0..(c.last + 1).min(N) {
-                force[k].add_product(&v[k][j], c.stiffness(t, k, j));
+                let stiffness = c.stiffness(t, k, j);
+                force[k].add_product(&v[k][j], stiffness);
+                values[k] += slip.v[k][j] * stiffness.value();
             }
         }
-        let square = force[0] * force[0] + force[1] * force[1];
-        let per = part * square.at_least(TINY).sqrt().inverse();
-        Far { rest: X::constant(1.0) - part, slides: both!(|k| force[k] * per) }
+        let square = values[0] * values[0] + values[1] * values[1];
+        let per = 1.0 / if square > TINY { square } else { TINY }.sqrt();
+        let along = force[0].scale(values[0] * per) + force[1].scale(values[1] * per);
+        let per_length = part.product(along.chain(per, -per * per), [slip.slides, per]);
+        Far {
+            rest: (X::constant(1.0) - part, 1.0 - slip.slides),
+            slides: both!(|k| force[k].product(per_length, [values[k], slip.slides * per])),
+        }
     }
 
+    /// A spring with this value.
     #[inline(always)]
-    fn blend<A: Real>(&self, k: usize, v: X, limit: A) -> X
+    fn blend<A: Real>(&self, k: usize, v: X, value: f64, limit: A) -> X
     where
         X: Over<A>,
     {
-        v * self.rest + self.slides[k].times(limit)
+        v.product(self.rest.0, [value, self.rest.1]) + self.slides[k].times(limit)
     }
 }
 
@@ -186,9 +210,9 @@ pub(crate) fn returned<A: Real, X: Over<A>>(
     [e_x, e_y, per_length]: [f64; 3],
     far: Option<&Far<X>>,
 ) -> Both<X> {
-    let mut v = v;
-    if per_length > 0.0 {
-        let [x, y] = both!(|k| limit[k].value());
+    let (mut v, [x, y]) = (v, both!(|k| limit[k].value()));
+    let slips = per_length > 0.0;
+    if slips {
         let mut turn = X::constant(0.0);
         if X::DERIVED {
             let [along, across] = [e_x * per_length, e_y * per_length];
@@ -199,108 +223,113 @@ pub(crate) fn returned<A: Real, X: Over<A>>(
         v = [turn.scale(-e_y * x).minus(limit[0].scale(-e_x)), turn.scale(e_x * y).minus(limit[1].scale(-e_y))];
     }
     if let Some(far) = far {
-        v = both!(|k| far.blend(k, v[k], limit[k]));
+        let length = if slips { x * y } else { -1.0 / per_length };
+        let values = [e_x * length / y, e_y * length / x];
+        v = both!(|k| far.blend(k, v[k], values[k], limit[k]));
     }
     v
 }
 
-/// The limits of the points: those at the start, and a part of their rise.
-struct Limits<A, X> {
-    start: Row<A>,
-    rise: Row<A>,
-    part: Option<X>,
-}
-
-/// Springs from the tractions at the points from one on, in place: `v_i = [p_i r_i + Σ_{j>i} (G_i,j-1 - G_ij) v_j]/G_ii`.
+/// Springs that slip to the limits of their points, if these have derivatives: by a step of Newton's method from the slip, with C⁻¹.
 #[inline(always)]
-fn springs_of<A: Real, X: Over<A>, T: Tables<A>>(t: &T, c: &Contact<A>, k: usize, first: usize, r: &mut Row<X>) {
-    let end = (c.last + 1).min(N);
-    for i in (first..end).rev() {
-        let (mut sum, mut before) = (r[i].times(c.pressure[i]), c.map(t, k, i, i));
-        for j in i + 1..end {
-            let map = c.map(t, k, j, i);
-            sum.add_product(&r[j], before - map);
-            before = map;
-        }
-        r[i] = sum.times(c.per_map(t, k, i));
-    }
-}
-
-/// The slip at the points from one on that moves springs by v, in place: `C'σ = w v`.
-#[inline(always)]
-fn slip_of<A: Real, X: Over<A>, T: Tables<A>>(t: &T, c: &Contact<A>, k: usize, first: usize, v: &mut Row<X>) {
-    let end = (c.last + 1).min(N);
-    for i in first..end {
-        let mut sum = v[i].times(c.stiffness(t, k, i));
-        for j in first..i {
-            sum.add_product(&v[j], c.map(t, k, i - 1, j) - c.map(t, k, i, j));
-        }
-        v[i] = sum.times(c.per_map(t, k, i));
-    }
-    for i in first..end {
-        v[i] = v[i].times(c.pressure[i]);
-    }
-}
-
-/// Springs that slip to the limits of their points, with derivatives: by a step of Newton's method from the slip.
-#[inline(always)]
-fn slide<A: Over<A>, X: Over<A>, T: Tables<A>>(
+fn slide<A: Real, X: Over<A>, T: Tables<A>>(
     t: &T,
     c: &Contact<A>,
-    limits: &Limits<A, X>,
+    inverse: &Both<Matrix>,
+    level: Option<&Row<X>>,
     v: &mut Both<Row<X>>,
     slip: &Slip,
 ) {
     let (zero, end) = (X::constant(0.0), (c.last + 1).min(N));
     let first = (slip.set.trailing_zeros() as usize).min(end);
     if !slip.without_gaps(end) {
-        let mut level = [zero; N];
-        for i in first..end {
-            level[i] = X::constant(1.0).times(limits.start[i]);
-            if let Some(part) = limits.part {
-                level[i] = level[i] + part.times(limits.rise[i]);
-            }
-        }
-        slide_with_gaps(t, c, &level, v, slip, [first, end]);
+        slide_with_gaps(t, c, level, v, slip, [first, end]);
         return;
     }
-    let mut residual = [zero; N];
+    let mut own = None;
+    if let Some(level) = level {
+        own = Some(springs_at_limits(t, c, inverse, level, slip, [first, end]));
+    }
+    // The forces of what slips.
     for k in 0..2 {
-        let mut own = [A::constant(0.0); N];
-        for i in first..end {
-            own[i] = limits.start[i].scale(slip.e[k][i]);
-        }
-        springs_of(t, c, k, first, &mut own);
-        for i in first..end {
-            v[k][i] = v[k][i].minus(own[i]);
-        }
-        if let Some(part) = limits.part {
-            for i in first..end {
-                own[i] = limits.rise[i].scale(slip.e[k][i]);
+        for j in first..end {
+            let mut by = v[k][j];
+            if let Some((springs, _)) = &own {
+                by = by - springs[k][j];
             }
-            springs_of(t, c, k, first, &mut own);
-            for i in first..end {
-                v[k][i] = v[k][i] - part.times(own[i]);
+            v[k][j] = by.times(c.stiffness(t, k, j));
+            if let Some((_, relaxed)) = &own {
+                v[k][j] = v[k][j].minus(relaxed[k][j]);
             }
         }
-        slip_of(t, c, k, first, &mut v[k]);
-        let (across, sign) = if k == 0 { (&slip.e[1], -1.0) } else { (&slip.e[0], 1.0) };
-        for i in first..end {
-            residual[i].add_scaled(&v[k][i], sign * across[i]);
+    }
+    let mut residual = [zero; N];
+    for i in first..end {
+        let mut sum = [zero; 2];
+        for j in first..(i + 1).min(N) {
+            for k in 0..2 {
+                sum[k].add_scaled(&v[k][j], inverse[k][j][i]);
+            }
         }
+        residual[i] = sum[1].scale(slip.e[0][i]) - sum[0].scale(slip.e[1][i]);
     }
     let turn = product(&slip.inverse, [first, end], &residual);
-    for k in 0..2 {
-        let (across, sign) = if k == 0 { (&slip.e[1], -1.0) } else { (&slip.e[0], 1.0) };
-        for i in first..end {
-            let e = slip.e[k][i];
-            v[k][i] = turn[i].scale(sign * across[i] * slip.level[i]).minus(limits.start[i].scale(-e));
-            if let Some(part) = limits.part {
-                v[k][i] = v[k][i] + part.times(limits.rise[i].scale(e));
+    for j in first..end {
+        let mut sum = if let Some((springs, _)) = &own { both!(|k| springs[k][j]) } else { [zero; 2] };
+        for i in j..end {
+            sum[0].add_scaled(&turn[i], -slip.e[1][i] * slip.level[i] * inverse[0][j][i]);
+            sum[1].add_scaled(&turn[i], slip.e[0][i] * slip.level[i] * inverse[1][j][i]);
+        }
+        (v[0][j], v[1][j]) = (sum[0], sum[1]);
+    }
+}
+
+/// The springs whose tractions are the limits, and the forces `C'σ` of the slip: derivatives of what is known.
+#[inline(always)]
+fn springs_at_limits<A: Real, X: Over<A>, T: Tables<A>>(
+    t: &T,
+    c: &Contact<A>,
+    inverse: &Both<Matrix>,
+    level: &Row<X>,
+    slip: &Slip,
+    [first, end]: [usize; 2],
+) -> (Both<Row<X>>, Both<Row<A>>) {
+    let (zero, end) = (A::constant(0.0), end.min(N));
+    let (mut springs, mut relaxed, mut before) = ([*level; 2], [[zero; N]; 2], [zero; 2]);
+    let (mut tractions, mut slips) = ([[zero; N]; 2], [[zero; N]; 2]);
+    for i in first..end {
+        for k in 0..2 {
+            slips[k][i] = c.per_pressure[i].scale(slip.sigma[k][i]);
+        }
+    }
+    for j in first..end {
+        let fall = both!(|k| slip.v[k][j] - if j + 1 < end { slip.v[k][j + 1] } else { 0.0 });
+        let mut sum = [zero; 2];
+        for i in first..(j + 1).min(N) {
+            for k in 0..2 {
+                let map = c.map(t, k, j, i);
+                tractions[k][i].add_scaled(&map, fall[k]);
+                sum[k] = sum[k] + slips[k][i] * map;
             }
         }
-        springs_of(t, c, k, first, &mut v[k]);
+        (relaxed[0][j], relaxed[1][j]) = (sum[0] - before[0], sum[1] - before[1]);
+        before = sum;
     }
+    for i in first..end {
+        for k in 0..2 {
+            springs[k][i] = level[i].scale(slip.e[k][i]).minus(tractions[k][i] * c.per_pressure[i]);
+        }
+    }
+    for j in first..end {
+        let mut sum = both!(|k| X::constant(slip.v[k][j]));
+        for i in j..end {
+            for k in 0..2 {
+                sum[k].add_scaled(&springs[k][i], inverse[k][j][i]);
+            }
+        }
+        (springs[0][j], springs[1][j]) = (sum[0], sum[1]);
+    }
+    (springs, relaxed)
 }
 
 /// The same if a point sticks outside one that slips: `σ = K (r* - l e)`.
@@ -308,7 +337,7 @@ fn slide<A: Over<A>, X: Over<A>, T: Tables<A>>(
 fn slide_with_gaps<A: Real, X: Over<A>, T: Tables<A>>(
     t: &T,
     c: &Contact<A>,
-    level: &Row<X>,
+    level: Option<&Row<X>>,
     v: &mut Both<Row<X>>,
     slip: &Slip,
     [first, end]: [usize; 2],
@@ -329,7 +358,9 @@ fn slide_with_gaps<A: Real, X: Over<A>, T: Tables<A>>(
                     sum.add_product(&(v[k][j] - above), c.map(t, k, j, i));
                 }
                 excess[i] = sum.times(c.per_pressure[i]);
-                excess[i].add_scaled(&level[i], -slip.e[k][i]);
+                if let Some(level) = level {
+                    excess[i].add_scaled(&level[i], -slip.e[k][i]);
+                }
             }
         }
         slips[k] = product(&slip.k[k], [first, end], &excess);
@@ -377,7 +408,7 @@ fn relax<A: Real, X: Over<A>, T: Tables<A>>(
 
 /// Σ x_m matrix[m][i]: rows of points that stick are 0.
 #[inline(always)]
-fn product<X: Real>(matrix: &Matrix, [first, end]: [usize; 2], x: &Row<X>) -> Row<X> {
+fn product<X: Linear>(matrix: &Matrix, [first, end]: [usize; 2], x: &Row<X>) -> Row<X> {
     let mut y = [X::constant(0.0); N];
     for i in first..end {
         let mut sum = X::constant(0.0);
@@ -399,8 +430,8 @@ pub(crate) fn advance(
     springs: &mut Values,
 ) -> (Both<f64>, f64) {
     dispatch!({
-        let old = *springs;
-        let force = finish(&t, c, motion, slip, slip.slides, slip.v, &mut &mut *springs);
+        let (old, mut v) = (*springs, slip.v);
+        let force = finish(&t, c, motion, slip, slip.slides, &mut v, &mut &mut *springs);
         let dissipated = if energy { dissipated(t, [from, c], motion, slip, [&old, springs]) } else { 0.0 };
         (force, dissipated)
     })

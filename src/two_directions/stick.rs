@@ -1,10 +1,10 @@
 //! A step under a constant load in which nothing slips: all springs follow the motion.
 
 use super::contact::{Contact, Pressed};
-use super::scalar::{Dual, Over, Real, both};
+use super::scalar::{Dual, Linear, Over, both};
 use super::slip::direction;
 use super::step::returned;
-use super::tables::{Both, END, FINE, INSIDE, N, Rows, SHIFT};
+use super::tables::{Both, DualRows, END, FINE, INSIDE, N, Rows, SHIFT};
 use super::trial::{FINE_SPRING, ROUNDING, Values, tractions};
 use crate::simd::dispatch;
 
@@ -82,13 +82,14 @@ pub(crate) fn tangent(
 ) -> Both<[f64; 4]> {
     let springs = springs.as_flattened();
     let at = |place: usize| springs.get(place).copied().unwrap_or(0.0);
-    let derived = c.derived(&t, slopes);
+    let rows = DualRows::without_slopes(t);
+    let derived = c.derived(&rows, slopes);
     let edge = [Dual([[0.0, 1.0, 0.0, edge[0]]]), Dual([[0.0, 0.0, 1.0, edge[1]]])];
     let limit = both!(|k| derived.limit_inside(k));
     let direction = direction(edge.map(|x| x.value()), both!(|k| c.limit_inside(k)));
     let ends = returned(edge, &limit, direction, None);
     both!(|k| {
-        let fine = |f: usize| derived.fine(&t, k, f).0[0][END] * at(FINE_SPRING + k * FINE + f);
+        let fine = |f: usize| derived.fine(&rows, k, f).0[0][END] * at(FINE_SPRING + k * FINE + f);
         let [mut slopes] = ends[k].times(derived.fine_inside(k)).0;
         slopes[END] += derived.stiffness[k].0[0][END] * at(k * N + c.last);
         slopes[END] += (c.first_edge()..=c.part).map(fine).sum::<f64>();

@@ -81,9 +81,7 @@ pub(crate) const PRESSURE: usize = PER_MAP + 2;
 pub(crate) const MAP: usize = PRESSURE + N;
 pub(crate) const ROWS: usize = MAP + 2 * N;
 
-/// The tables, and the tables as dual numbers.
 pub(crate) type Rows = [Row<f64>; ROWS];
-pub(crate) type DualRows = [Row<[f64; 4]>; ROWS];
 
 /// The first part of each shell and the number of all, for the given number of springs under the flat.
 pub(crate) fn starts(under_flat: usize) -> &'static [usize; N + 1] {
@@ -113,19 +111,23 @@ impl Tables<f64> for &Rows {
     }
 }
 
-/// Without derivatives.
-impl Tables<Dual<1>> for &Rows {
-    #[inline(always)]
-    fn at(&self, row: usize, i: usize) -> Dual<1> {
-        Dual::constant(Tables::<f64>::at(self, row, i))
+/// Tables, and a factor of others that are their derivatives by the alignment, 0 if these are not requested.
+pub(crate) struct DualRows<'a> {
+    pub values: &'a Rows,
+    pub slopes: (f64, &'a Rows),
+}
+
+impl<'a> DualRows<'a> {
+    pub fn without_slopes(values: &'a Rows) -> DualRows<'a> {
+        DualRows { values, slopes: (0.0, values) }
     }
 }
 
-/// Tables and their derivatives by the alignment.
-impl Tables<Dual<1>> for &DualRows {
+impl Tables<Dual<1>> for DualRows<'_> {
     #[inline(always)]
     fn at(&self, row: usize, i: usize) -> Dual<1> {
-        self.as_flattened().get(row * N + i).map_or(Dual::constant(0.0), |dual| Dual([*dual]))
+        let [value, slope] = [self.values, self.slopes.1].map(|rows| Tables::<f64>::at(&rows, row, i));
+        Dual([[0.0, 0.0, self.slopes.0 * slope, value]])
     }
 }
 

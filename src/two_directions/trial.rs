@@ -1,7 +1,7 @@
 //! The springs, the trial state of a step, in which all stick, and the limits on the way.
 
 use super::contact::Contact;
-use super::scalar::{Over, Real, both};
+use super::scalar::{Dual, Linear, Over, Real, both};
 use super::tables::{Both, FINE, MAP, N, Row, Rows, Tables, starts};
 use crate::simd::dispatch;
 
@@ -14,37 +14,52 @@ pub(crate) type Values = [Row<f64>; SPRINGS / N];
 
 /// Springs as numbers of a kind.
 pub(crate) trait Springs<X> {
-    /// Whether the springs are kept.
-    const KEPT: bool;
+    /// The value of a spring at the start of the step.
+    fn value(&self, place: usize) -> f64;
     fn get(&self, place: usize) -> X;
     fn put(&mut self, place: usize, x: X);
 }
 
-/// Before a step, without derivatives.
-impl<X: Real> Springs<X> for &Values {
-    const KEPT: bool = false;
-
+impl Springs<f64> for &mut Values {
     #[inline(always)]
-    fn get(&self, place: usize) -> X {
-        X::constant(self.as_flattened().get(place).copied().unwrap_or(0.0))
+    fn value(&self, place: usize) -> f64 {
+        self.as_flattened().get(place).copied().unwrap_or(0.0)
     }
 
     #[inline(always)]
-    fn put(&mut self, _: usize, _: X) {}
-}
-
-impl Springs<f64> for &mut Values {
-    const KEPT: bool = true;
-
-    #[inline(always)]
     fn get(&self, place: usize) -> f64 {
-        self.as_flattened().get(place).copied().unwrap_or(0.0)
+        self.value(place)
     }
 
     #[inline(always)]
     fn put(&mut self, place: usize, x: f64) {
         if let Some(there) = self.as_flattened_mut().get_mut(place) {
             *there = x;
+        }
+    }
+}
+
+/// Springs without derivatives before a step, and the derivatives after it if they are requested.
+pub(crate) struct Derivatives<'a> {
+    pub values: &'a Values,
+    pub slopes: &'a mut [[f64; 4]],
+}
+
+impl Springs<Dual<1>> for Derivatives<'_> {
+    #[inline(always)]
+    fn value(&self, place: usize) -> f64 {
+        self.values.as_flattened().get(place).copied().unwrap_or(0.0)
+    }
+
+    #[inline(always)]
+    fn get(&self, place: usize) -> Dual<1> {
+        Dual::constant(self.value(place))
+    }
+
+    #[inline(always)]
+    fn put(&mut self, place: usize, x: Dual<1>) {
+        if let Some(there) = self.slopes.get_mut(place) {
+            [*there] = x.0;
         }
     }
 }
@@ -154,17 +169,20 @@ pub(crate) fn limits_before<A: Real>(t: &impl Tables<A>, c: &Contact<A>, rise: A
 /// in one direction.
 const FAR: [f64; 2] = [2.5, 5.0];
 
-/// The part in which a contact that slides far forgets, from its trial state.
+/// The part in which a contact that slides far forgets, from its trial state, with these values.
 #[inline(always)]
-pub(crate) fn slid<A: Real, X: Over<A>, T: Tables<A>>(t: &T, c: &Contact<A>, v: &Both<Row<X>>) -> X {
-    let [x, y] = both!(|k| v[k][0].times(c.limit(t, k, 0).inverse()));
-    let square = x * x + y * y;
-    if square.value() <= FAR[0] * FAR[0] {
-        return X::constant(0.0);
-    }
-    if square.value() >= FAR[1] * FAR[1] {
-        return X::constant(1.0);
-    }
-    let part = (square.sqrt() - X::constant(FAR[0])).scale(1.0 / (FAR[1] - FAR[0]));
-    part * part * (X::constant(3.0) - part.scale(2.0))
+pub(crate) fn slid<A: Real, X: Over<A>, T: Tables<A>>(
+    t: &T,
+    c: &Contact<A>,
+    v: &Both<Row<X>>,
+    values: &Both<Row<f64>>,
+) -> X {
+    let per_limit = both!(|k| c.limit(t, k, 0).inverse());
+    let [x, y] = both!(|k| v[k][0].times(per_limit[k]));
+    let (p, q) = (values[0][0] * per_limit[0].value(), values[1][0] * per_limit[1].value());
+    let (root, per) = ((p * p + q * q).sqrt(), 1.0 / (FAR[1] - FAR[0]));
+    // Its powers would overflow, and the root may be 0.
+    let part = ((root - FAR[0]) * per).clamp(0.0, 1.0);
+    let slope = 6.0 * part * (1.0 - part) * per / root.max(FAR[0]);
+    (x.scale(p) + y.scale(q)).chain(part * part * (3.0 - 2.0 * part), slope)
 }
