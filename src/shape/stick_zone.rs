@@ -259,7 +259,8 @@ impl StickZones {
     }
 
     /// A size close to that at a remaining shift. The shift of the contact alone is at most the sum, and at most the root of the load that
-    /// the layer alone would have (a power of about 2/3); then with Λ + λ + β constant, first at its smallest value.
+    /// the layer alone would have (a power of about 2/3); then with Λ + λ + β constant, first at its smallest value. It is at most the size
+    /// of the contact: the compliance of larger ones may be negative.
     fn initial_guess(&self, remaining: f64) -> RoundedPunch {
         let slip_shift = self.contact.compliance + self.beta;
         let mut own = remaining;
@@ -273,7 +274,7 @@ impl StickZones {
         let w = RoundedPunch::initial_guess_w(self.b.flat, own / slip_shift * self.load);
         let increase = -0.5 * (self.b.flat * self.b.flat + w * w).clamp(TINY, 1.0).ln();
         let load = own / (slip_shift + increase) * self.load;
-        self.punch(RoundedPunch::initial_guess_w(self.b.flat, load))
+        self.punch(RoundedPunch::initial_guess_w(self.b.flat, load).min(self.b.w))
     }
 
     /// The stick zone at a remaining shift, from a size close to it; its size, and the inverse of the remaining shift close to it.
@@ -317,7 +318,7 @@ impl StickZones {
                 let (zone, moved) = self.last_step(&now, &punch, step, remaining);
                 return (zone, moved, inverse);
             }
-            punch = self.punch((w + step).max(0.0));
+            punch = self.punch((w + step).max(0.0).min(self.b.w));
         }
     }
 
