@@ -226,8 +226,8 @@ impl Mul for Dual<1> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        let (value, mut product) = (self.value(), self.scale(other.value()));
-        product.add_scaled(&other, value);
-        product.with_value(value * other.value())
+        let mut product = self.scale(other.value());
+        product.add_scaled(&other.with_value(0.0), self.value());
+        product
     }
 }
