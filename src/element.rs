@@ -475,8 +475,14 @@ impl Element {
     }
 
     /// The normal state at an input that closes the contact.
-    #[inline(always)]
+    #[inline(never)]
     pub(crate) fn normal(&self, input: f64) -> Normal {
+        self.normal_of_step(input)
+    }
+
+    /// The same in the code of a step, of which the call would be some per cent.
+    #[inline(always)]
+    pub(crate) fn normal_of_step(&self, input: f64) -> Normal {
         let [[load], [shift], [load_slope], [shift_slope]] = self.closed::<true, 1>(&[input]);
         Normal { load, shift, load_slope, shift_slope }
     }
