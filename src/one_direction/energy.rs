@@ -174,14 +174,18 @@ impl Slip {
             let width = widest - c1;
             if 2.5 * width < widest {
                 let room = room(element, c1, widest);
-                let path_rule = gauss_rule(if 16.0 * swept.max(growth.abs()) < room { 1 } else { 2 });
+                let longest;
+                let mut rules: Option<[&[Block]; 2]> = None;
                 if 1.5 * width < room {
-                    let zone_rule: &[Block] = if 8.0 * width < room { &ZONE_RULE } else { &WIDE_ZONE_RULE };
-                    return self.integral_of_curvature(element, path_rule, zone_rule);
+                    let path_rule = gauss_rule(if 16.0 * swept.max(growth.abs()) < room { 1 } else { 2 });
+                    rules = Some([path_rule, if 8.0 * width < room { &ZONE_RULE } else { &WIDE_ZONE_RULE }]);
+                } else if 8.0 * width < widest {
+                    // A wider zone loses few digits, because N'' is large there.
+                    longest = rules_near_the_largest_size();
+                    rules = Some([&longest[0], &longest[1]]);
                 }
-                // A wider zone loses few digits, because N'' is large there.
-                if 8.0 * width < widest {
-                    return self.integral_near_the_largest_size(element);
+                if let Some(rules) = rules {
+                    return self.integral_of_curvature(element, rules);
                 }
             }
             let inner = if 16.0 * swept < room(element, c1, c0) {
@@ -211,7 +215,7 @@ impl Slip {
     /// The same with R as an integral of N'' > 0, free of cancellation: `R = w² ∫ y N''(S_b - w y) dy`, y from 0 to 1, for the width w of
     /// the slip zone.
     #[inline(always)]
-    fn integral_of_curvature(&self, element: &Element, path_rule: &[Block], zone_rule: &[Block]) -> f64 {
+    fn integral_of_curvature(&self, element: &Element, [path_rule, zone_rule]: [&[Block]; 2]) -> f64 {
         let [b0, b1] = self.outer;
         let (mut sum, mut quarter) = (0.0, Curvature::new());
         for [fractions, parts] in path_rule {
@@ -239,17 +243,15 @@ impl Slip {
         }
         (self.inner[0] - self.inner[1]) * sum
     }
+}
 
-    /// Where the compliance of a short contact is about to vanish. The integrand is singular at that distance from the end of the zone, and
-    /// so, as a function of the fraction f, from both ends: y = z², f = z² (3 - 2z).
-    #[cold]
-    #[inline(never)]
-    fn integral_near_the_largest_size(&self, element: &Element) -> f64 {
-        let path_rule =
-            LONGEST_RULE.map(|block| substituted(block, |z| [z * z * (3.0 - 2.0 * z), 6.0 * z * (1.0 - z)]));
-        let zone_rule = LONGEST_RULE.map(squared).map(with_y);
-        self.integral_of_curvature(element, &path_rule, &zone_rule)
-    }
+/// Where the compliance of a short contact is about to vanish. The integrand is singular at that distance from the end of the zone, and so, as
+/// a function of the fraction f, from both ends: y = z², f = z² (3 - 2z).
+#[cold]
+#[inline(never)]
+fn rules_near_the_largest_size() -> [[Block; MAX_GAUSS_BLOCKS]; 2] {
+    let path_rule = LONGEST_RULE.map(|block| substituted(block, |z| [z * z * (3.0 - 2.0 * z), 6.0 * z * (1.0 - z)]));
+    [path_rule, LONGEST_RULE.map(squared).map(with_y)]
 }
 
 /// Four nodes and their weights.
