@@ -124,7 +124,7 @@ verify:
 ## instructions: count the instructions of each call and check the relations between the counts
 instructions:
 	@tools/dependencies.sh instructions
-	benches/instructions/run.sh
+	$(CARGO) run --quiet --locked --package instructions
 
 ## bench: run time against error of the library and of what one would use instead; QUICK=1 for fewer cases
 bench: all

@@ -34,7 +34,7 @@ installed() {
     step 'ANSYS: bodies of user subroutines, called by a driver' make -C examples/ansys test PREFIX="$prefix"
     step 'Octave and NLvib: the law in harmonic balance' make -C examples/nlvib test PREFIX="$prefix"
     step 'Fortran on threads and ranks' make -C fortran_examples parallel PREFIX="$prefix"
-    step 'instruction counts' benches/instructions/run.sh
+    step 'instruction counts' "$CARGO" run --quiet --locked --package instructions
     step 'benchmark, quick' make bench QUICK=1
     step 'uninstall leaves no file' uninstall
 }

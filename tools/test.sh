@@ -5,7 +5,7 @@ cd "$(dirname "$0")/.."
 . tools/steps.sh
 
 # One compilation of the library serves all tests and tools, another one is the installed archive.
-workspace='--locked --workspace --exclude instructions --exclude microslip-fuzz'
+workspace='--locked --workspace --exclude microslip-fuzz'
 strict='-Wall -Wextra -Wpedantic -Werror -O1'
 
 # A program of a document prints its result in the document.
