@@ -23,7 +23,7 @@ installed() {
 # By one command: the test of the library is compiled beside the library.
 # shellcheck disable=SC2086  # a list
 compiled() {
-    step 'tools and tests: compiled' "$CARGO" build $workspace --all-targets
+    step 'tools and tests: compiled' "$CARGO" build $workspace --bins --tests
 }
 
 # shellcheck disable=SC2086  # a list
