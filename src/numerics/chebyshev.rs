@@ -187,12 +187,16 @@ fn integral(terms: &[f64]) -> Interpolant<TERMS> {
 
 /// Powers of z of a Chebyshev series, without the terms at its end that are rounding errors or exceed the rows: their derivatives would
 /// be n² times as large.
-#[inline(never)]
 pub(crate) fn powers<const R: usize>(series: &[f64]) -> Rows<R> {
+    let mut result = [[0.0; 4]; R];
+    add_powers(result.as_flattened_mut(), series);
+    result
+}
+
+#[inline(never)]
+fn add_powers(powers: &mut [f64], series: &[f64]) {
     let size = series.iter().fold(0.0, |size: f64, term| size.max(term.abs()));
     let used = series.iter().rposition(|term| term.abs() > f64::EPSILON * size).map_or(0, |last| last + 1);
-    let mut result = [[0.0; 4]; R];
-    let kept = series.get(..used.min(4 * R)).unwrap_or(&[]);
-    add_triangle(result.as_flattened_mut(), kept, AROUND_MIDDLE.as_flattened(), AROUND_MIDDLE.len());
-    result
+    let kept = series.get(..used.min(powers.len())).unwrap_or(&[]);
+    add_triangle(powers, kept, AROUND_MIDDLE.as_flattened(), AROUND_MIDDLE.len());
 }
