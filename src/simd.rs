@@ -7,16 +7,14 @@
 //! module can check that next to the call. It reads and writes no memory of its own.
 
 /// Whether kernels run on AVX2.
+#[cfg(target_arch = "x86_64")]
 #[inline(always)]
 fn has_avx2() -> bool {
     #[cfg(test)]
     if tests::is_baseline() {
         return false;
     }
-    #[cfg(target_arch = "x86_64")]
-    return std::is_x86_feature_detected!("avx2");
-    #[cfg(not(target_arch = "x86_64"))]
-    false
+    std::is_x86_feature_detected!("avx2")
 }
 
 #[cfg(target_arch = "x86_64")]
