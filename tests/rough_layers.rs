@@ -148,6 +148,10 @@ fn jumps(random: &mut Random, elements: usize, by_load: f64) -> f64 {
         let element = element(random, poisson_ratio);
         let scale = between(random, 0.1, 4.0) * slip_displacement(&element, 1000.0);
         let (mut contact, mut at) = (Contact::new(&element), [0.0, 0.0, 700.0]);
+        if by_load != 0.0 {
+            // The springs are not aligned anew from there on.
+            contact.to([0.0, 0.0, 1000.0]);
+        }
         for k in 0..60 {
             at = [at[0] + scale * random.signed(), at[1] + scale * random.signed(), at[2]];
             if k % 3 == 0 {
@@ -167,14 +171,14 @@ fn jumps(random: &mut Random, elements: usize, by_load: f64) -> f64 {
 }
 
 /// Where the middle of a step begins to slip while its end sticks, where a contact that sticks exceeds Coulomb's bound, and where Newton's
-/// method needs sweeps, once and twice, too: with these seeds, all are met. From one load to the next the force jumps where the edge passes a
-/// node and where the springs are aligned anew.
+/// method needs sweeps, once and twice, too: with these seeds, all are met. From one load to the next the force jumps where the size inside
+/// the edge passes a node: by the part of the load between both sizes.
 #[test]
 fn the_force_does_not_jump() {
     for (seed, elements) in [(15, 8), (23, 48), (309, 1), (222, 4)] {
         let size = jumps(&mut Random(seed), elements, 0.0);
         assert!(size <= 1e-6, "{seed}: {size:e}");
         let size = jumps(&mut Random(seed), elements, -0.03);
-        assert!(size <= 0.03, "{seed}: {size:e}");
+        assert!(size <= 2e-5, "{seed}: {size:e}");
     }
 }

@@ -322,20 +322,14 @@ fn with_parameters(mut columns: Columns, slopes: &[f64; 4], parameters: &Paramet
     columns
 }
 
-/// Columns of the springs in the workspace, beside their values at the start of a step and their derivatives after it by the parameters.
+/// Columns of the springs in the workspace, beside the derivatives after a step by the parameters.
 struct SpringColumns<'a> {
-    values: &'a Values,
     columns: &'a mut [[[f64; 4]; COLUMNS / 4]; SPRINGS],
     slopes: &'a [[f64; 4]; SPRINGS],
     parameters: &'a Parameters,
 }
 
 impl Springs<Columns> for SpringColumns<'_> {
-    #[inline(always)]
-    fn value(&self, place: usize) -> f64 {
-        self.values.as_flattened().get(place).copied().unwrap_or(0.0)
-    }
-
     #[inline(always)]
     fn get(&self, place: usize) -> Columns {
         self.columns.get(place).map_or(Dual::constant(0.0), |columns| Dual(*columns))
@@ -544,7 +538,7 @@ fn differentiate(workspace: &mut Workspace, walk: &mut Walk, taken: &Taken, samp
             (parameters[END][lane], parameters[ALIGNMENT][lane]) = (to, walk.by_top * top);
         }
         let motion = Motion { before: motion.before, by, constant_load: motion.constant_load };
-        let mut springs = SpringColumns { values: old, columns, slopes, parameters: &parameters };
+        let mut springs = SpringColumns { columns, slopes, parameters: &parameters };
         let (rows, contact, slip) = (walk.tables.values, (&walk.contact, &walk.inverse), &walk.slip);
         let [x, y] = dispatch!(step(&rows, contact, &motion, slip, &mut springs));
         for (k, to) in [to_x, to_y].into_iter().enumerate() {

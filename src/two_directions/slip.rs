@@ -11,7 +11,7 @@
 use super::contact::Contact;
 use super::scalar::both;
 use super::tables::{Both, FINE, INSIDE, Matrix, N, Row, Rows, SHIFT};
-use super::trial::{FINE_SPRING, Motion, ROUNDING, Trial, Values, limits_before, moved, slid, tractions};
+use super::trial::{FINE_SPRING, Motion, ROUNDING, Trial, Values, direction, limits_before, moved, slid, tractions};
 use crate::shape::TINY;
 use crate::simd::dispatch;
 
@@ -52,7 +52,9 @@ pub(crate) struct Slips {
     pub end: Slip,
     /// The part in which the contact slides far.
     pub slides: f64,
-    /// The springs of the trial state, and at the end.
+    /// The springs at the start and of the trial state, and at the end; the directions of those that leave.
+    pub old: Both<Row<f64>>,
+    pub leaves: [[f64; 3]; N],
     pub trial: Both<Row<f64>>,
     pub v: Both<Row<f64>>,
     pub fine: FineSlips,
@@ -91,16 +93,6 @@ impl FineSlips {
             }
         }
     }
-}
-
-/// These three numbers of a spring.
-#[inline(always)]
-pub(crate) fn direction(v: Both<f64>, [x, y]: Both<f64>) -> [f64; 3] {
-    let (across, along, bound) = (v[0] * y, v[1] * x, x * y);
-    let square = across * across + along * along;
-    // A sum: of a maximum, the compiler would divide by what is less.
-    let per_length = 1.0 / (square + TINY).sqrt();
-    [across * per_length, along * per_length, if square > bound * bound { per_length } else { -per_length }]
 }
 
 /// Points that slip, and what derivatives need.
@@ -145,6 +137,8 @@ impl Slips {
         middle: Slip::NONE,
         end: Slip::NONE,
         slides: 0.0,
+        old: [[0.0; N]; 2],
+        leaves: [[0.0; 3]; N],
         trial: [[0.0; N]; 2],
         v: [[0.0; N]; 2],
         fine: FineSlips::NONE,
@@ -170,7 +164,7 @@ impl Slips {
         dispatch!({
             let (end, start) = ((contact.last + 1).min(N), &trial.start);
             (slips.middle.set, slips.end.set, slips.slides) = (0, 0, 0.0);
-            (slips.trial, slips.v) = (trial.v, trial.v);
+            (slips.old, slips.leaves, slips.trial, slips.v) = (trial.old, trial.leaves, trial.v, trial.v);
             slips.fine.find(t, contact, motion, old);
             // Under a constant load, the middle sticks if the end does.
             if trial.sticks && motion.constant_load {
@@ -189,7 +183,7 @@ impl Slips {
             for k in 0..2 {
                 for i in 0..N {
                     problem.r[k][i] += theta * (trial.r[k][i] - start[k][i]);
-                    problem.v[k][i] = old[k][i] + theta * (trial.v[k][i] - old[k][i]);
+                    problem.v[k][i] = trial.old[k][i] + theta * (trial.v[k][i] - trial.old[k][i]);
                 }
             }
             let mut guesses = slips.guesses(&problem.r, start, &motion.by, end);

@@ -9,7 +9,9 @@ use super::contact::{Contact, Pressed};
 use super::scalar::{Dual, Linear, Over, Real, both};
 use super::slip::{SLIPPED, Slip, Slips};
 use super::tables::{Both, DualRows, FINE, INSIDE, Matrix, N, Row, Rows, SHIFT, Tables, starts};
-use super::trial::{Derivatives, FINE_SPRING, LEAST, Motion, Springs, Values, limits_before, moved, slid};
+use super::trial::{
+    Derivatives, FINE_SPRING, LEAST, Motion, Springs, Values, leave, limits_before, moved, returned, slid, some_leave,
+};
 use crate::shape::TINY;
 use crate::simd::dispatch;
 
@@ -43,6 +45,17 @@ pub(crate) fn step<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
             v[k][j] = s.get(k * N + j) + moved(c.limit(t, k, start[j]), rise[k], motion.by[k]);
         }
     }
+    let mut old = None;
+    if some_leave(t, c, motion.before[0]) {
+        let (mut springs, mut directions) = ([[zero; N]; 2], slip.leaves);
+        for k in 0..2 {
+            for j in 0..end {
+                springs[k][j] = s.get(k * N + j);
+            }
+        }
+        leave(t, c, motion, [&mut springs, &mut v], &mut directions);
+        old = Some(springs);
+    }
     let far = slip.slides > 0.0;
     let slides = if far { slid(t, c, &v, &slip.trial) } else { zero };
     let part = 0.5 * (1.0 + slip.slides);
@@ -64,33 +77,34 @@ pub(crate) fn step<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
                     level[i] = level[i].times(before[i]) + theta.times(A::constant(1.0) - before[i]);
                 }
             }
-            in_part(&mut v, &slip.trial, s, (far.then_some(theta), part), [first, end]);
+            in_part(&mut v, [&slip.trial, &slip.old], (old.as_ref(), s), (far.then_some(theta), part), [first, end]);
         }
         slide(t, c, inverse, level.as_ref(), &mut v, now);
         if middle {
             let per = 1.0 / part;
-            in_part(&mut v, &now.v, s, (far.then_some(theta.chain(per, -per * per)), per), [first, end]);
+            let part = (far.then_some(theta.chain(per, -per * per)), per);
+            in_part(&mut v, [&now.v, &slip.old], (old.as_ref(), s), part, [first, end]);
         }
     }
     finish(t, c, motion, slip, slides, &mut v, s)
 }
 
-/// Springs, with these values, after a part of their motion, which is a constant if only its value is given.
+/// Springs, with these values and those at the start, after a part of their motion, which is a constant if only its value is given.
 #[inline(always)]
 fn in_part<A: Real, X: Over<A>, S: Springs<X>>(
     v: &mut Both<Row<X>>,
-    values: &Both<Row<f64>>,
-    s: &S,
+    [values, old_values]: [&Both<Row<f64>>; 2],
+    (old, s): (Option<&Both<Row<X>>>, &S),
     (part, value): (Option<X>, f64),
     [first, end]: [usize; 2],
 ) {
     for k in 0..2 {
         for j in first..end.min(N) {
-            let old = s.get(k * N + j);
+            let old = if let Some(old) = old { old[k][j] } else { s.get(k * N + j) };
             let by = v[k][j] - old;
             v[k][j] = old
                 + match part {
-                    Some(part) => by.product(part, [values[k][j] - s.value(k * N + j), value]),
+                    Some(part) => by.product(part, [values[k][j] - old_values[k][j], value]),
                     None => by.scale(value),
                 };
         }
@@ -128,7 +142,7 @@ fn finish<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
         let w = both!(|k| c.fine(t, k, f));
         let limit = both!(|k| c.limit(t, k, f));
         let mut v = both!(|k| s.get(FINE_SPRING + k * FINE + f) + moved(limit[k], rise[k], motion.by[k]));
-        v = returned(v, &limit, slip.fine.at(f), far.as_ref());
+        v = returned_far(v, &limit, slip.fine.at(f), far.as_ref());
         for k in 0..2 {
             force[k].add_product(&v[k], w[k]);
             s.put(FINE_SPRING + k * FINE + f, v[k]);
@@ -140,7 +154,7 @@ fn finish<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     if motion.constant_load {
         v = both!(|k| v[k] + s.get(FINE_SPRING + k * FINE + INSIDE));
     }
-    v = returned(v, &limit, slip.fine.at(INSIDE), far.as_ref());
+    v = returned_far(v, &limit, slip.fine.at(INSIDE), far.as_ref());
     for k in 0..2 {
         force[k].add_product(&v[k], c.fine_inside(k));
         s.put(FINE_SPRING + k * FINE + INSIDE, v[k]);
@@ -202,32 +216,20 @@ impl<X: Linear> Far<X> {
     }
 }
 
-/// A fine spring, returned to its limit if it slips: by values `limit e`; e turns by `e × d(v/limit)` over the length of v/limit.
+/// A fine spring, returned to its limit if it slips, and blended if the contact slides far.
 #[inline(always)]
-pub(crate) fn returned<A: Real, X: Over<A>>(
+fn returned_far<A: Real, X: Over<A>>(
     v: Both<X>,
     limit: &Both<A>,
-    [e_x, e_y, per_length]: [f64; 3],
+    direction: [f64; 3],
     far: Option<&Far<X>>,
 ) -> Both<X> {
-    let (mut v, [x, y]) = (v, both!(|k| limit[k].value()));
-    let slips = per_length > 0.0;
-    if slips {
-        let mut turn = X::constant(0.0);
-        if X::DERIVED {
-            let [along, across] = [e_x * per_length, e_y * per_length];
-            turn = v[1].scale(along * x).minus(limit[1].scale(across * v[0].value()));
-            turn.add_scaled(&v[0], -across * y);
-            turn = turn.minus(limit[0].scale(-along * v[1].value()));
-        }
-        v = [turn.scale(-e_y * x).minus(limit[0].scale(-e_x)), turn.scale(e_x * y).minus(limit[1].scale(-e_y))];
-    }
-    if let Some(far) = far {
-        let length = if slips { x * y } else { -1.0 / per_length };
-        let values = [e_x * length / y, e_y * length / x];
-        v = both!(|k| far.blend(k, v[k], values[k], limit[k]));
-    }
-    v
+    let v = returned(v, limit, direction);
+    let Some(far) = far else { return v };
+    let ([x, y], [e_x, e_y, per_length]) = (both!(|k| limit[k].value()), direction);
+    let length = if per_length > 0.0 { x * y } else { -1.0 / per_length };
+    let values = [e_x * length / y, e_y * length / x];
+    both!(|k| far.blend(k, v[k], values[k], limit[k]))
 }
 
 /// Springs that slip to the limits of their points, if these have derivatives: by a step of Newton's method from the slip, with C⁻¹.

@@ -2,10 +2,8 @@
 
 use super::contact::{Contact, Pressed};
 use super::scalar::{Dual, Linear, Over, both};
-use super::slip::direction;
-use super::step::returned;
 use super::tables::{Both, DualRows, END, FINE, INSIDE, N, Rows, SHIFT};
-use super::trial::{FINE_SPRING, ROUNDING, Values, tractions};
+use super::trial::{FINE_SPRING, ROUNDING, Values, direction, returned, tractions};
 use crate::simd::dispatch;
 
 /// Moves the springs and their force, unless a point or a fine spring would slip or the force exceeds its bound; the displacement of the fine
@@ -54,7 +52,7 @@ pub(crate) fn stick(
         }
         let edge = both!(|k| springs[(FINE_SPRING + k * FINE + INSIDE) / N][INSIDE % N] + by[k]);
         let limit = both!(|k| c.limit_inside(k));
-        let ends = returned(edge, &limit, direction(edge, limit), None);
+        let ends = returned(edge, &limit, direction(edge, limit));
         let moved = both!(|k| force[k] + by[k] * c.total(k) + c.fine_inside(k) * (ends[k] - edge[k]));
         if moved[0] * moved[0] + moved[1] * moved[1] > c.now.load * c.now.load {
             return None;
@@ -87,7 +85,7 @@ pub(crate) fn tangent(
     let edge = [Dual([[0.0, 1.0, 0.0, edge[0]]]), Dual([[0.0, 0.0, 1.0, edge[1]]])];
     let limit = both!(|k| derived.limit_inside(k));
     let direction = direction(edge.map(|x| x.value()), both!(|k| c.limit_inside(k)));
-    let ends = returned(edge, &limit, direction, None);
+    let ends = returned(edge, &limit, direction);
     both!(|k| {
         let fine = |f: usize| derived.fine(&rows, k, f).0[0][END] * at(FINE_SPRING + k * FINE + f);
         let [mut slopes] = ends[k].times(derived.fine_inside(k)).0;

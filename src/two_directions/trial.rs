@@ -3,6 +3,7 @@
 use super::contact::Contact;
 use super::scalar::{Dual, Linear, Over, Real, both};
 use super::tables::{Both, FINE, MAP, N, Row, Rows, Tables, starts};
+use crate::shape::TINY;
 use crate::simd::dispatch;
 
 /// Places of the springs: their displacements, and those of the fine springs, x before y.
@@ -14,21 +15,14 @@ pub(crate) type Values = [Row<f64>; SPRINGS / N];
 
 /// Springs as numbers of a kind.
 pub(crate) trait Springs<X> {
-    /// The value of a spring at the start of the step.
-    fn value(&self, place: usize) -> f64;
     fn get(&self, place: usize) -> X;
     fn put(&mut self, place: usize, x: X);
 }
 
 impl Springs<f64> for &mut Values {
     #[inline(always)]
-    fn value(&self, place: usize) -> f64 {
-        self.as_flattened().get(place).copied().unwrap_or(0.0)
-    }
-
-    #[inline(always)]
     fn get(&self, place: usize) -> f64 {
-        self.value(place)
+        self.as_flattened().get(place).copied().unwrap_or(0.0)
     }
 
     #[inline(always)]
@@ -47,13 +41,8 @@ pub(crate) struct Derivatives<'a> {
 
 impl Springs<Dual<1>> for Derivatives<'_> {
     #[inline(always)]
-    fn value(&self, place: usize) -> f64 {
-        self.values.as_flattened().get(place).copied().unwrap_or(0.0)
-    }
-
-    #[inline(always)]
     fn get(&self, place: usize) -> Dual<1> {
-        Dual::constant(self.value(place))
+        Dual::constant(self.values.as_flattened().get(place).copied().unwrap_or(0.0))
     }
 
     #[inline(always)]
@@ -81,6 +70,78 @@ pub(crate) fn moved<A: Real, X: Over<A>>(limit: A, rise: A, by: X) -> X {
     if limit.value() < rise.value() { by.times(limit * rise.at_least(LEAST).inverse()) } else { by }
 }
 
+/// These three numbers of a spring.
+#[inline(always)]
+pub(crate) fn direction(v: Both<f64>, [x, y]: Both<f64>) -> [f64; 3] {
+    let (across, along, bound) = (v[0] * y, v[1] * x, x * y);
+    let square = across * across + along * along;
+    // A sum: of a maximum, the compiler would divide by what is less.
+    let per_length = 1.0 / (square + TINY).sqrt();
+    [across * per_length, along * per_length, if square > bound * bound { per_length } else { -per_length }]
+}
+
+/// A spring on its own, returned to its limit if it slips: by values `limit e`; e turns by `e × d(v/limit)` over the length of v/limit.
+#[inline(always)]
+pub(crate) fn returned<A: Real, X: Over<A>>(v: Both<X>, limit: &Both<A>, [e_x, e_y, per_length]: [f64; 3]) -> Both<X> {
+    if per_length <= 0.0 {
+        return v;
+    }
+    let ([x, y], mut turn) = (both!(|k| limit[k].value()), X::constant(0.0));
+    if X::DERIVED {
+        let [along, across] = [e_x * per_length, e_y * per_length];
+        turn = v[1].scale(along * x).minus(limit[1].scale(across * v[0].value()));
+        turn.add_scaled(&v[0], -across * y);
+        turn = turn.minus(limit[0].scale(-along * v[1].value()));
+    }
+    [turn.scale(-e_y * x).minus(limit[0].scale(-e_x)), turn.scale(e_x * y).minus(limit[1].scale(-e_y))]
+}
+
+/// The most that the limit of a spring falls in a step with its neighbours. So a spring has left when the edge passes its node.
+const LARGEST_FALL: f64 = 4.0;
+
+/// Whether a limit with this value at the end falls by more.
+#[inline(always)]
+fn falls<A: Real>(limit: A, rise: A) -> bool {
+    limit.value() * (LARGEST_FALL - 1.0) < -rise.value()
+}
+
+/// Whether that of the last spring does, the smallest one.
+#[inline(always)]
+pub(crate) fn some_leave<A: Real>(t: &impl Tables<A>, c: &Contact<A>, before: A) -> bool {
+    falls(c.limit(t, 0, starts(c.under_flat)[c.last.min(N - 1)]), c.now.shift[0] - before)
+}
+
+/// Springs whose limits fall by more are on their own until these have fallen to that multiple of their ends: the start of the step for them;
+/// their trial state. The directions of their slip are given if the springs have derivatives.
+#[cold]
+#[inline(never)]
+pub(crate) fn leave<A: Real, X: Over<A>>(
+    t: &impl Tables<A>,
+    c: &Contact<A>,
+    motion: &Motion<A, X>,
+    [old, v]: [&mut Both<Row<X>>; 2],
+    directions: &mut [[f64; 3]; N],
+) {
+    let rise = both!(|k| c.now.shift[k] - motion.before[k]);
+    for j in 0..(c.last + 1).min(N) {
+        let limit = both!(|k| c.limit(t, k, starts(c.under_flat)[j]));
+        if !falls(limit[0], rise[0]) {
+            continue;
+        }
+        let rest = limit[0].scale(1.0 - LARGEST_FALL) * rise[0].inverse();
+        let by = both!(|k| motion.by[k].times(rest));
+        let there = both!(|k| limit[k] - rise[k] * rest);
+        let own = both!(|k| old[k][j] + motion.by[k] - by[k]);
+        if !X::DERIVED {
+            directions[j] = direction(both!(|k| own[k].value()), both!(|k| there[k].value()));
+        }
+        let start = returned(own, &there, directions[j]);
+        for k in 0..2 {
+            (old[k][j], v[k][j]) = (start[k], start[k] + by[k]);
+        }
+    }
+}
+
 /// The largest |r|² of a trial state that sticks: a state that has slipped may round.
 pub(crate) const ROUNDING: f64 = 1.0 + 1e-12;
 
@@ -88,7 +149,9 @@ pub(crate) const ROUNDING: f64 = 1.0 + 1e-12;
 /// rounding errors of their differences.
 #[repr(align(32))]
 pub(crate) struct Trial {
-    /// v*; r of the springs at the start, and r*.
+    /// The springs at the start, with the directions of those that leave, and v*; r of both.
+    pub old: Both<Row<f64>>,
+    pub leaves: [[f64; 3]; N],
     pub v: Both<Row<f64>>,
     pub start: Both<Row<f64>>,
     pub r: Both<Row<f64>>,
@@ -100,12 +163,18 @@ pub(crate) struct Trial {
 pub(crate) fn trial(t: &Rows, c: &Contact<f64>, motion: &Motion<f64, f64>, old: &Values) -> Trial {
     dispatch!({
         let (last, start_of) = (c.last.min(N - 1), starts(c.under_flat));
-        let (mut all, mut start, mut r) = ([[0.0; N]; 2], [[0.0; N]; 2], [[0.0; N]; 2]);
+        let (mut old, mut leaves, mut all) = (both!(|k| old[k]), [[0.0; 3]; N], [[0.0; N]; 2]);
         for k in 0..2 {
             let rise = c.now.shift[k] - motion.before[k];
             for j in 0..=last {
                 all[k][j] = old[k][j] + moved(c.limit(&t, k, start_of[j]), rise, motion.by[k]);
             }
+        }
+        if some_leave(&t, c, motion.before[0]) {
+            leave(&t, c, motion, [&mut old, &mut all], &mut leaves);
+        }
+        let (mut start, mut r) = ([[0.0; N]; 2], [[0.0; N]; 2]);
+        for k in 0..2 {
             start[k] = tractions(t, c, k, &old[k], 0);
             r[k] = if motion.constant_load { start[k] } else { tractions(t, c, k, &all[k], 0) };
             let moved = if motion.constant_load { motion.by[k] } else { 0.0 };
@@ -118,7 +187,7 @@ pub(crate) fn trial(t: &Rows, c: &Contact<f64>, motion: &Motion<f64, f64>, old: 
             let square = r[0][i] * r[0][i] + r[1][i] * r[1][i];
             largest = if square > largest { square } else { largest };
         }
-        Trial { v: all, start, r, sticks: largest <= ROUNDING }
+        Trial { old, leaves, v: all, start, r, sticks: largest <= ROUNDING }
     })
 }
 
@@ -143,7 +212,8 @@ pub(crate) fn tractions(t: &Rows, c: &Contact<f64>, k: usize, v: &Row<f64>, firs
 pub(crate) fn limits_before<A: Real>(t: &impl Tables<A>, c: &Contact<A>, rise: A) -> Row<A> {
     let (last, start) = (c.last.min(N - 1), starts(c.under_flat));
     let (zero, mut limits) = (A::constant(0.0), [A::constant(0.0); N]);
-    if (c.limit(t, 0, start[last]) - rise).value() > 0.0 {
+    let at_edge = c.limit(t, 0, start[last]);
+    if (at_edge - rise).value() > 0.0 && !falls(at_edge, rise) {
         // All springs were engaged: the limits of those within differ as they do at the end.
         for i in 0..=last {
             limits[i] = A::constant(1.0) - rise * c.edge[0][i] * c.per_pressure[i];
@@ -152,7 +222,8 @@ pub(crate) fn limits_before<A: Real>(t: &impl Tables<A>, c: &Contact<A>, rise: A
     }
     let mut above = zero;
     for j in (0..=last).rev().map(|j| j.min(N - 1)) {
-        let limit = c.limit(t, 0, start[j]) - rise;
+        let end = c.limit(t, 0, start[j]);
+        let limit = if falls(end, rise) { end.scale(LARGEST_FALL) } else { end - rise };
         let limit = if limit.value() > 0.0 { limit } else { zero };
         for i in 0..=j {
             limits[i] = limits[i] + (limit - above) * c.map(t, 0, j, i);
