@@ -62,5 +62,6 @@ pub(crate) fn plus(target: [f64; 4], scale: f64, row: [f64; 4]) -> [f64; 4] {
     [a + scale * e, b + scale * f, c + scale * g, d + scale * h]
 }
 
+#[cfg(target_arch = "x86_64")]
 #[cfg(test)]
 mod tests;
