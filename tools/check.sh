@@ -17,7 +17,6 @@ rust() {
     step 'lints: Rust' "$CARGO" clippy --workspace --all-targets --locked -- -D warnings
     step 'lints: shell' sh -c 'git ls-files "*.sh" | xargs shellcheck .ci/run'
     step 'coverage: 98 % of the lines of src/' tools/coverage.sh
-    step 'Miri' tools/miri.sh
     step 'accuracy and adversarial histories, 1e5 points' "$CARGO" run --quiet --locked --package verify -- --points 1e5
     step 'verdicts of 40 fits of each kind' env MICROSLIP_FITS=40 \
         "$CARGO" test --locked --package microslip-fit --test wrong_models -- plateau microslip
@@ -34,6 +33,7 @@ installed() {
     step 'ANSYS: bodies of user subroutines, called by a driver' make -C examples/ansys test PREFIX="$prefix"
     step 'Octave and NLvib: the law in harmonic balance' make -C examples/nlvib test PREFIX="$prefix"
     step 'Fortran on threads and ranks' make -C fortran_examples parallel PREFIX="$prefix"
+    step 'Miri' tools/miri.sh
     step 'instruction counts' "$CARGO" run --quiet --locked --package instructions
     step 'benchmark, quick' make bench QUICK=1
     step 'uninstall leaves no file' uninstall
