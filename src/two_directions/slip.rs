@@ -163,13 +163,13 @@ impl Slips {
         let slips = self;
         dispatch!({
             let (end, start) = ((contact.last + 1).min(N), &trial.start);
-            (slips.middle.set, slips.end.set, slips.slides) = (0, 0, 0.0);
-            (slips.old, slips.leaves, slips.trial, slips.v) = (trial.old, trial.leaves, trial.v, trial.v);
+            (slips.middle.set, slips.end.set, slips.slides, slips.v) = (0, 0, 0.0, trial.v);
             slips.fine.find(t, contact, motion, old);
             // Under a constant load, the middle sticks if the end does.
             if trial.sticks && motion.constant_load {
                 return;
             }
+            (slips.old, slips.leaves, slips.trial) = (trial.old, trial.leaves, trial.v);
             slips.slides = slid(&t, contact, &trial.v, &trial.v);
             let theta = 0.5 * (1.0 + slips.slides);
             (slips.middle.level, slips.end.level) = ([1.0; N], [1.0; N]);

@@ -70,7 +70,7 @@ pub(crate) fn moved<A: Real, X: Over<A>>(limit: A, rise: A, by: X) -> X {
     if limit.value() < rise.value() { by.times(limit * rise.at_least(LEAST).inverse()) } else { by }
 }
 
-/// These three numbers of a spring.
+/// The direction of v/limit of a spring, and 1/(x y |v/limit|) with the limits x and y, negative if it sticks.
 #[inline(always)]
 pub(crate) fn direction(v: Both<f64>, [x, y]: Both<f64>) -> [f64; 3] {
     let (across, along, bound) = (v[0] * y, v[1] * x, x * y);
@@ -111,8 +111,8 @@ pub(crate) fn some_leave<A: Real>(t: &impl Tables<A>, c: &Contact<A>, before: A)
     falls(c.limit(t, 0, starts(c.under_flat)[c.last.min(N - 1)]), c.now.shift[0] - before)
 }
 
-/// Springs whose limits fall by more are on their own until these have fallen to that multiple of their ends: the start of the step for them;
-/// their trial state. The directions of their slip are given if the springs have derivatives.
+/// Springs whose limits fall by more follow alone until these have fallen to that multiple of their ends: `old` becomes the springs there, and
+/// v what sticks from there on. The directions of their slip are found for values, and given for derivatives.
 #[cold]
 #[inline(never)]
 pub(crate) fn leave<A: Real, X: Over<A>>(
@@ -252,7 +252,7 @@ pub(crate) fn slid<A: Real, X: Over<A>, T: Tables<A>>(
     let [x, y] = both!(|k| v[k][0].times(per_limit[k]));
     let (p, q) = (values[0][0] * per_limit[0].value(), values[1][0] * per_limit[1].value());
     let (root, per) = ((p * p + q * q).sqrt(), 1.0 / (FAR[1] - FAR[0]));
-    // Its powers would overflow, and the root may be 0.
+    // Bounded before it is squared: after a long slide its powers would overflow.
     let part = ((root - FAR[0]) * per).clamp(0.0, 1.0);
     let slope = 6.0 * part * (1.0 - part) * per / root.max(FAR[0]);
     (x.scale(p) + y.scale(q)).chain(part * part * (3.0 - 2.0 * part), slope)
