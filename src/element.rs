@@ -4,8 +4,8 @@
 mod table;
 
 use crate::error::Error;
-use crate::limits::{MAX_DISPLACEMENT, check_displacement, check_force, in_range};
-use crate::numerics::fp_class::{in_0_to, le};
+use crate::limits::{MAX_DISPLACEMENT, check_force, in_range};
+use crate::numerics::fp_class::{abs_le, in_0_to, le};
 use crate::numerics::quadrature::gauss_nodes;
 use crate::parameters::{Common, EllipticParameters, Parameters};
 use crate::shape::{Geometry, Layer, Quantity, Shape, TINY};
@@ -126,6 +126,13 @@ pub(crate) struct Normal {
 
 impl Normal {
     pub const OPEN: Normal = Normal { load: 0.0, shift: 0.0, load_slope: 0.0, shift_slope: 0.0 };
+}
+
+impl From<[[f64; 1]; 4]> for Normal {
+    #[inline(always)]
+    fn from([[load], [shift], [load_slope], [shift_slope]]: [[f64; 1]; 4]) -> Normal {
+        Normal { load, shift, load_slope, shift_slope }
+    }
 }
 
 impl Element {
@@ -273,20 +280,7 @@ impl Element {
         if self.tag & TWO_DIRECTIONS == 0 { Directions::One } else { Directions::Two }
     }
 
-    /// Values and, if requested, slopes of a quantity as a function of an argument, from its table or, outside, from the shape.
-    #[inline(always)]
-    fn function<const SLOPES: bool, const L: usize>(
-        &self,
-        table: Option<&Table>,
-        [quantity, argument]: [Quantity; 2],
-        x: &[f64; L],
-    ) -> ([f64; L], [f64; L]) {
-        match table.and_then(|table| table.at::<SLOPES, L>(x)) {
-            Some(results) => results,
-            None => self.one_by_one(table, [quantity, argument], *x),
-        }
-    }
-
+    /// Values and slopes of a quantity as a function of an argument, of which some are outside its table.
     #[cold]
     #[inline(never)]
     fn one_by_one<const L: usize>(
@@ -328,8 +322,9 @@ impl Element {
     /// The normal force at approaches \[m\] that [`Element::check_approach`] accepts; 0 for an approach <= 0, an open contact.
     #[inline(always)]
     pub(crate) fn normal_forces<const L: usize>(&self, approach: &[f64; L]) -> [NormalPoint; L] {
-        let table = self.by_approach().then_some(&self.of_input);
-        let (value, slope) = self.function::<true, L>(table, [Quantity::Load, Quantity::Approach], approach);
+        let (table, load) = (self.by_approach().then_some(&self.of_input), [Quantity::Load, Quantity::Approach]);
+        let tabulated = table.and_then(|table| table.at::<true, L>(approach));
+        let (value, slope) = tabulated.unwrap_or_else(|| self.one_by_one(table, load, *approach));
         from_fn(|k| NormalPoint { value: value[k], slope: if approach[k] > 0.0 { slope[k] } else { 0.0 } })
     }
 
@@ -409,8 +404,10 @@ impl Element {
     }
 
     /// The normal force \[N\] at a tangential shift \[m\].
+    #[inline(always)]
     pub fn load_under(&self, shift: f64) -> f64 {
-        self.load_at_shift(shift).0
+        let ([load], _) = self.loads_at::<false, 1>(&[shift]);
+        load
     }
 
     /// A scale of the normal component, that of the load of the parameters: derivatives by the component over it remain within range.
@@ -433,7 +430,22 @@ impl Element {
     /// `LengthTooShort` if the contact would become too wide for its length.
     #[inline(always)]
     pub(crate) fn check_input(&self, input: f64) -> Result<(), Error> {
-        if self.by_approach() { self.check_approach(input) } else { self.check_normal_force(input) }
+        self.check_normal(self.by_approach(), input)
+    }
+
+    /// Checks an approach or a normal force.
+    #[inline(always)]
+    pub(crate) fn check_normal(&self, is_approach: bool, value: f64) -> Result<(), Error> {
+        let (is_allowed, largest, error) = if is_approach {
+            (abs_le(value, MAX_DISPLACEMENT), self.largest_approach, Error::BadDisplacement)
+        } else {
+            (in_0_to(MAX_DISPLACEMENT, value), self.largest_load, Error::BadNormalForce)
+        };
+        match (is_allowed, le(value, largest)) {
+            (true, true) => Ok(()),
+            (true, false) => Err(Error::LengthTooShort),
+            (false, _) => Err(error),
+        }
     }
 
     /// Checks a normal approach.
@@ -441,8 +453,7 @@ impl Element {
     /// too wide for its length.
     #[inline(always)]
     pub fn check_approach(&self, approach: f64) -> Result<(), Error> {
-        check_displacement(approach)?;
-        if le(approach, self.largest_approach) { Ok(()) } else { Err(Error::LengthTooShort) }
+        self.check_normal(true, approach)
     }
 
     /// Checks a normal force.
@@ -450,10 +461,7 @@ impl Element {
     /// too wide for its length.
     #[inline(always)]
     pub fn check_normal_force(&self, normal_force: f64) -> Result<(), Error> {
-        if !in_0_to(MAX_DISPLACEMENT, normal_force) {
-            return Err(Error::BadNormalForce);
-        }
-        if le(normal_force, self.largest_load) { Ok(()) } else { Err(Error::LengthTooShort) }
+        self.check_normal(false, normal_force)
     }
 
     /// Whether an input that was checked closes the contact.
@@ -477,14 +485,7 @@ impl Element {
     /// The normal state at an input that closes the contact.
     #[inline(never)]
     pub(crate) fn normal(&self, input: f64) -> Normal {
-        self.normal_of_step(input)
-    }
-
-    /// The same in the code of a step, of which the call would be some per cent.
-    #[inline(always)]
-    pub(crate) fn normal_of_step(&self, input: f64) -> Normal {
-        let [[load], [shift], [load_slope], [shift_slope]] = self.closed::<true, 1>(&[input]);
-        Normal { load, shift, load_slope, shift_slope }
+        Normal::from(self.normals::<true, 1>(&[input]))
     }
 
     /// N, S and, if requested, their derivatives at four inputs; zeros for an open contact.
@@ -492,7 +493,7 @@ impl Element {
     pub(crate) fn four_normals<const SLOPES: bool>(&self, input: &[f64; 4]) -> [[f64; 4]; 4] {
         // A closed contact in place of each open one.
         let substitute = self.of_input.smallest();
-        let mut states = self.closed::<SLOPES, 4>(&input.map(|input| if input > 0.0 { input } else { substitute }));
+        let mut states = self.normals::<SLOPES, 4>(&input.map(|input| if input > 0.0 { input } else { substitute }));
         for values in &mut states {
             for k in 0..4 {
                 values[k] = if input[k] > 0.0 { values[k] } else { 0.0 };
@@ -501,35 +502,34 @@ impl Element {
         states
     }
 
+    /// N, S and, if requested, their derivatives at inputs that close the contact.
     #[inline(always)]
-    fn closed<const SLOPES: bool, const L: usize>(&self, input: &[f64; L]) -> [[f64; L]; 4] {
-        let ([per_approach, per_load], table) = (self.shift_per, Some(&self.of_input));
-        if per_approach > 0.0 {
-            // A sum is faster than a second table.
-            let (load, slope) = self.function::<SLOPES, L>(table, [Quantity::Load, Quantity::Approach], input);
+    pub(crate) fn normals<const SLOPES: bool, const L: usize>(&self, input: &[f64; L]) -> [[f64; L]; 4] {
+        let ([per_approach, per_load], is_sum) = (self.shift_per, self.shift_per[0] > 0.0);
+        let (of_input, shift) = (Some(&self.of_input), Some(&self.shift));
+        let outside = |table, quantities| self.one_by_one(table, quantities, *input);
+        if !is_sum && !self.by_approach() {
+            let tabulated = self.shift.at::<SLOPES, L>(input);
+            let (shift, slope) = tabulated.unwrap_or_else(|| outside(shift, [Quantity::Shift, Quantity::Load]));
+            return [*input, shift, [1.0; L], slope];
+        }
+        let tabulated = self.of_input.at::<SLOPES, L>(input);
+        let (load, slope) = tabulated.unwrap_or_else(|| outside(of_input, [Quantity::Load, Quantity::Approach]));
+        if is_sum {
+            // Faster than a second table.
             let shift = from_fn(|k| per_approach * input[k] + per_load * load[k]);
             return [load, shift, slope, slope.map(|slope| per_approach + per_load * slope)];
         }
-        let argument = if self.by_approach() { Quantity::Approach } else { Quantity::Load };
-        let (shift, shift_slope) = self.function::<SLOPES, L>(Some(&self.shift), [Quantity::Shift, argument], input);
-        if argument == Quantity::Load {
-            return [*input, shift, [1.0; L], shift_slope];
-        }
-        let (load, load_slope) = self.function::<SLOPES, L>(table, [Quantity::Load, argument], input);
-        [load, shift, load_slope, shift_slope]
+        let tabulated = self.shift.at::<SLOPES, L>(input);
+        let (shift, shift_slope) = tabulated.unwrap_or_else(|| outside(shift, [Quantity::Shift, Quantity::Approach]));
+        [load, shift, slope, shift_slope]
     }
 
     /// N and, if requested, 1/K_t at shifts S >= 0.
     #[inline(always)]
     pub(crate) fn loads_at<const SLOPES: bool, const L: usize>(&self, shift: &[f64; L]) -> ([f64; L], [f64; L]) {
-        self.function::<SLOPES, L>(Some(&self.load_of_shift), [Quantity::Load, Quantity::Shift], shift)
-    }
-
-    /// N and 1/K_t at a shift S >= 0.
-    #[inline(always)]
-    pub(crate) fn load_at_shift(&self, shift: f64) -> (f64, f64) {
-        let ([load], [stiffness]) = self.loads_at::<true, 1>(&[shift]);
-        (load, stiffness)
+        let (table, quantities) = (&self.load_of_shift, [Quantity::Load, Quantity::Shift]);
+        table.at::<SLOPES, L>(shift).unwrap_or_else(|| self.one_by_one(Some(table), quantities, *shift))
     }
 
     /// N'' at four monotone shifts S > 0. The quarter of the table from an earlier call is kept.

@@ -158,7 +158,8 @@ fn stick(element: &Element, diagram: &mut impl Diagram, kept: usize, inner: &Kno
     let extent = inner.xi.abs().max(inner.eta.abs()).max(eta.abs()) * (2.0 * element.per_two_mu);
     let share = rise / shift.min(element.largest_shift - shift).max(rise);
     let secant = if share * share * rise < 24.0 * f64::EPSILON * extent {
-        element.load_at_shift(shift - 0.5 * rise).1
+        let (_, [stiffness]) = element.loads_at::<true, 1>(&[shift - 0.5 * rise]);
+        stiffness
     } else {
         (load - inner.load) * (2.0 * mu * per_shift)
     };
@@ -194,7 +195,8 @@ fn cut(element: &Element, diagram: &mut impl Diagram, kept: usize, [inner, outer
     // A step to the same displacement changes nothing, to the bit.
     let at_outer = if sign > 0.0 { outer.xi == xi } else { outer.eta == eta };
     let (cut_xi, cut_eta) = if at_outer { (outer.xi, outer.eta) } else { (cut_xi, cut_eta) };
-    let (cut_load, cut_stiffness) = element.load_at_shift((element.per_two_mu * (cut_eta - cut_xi)).max(0.0));
+    let cut_shift = (element.per_two_mu * (cut_eta - cut_xi)).max(0.0);
+    let ([cut_load], [cut_stiffness]) = element.loads_at::<true, 1>(&[cut_shift]);
     let cut = if at_outer {
         *outer
     } else {

@@ -131,7 +131,7 @@ fn gross_slip(element: &Element, path: &Path, direction: Option<f64>, fraction: 
 fn mean_load(element: &Element, [from, to]: [f64; 2]) -> f64 {
     let width = to - from;
     if width == 0.0 {
-        return element.load_at_shift(from).0;
+        return element.load_under(from);
     }
     let (low, high) = (from.min(to), from.max(to));
     if 16.0 * width.abs() < room(element, low, high) {
@@ -197,7 +197,7 @@ impl Slip {
                 }
                 dot(&weights, &tangents)
             } else {
-                let at = |s: f64, width: f64| element.load_at_shift(s).0 * width;
+                let at = |s: f64, width: f64| element.load_under(s) * width;
                 let ends = at(c0, b0 - c0) - at(c1, b1 - c1);
                 ((growth + 2.0 * swept) * mean_load(element, [c0, c1]) + ends) / swept
             };

@@ -34,13 +34,6 @@ impl Header {
     fn read(&[_, displacement, input, load, shift, load_slope, shift_slope, error]: &[f64; HEADER]) -> Header {
         Header { displacement, input, normal: Normal { load, shift, load_slope, shift_slope }, error }
     }
-
-    #[inline(always)]
-    fn write(&self, used: usize, header: &mut [f64; HEADER]) {
-        let Header { displacement, input, normal: Normal { load, shift, load_slope, shift_slope }, error } = *self;
-        let tag = Kind::ElementState.tag(used);
-        *header = [tag, displacement, input, load, shift, load_slope, shift_slope, error];
-    }
 }
 
 /// A state whose header was checked: the tangential displacement, the normal force, and the knots.
@@ -90,7 +83,7 @@ impl Law for OneDirection {
     #[inline(always)]
     fn check_step(element: &Element, &[displacement, input]: &[f64; 2]) -> Result<(), Error> {
         check_displacement(displacement)?;
-        element.check_input(input)
+        element.check_normal(element.by_approach(), input)
     }
 
     fn state_check(state: &[f64]) -> Result<(), Error> {
@@ -148,9 +141,11 @@ impl Law for OneDirection {
         let Some((header, knots)) = state.split_first_chunk_mut::<HEADER>() else { return Step::NONE };
         let used = Kind::ElementState.count(header[0]).unwrap_or(0);
         let mut polygon = Polygon::new(element.friction_coefficient, knots, used);
-        let (step, mut to) = step(element, &Header::read(header), &mut polygon, displacement, requested.energy);
-        to.error = if polygon.anew { polygon.error } else { to.error + polygon.error };
-        to.write(polygon.used, header);
+        let (step, to) = step(element, &Header::read(header), &mut polygon, displacement, requested.energy);
+        let Header { displacement, input, normal: Normal { load, shift, load_slope, shift_slope }, error } = to;
+        let (tag, error) =
+            (Kind::ElementState.tag(polygon.used), polygon.error + if polygon.anew { 0.0 } else { error });
+        *header = [tag, displacement, input, load, shift, load_slope, shift_slope, error];
         step
     }
 

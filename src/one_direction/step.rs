@@ -50,7 +50,9 @@ pub(crate) fn step(
     if !(element.is_closed(input) && from.normal.load > 0.0 && element.friction_coefficient > 0.0) {
         return opening_or_closing(element, from, diagram, [displacement, input], with_energy);
     }
-    let normal = if input.to_bits() == from.input.to_bits() { from.normal } else { element.normal_of_step(input) };
+    let moves = input.to_bits() != from.input.to_bits();
+    // Not `normal`: the call would be some per cent of a step.
+    let normal = if moves { Normal::from(element.normals::<true, 1>(&[input])) } else { from.normal };
     let dissipated = if with_energy {
         let shift = [from.normal.shift, normal.shift];
         energy::dissipated(element, diagram.knots(), &Path { shift, displacement: displacement - from.displacement })
