@@ -46,18 +46,6 @@ impl Layer {
     /// Smallest ratio of N_c to the normal force of the parameters: the curve of a layer has a knee at N_c before gross slip, which the
     /// polynomials of a contact resolve down to this ratio.
     const SMALLEST_STIFFENING: f64 = 1e-3;
-
-    /// The error of the first field that is NaN or outside its range.
-    fn check(&self, normal_force: f64) -> Result<(), Error> {
-        not_negative(self.normal_compliance, Error::BadNormalCompliance)?;
-        not_negative(self.tangential_compliance, Error::BadTangentialCompliance)?;
-        let too_small = self.stiffening_load > 0.0 && self.stiffening_load < Layer::SMALLEST_STIFFENING * normal_force;
-        if too_small || !in_0_to(f64::INFINITY, self.stiffening_load) {
-            return Err(Error::BadStiffeningLoad);
-        }
-        // The bound keeps N_r/N_c and its products with compliances representable.
-        if in_0_to(1e150, self.reference_load) { Ok(()) } else { Err(Error::BadReferenceLoad) }
-    }
 }
 
 impl Default for Layer {
@@ -155,12 +143,12 @@ pub(crate) fn times(factor: f64, sensitivity: Sensitivity) -> Sensitivity {
 }
 
 /// `Ok` if `value` is finite and >= 0.
-fn not_negative(value: f64, error: Error) -> Result<(), Error> {
+pub(crate) fn not_negative(value: f64, error: Error) -> Result<(), Error> {
     if in_0_to(f64::MAX, value) { Ok(()) } else { Err(error) }
 }
 
 /// `Ok` if `value` is finite and > 0.
-fn positive(value: f64, error: Error) -> Result<(), Error> {
+pub(crate) fn positive(value: f64, error: Error) -> Result<(), Error> {
     if in_0_to(f64::MAX, value) && !abs_le(value, 0.0) { Ok(()) } else { Err(error) }
 }
 
@@ -174,7 +162,9 @@ pub(crate) struct Common {
 }
 
 impl Common {
-    fn check(&self) -> Result<(), Error> {
+    /// The parameters, if they are within their ranges.
+    /// Errors: the error of the first one that is not.
+    pub fn checked(self) -> Result<Common, Error> {
         not_negative(self.normal_force, Error::BadNormalForce)?;
         not_negative(self.friction_coefficient, Error::BadFrictionCoefficient)?;
         for body in &self.material {
@@ -183,7 +173,16 @@ impl Common {
                 return Err(Error::BadPoissonRatio);
             }
         }
-        self.layer.check(self.normal_force)
+        let layer = &self.layer;
+        not_negative(layer.normal_compliance, Error::BadNormalCompliance)?;
+        not_negative(layer.tangential_compliance, Error::BadTangentialCompliance)?;
+        let smallest = Layer::SMALLEST_STIFFENING * self.normal_force;
+        let too_small = layer.stiffening_load > 0.0 && layer.stiffening_load < smallest;
+        if too_small || !in_0_to(f64::INFINITY, layer.stiffening_load) {
+            return Err(Error::BadStiffeningLoad);
+        }
+        // The bound keeps N_r/N_c and its products with compliances representable.
+        if in_0_to(1e150, layer.reference_load) { Ok(self) } else { Err(Error::BadReferenceLoad) }
     }
 
     /// E* of parameters that were checked.
@@ -191,41 +190,6 @@ impl Common {
     pub fn composite_modulus(&self) -> Result<f64, Error> {
         self.material.iter().try_for_each(|body| in_range(&[body.young_modulus], &[]))?;
         Ok(Pair::new(&self.material).composite_modulus)
-    }
-}
-
-impl Parameters {
-    /// Checks the ranges of all parameters.
-    /// Errors: the error of the first parameter, in the order of the fields, that is NaN, infinite or out of range.
-    pub fn check(&self) -> Result<(), Error> {
-        not_negative(self.flat_half_width, Error::BadFlatHalfWidth)?;
-        positive(self.edge_radius, Error::BadEdgeRadius)?;
-        positive(self.length, Error::BadLength)?;
-        self.common().check()?;
-        match self.displacement_reference {
-            CENTRE_POINT | RIGID_STRIP => Ok(()),
-            _ => Err(Error::BadDisplacementReference),
-        }
-    }
-
-    pub(crate) fn common(&self) -> Common {
-        let Parameters { normal_force, friction_coefficient, material, layer, .. } = *self;
-        Common { normal_force, friction_coefficient, material, layer }
-    }
-}
-
-impl EllipticParameters {
-    /// Checks the ranges of all parameters.
-    /// Errors: the error of the first parameter, in the order of the fields, that is NaN, infinite or out of range.
-    pub fn check(&self) -> Result<(), Error> {
-        positive(self.semi_axis_x, Error::BadSemiAxisX)?;
-        positive(self.semi_axis_y, Error::BadSemiAxisY)?;
-        self.common().check()
-    }
-
-    pub(crate) fn common(&self) -> Common {
-        let EllipticParameters { normal_force, friction_coefficient, material, layer, .. } = *self;
-        Common { normal_force, friction_coefficient, material, layer }
     }
 }
 

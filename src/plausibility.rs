@@ -2,7 +2,7 @@
 
 use crate::numerics::fp_class::{in_0_to, le};
 use crate::parameters::{CENTRE_POINT, EllipticParameters, Material, Pair, Parameters};
-use crate::shape::size_under_load;
+use crate::shape::{Geometry, size_under_load};
 use core::ffi::CStr;
 use core::ops::RangeInclusive;
 
@@ -66,7 +66,7 @@ impl Parameters {
     /// Warnings of sizes relative to each other; none if the size of the contact is undefined.
     fn related(&self) -> [Option<&'static CStr>; 3] {
         let size = || {
-            Parameters { displacement_reference: CENTRE_POINT, ..*self }.check().ok()?;
+            Parameters { displacement_reference: CENTRE_POINT, ..*self }.checked().ok()?;
             let (b, punch) = size_under_load(self, Pair::new(&self.material).composite_modulus).ok()?;
             // b - a from w² = b² - a², free of cancellation.
             Some((b, b * (punch.w * punch.w / (1.0 + punch.flat))))
@@ -91,6 +91,6 @@ impl EllipticParameters {
         // A sphere of semi-axis s and radius R has N = 4/3 E* s³/R.
         let force =
             || EDGE * (4.0 / 3.0) * Pair::new(&self.material).composite_modulus * self.semi_axis_x * self.semi_axis_y;
-        [(self.check().is_ok() && !le(self.normal_force, force())).then_some(SMALL_RADIUS)]
+        [(self.checked().is_ok() && !le(self.normal_force, force())).then_some(SMALL_RADIUS)]
     }
 }

@@ -71,6 +71,7 @@ impl Quantity {
 /// Geometry, material and load from which a shape follows.
 pub(crate) trait Geometry {
     /// Checks the ranges of all parameters; those that all shapes have.
+    /// Errors: the error of the first parameter, in the order of the fields, that is NaN, infinite or out of range.
     fn checked(&self) -> Result<Common, Error>;
 
     /// The shape of parameters that were checked, N > 0, without their layer.

@@ -5,7 +5,7 @@ use crate::constant_load::interpolant::{ForceInterpolant, INNER_FRACTION, KNEE_F
 use crate::error::Error;
 use crate::limits::check_displacement;
 use crate::limits::{exponent_of, in_range};
-use crate::parameters::{self, Common, EllipticParameters, PARAMETERS, Parameters, Sensitivity};
+use crate::parameters::{Common, EllipticParameters, PARAMETERS, Parameters, Sensitivity};
 use crate::shape::rounded_flat::reference_slope;
 use crate::shape::stick_zone::StickZones;
 use crate::shape::{Complement, Geometry, Layer, Quantity};
@@ -87,9 +87,10 @@ impl Contact {
         contact.stiffness_scale = 0.5 * PI * composite_modulus * length;
         contact.reference_slope = reference_slope(parameters, half_width);
         let compliance = shape.full_stick();
-        let layer = contact.layer(&parameters.layer, normal_force, compliance)?;
-        contact.zones = StickZones::of_flat(&shape.reference.1, compliance, layer);
-        contact.set_friction(normal_force, [half_width, edge_radius, length, composite_modulus])?;
+        let scale = contact.stiffness_scale;
+        let (layer, under_load) = Layer::relative(&parameters.layer, normal_force, scale, compliance)?;
+        contact.zones = StickZones::new(Some(&shape.reference.1), compliance, layer);
+        contact.set_friction(normal_force, under_load, [half_width, edge_radius, length, composite_modulus])?;
         Ok(contact)
     }
 
@@ -105,11 +106,12 @@ impl Contact {
         contact.half_width = semi_axis_x;
         contact.stiffness_scale = 1.0 / parameters.shape()?.compliance(Quantity::Shift, semi_axis_x);
         contact.pressure_scale = normal_force / semi_axis_x / semi_axis_y;
-        contact.zones = StickZones::of_ellipse(contact.layer(&parameters.layer, normal_force, 1.0)?);
+        let (layer, under_load) = Layer::relative(&parameters.layer, normal_force, contact.stiffness_scale, 1.0)?;
+        contact.zones = StickZones::new(None, 1.0, layer);
         // The radius of the sphere with this semi-axis.
         in_range(&[semi_axis_x, semi_axis_x, semi_axis_x, composite_modulus], &[normal_force])?;
         let radius = 4.0 / 3.0 * (semi_axis_x * (semi_axis_x * (semi_axis_x * composite_modulus / normal_force)));
-        contact.set_friction(normal_force, [semi_axis_x, radius, semi_axis_x, composite_modulus])?;
+        contact.set_friction(normal_force, under_load, [semi_axis_x, radius, semi_axis_x, composite_modulus])?;
         // Nothing depends on the other two lengths.
         (contact.sensitivity_scales[2], contact.sensitivity_scales[4]) = (0.0, 0.0);
         Ok(contact)
@@ -124,16 +126,12 @@ impl Contact {
         Ok(Contact { composite_modulus, friction_coefficient, sensitivity_scales, tag: TAG, ..Contact::default() })
     }
 
-    /// The layer of parameters that were checked in units of the stick zones, in which the contact has the compliance `of_contact`.
-    fn layer(&mut self, layer: &parameters::Layer, normal_force: f64, of_contact: f64) -> Result<Layer, Error> {
-        let (layer, under_load) = Layer::new(layer, normal_force)?;
+    /// The tangential law, from geometry, stiffness, and the compliance of the layer over that of the parameters; `parameters` are b, R,
+    /// L and E*.
+    fn set_friction(&mut self, normal_force: f64, under_load: f64, parameters: [f64; 4]) -> Result<(), Error> {
         // For a friction force of 1, by the compliance under the reference load.
-        self.sensitivity_scales[PARAMETERS - 1] = under_load * self.stiffness_scale;
-        layer.relative(normal_force, self.stiffness_scale, of_contact)
-    }
-
-    /// The tangential law, from geometry and stiffness; `parameters` are b, R, L and E*.
-    fn set_friction(&mut self, normal_force: f64, parameters: [f64; 4]) -> Result<(), Error> {
+        let by_compliance = under_load * self.stiffness_scale;
+        self.sensitivity_scales[PARAMETERS - 1] = by_compliance;
         if self.friction_coefficient == 0.0 {
             return Ok(());
         }
@@ -164,7 +162,7 @@ impl Contact {
         (self.displacement_scale, self.per_displacement_scale) = (displacement_scale, 1.0 / displacement_scale);
         (self.slip_displacement, self.per_slip_displacement) = (slip_displacement, 1.0 / slip_displacement);
         (self.initial_stiffness, self.slip_energy) = (initial_stiffness, slip_energy);
-        let by_compliance = slip_force * self.sensitivity_scales[PARAMETERS - 1];
+        let by_compliance = slip_force * by_compliance;
         self.sensitivity_scales =
             [self.friction_coefficient, normal_force, by_size, by_radius, by_length, by_modulus, by_compliance];
         let mut inner = INNER_FRACTION;

@@ -19,13 +19,16 @@
 
 use crate::error::Error;
 use crate::limits::in_range;
-use crate::parameters::{Common, EllipticParameters, Pair};
+use crate::parameters::{Common, EllipticParameters, Pair, positive};
 use crate::shape::{Geometry, Layer, RoundedPunch, Shape, TINY};
 use core::f64::consts::{FRAC_PI_2, PI};
 
 impl Geometry for EllipticParameters {
     fn checked(&self) -> Result<Common, Error> {
-        self.check().map(|()| self.common())
+        let EllipticParameters { normal_force, friction_coefficient, material, layer, .. } = *self;
+        positive(self.semi_axis_x, Error::BadSemiAxisX)?;
+        positive(self.semi_axis_y, Error::BadSemiAxisY)?;
+        Common { normal_force, friction_coefficient, material, layer }.checked()
     }
 
     fn shape(&self) -> Result<Shape, Error> {

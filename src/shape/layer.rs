@@ -147,20 +147,26 @@ impl Layer {
 ///
 /// free of cancellation, with the compliance c without load in units of that for which Λ + λ is 1.
 impl Layer {
-    /// The layer in units of the stick zones under a normal force, whose compliance 1 is the inverse of `stiffness_scale`, given the
-    /// compliance of the contact in these units.
-    /// Errors: `BadTangentialCompliance` if the layer hides the contact, or its compliance in these units is not representable.
-    pub fn relative(&self, normal_force: f64, stiffness_scale: f64, of_contact: f64) -> Result<Layer, Error> {
-        if self.tangential > 0.0 {
-            in_range(&[self.tangential, stiffness_scale], &[]).map_err(|_| Error::BadTangentialCompliance)?;
+    /// [`Layer::new`] in units of the stick zones, in which the compliance 1 is the inverse of `stiffness_scale`, given the compliance of
+    /// the contact in these units.
+    /// Errors: those of [`Layer::new`]; `BadTangentialCompliance` if the layer hides the contact, or its compliance in these units is
+    /// not representable.
+    pub fn relative(
+        parameters: &parameters::Layer,
+        normal_force: f64,
+        stiffness_scale: f64,
+        of_contact: f64,
+    ) -> Result<(Layer, f64), Error> {
+        let (Layer { tangential, stiffening, .. }, under_load) = Layer::new(parameters, normal_force)?;
+        if tangential > 0.0 {
+            in_range(&[tangential, stiffness_scale], &[]).map_err(|_| Error::BadTangentialCompliance)?;
         }
-        let (tangential, stiffening) = (self.tangential * stiffness_scale, self.stiffening * normal_force);
+        let (tangential, stiffening) = (tangential * stiffness_scale, stiffening * normal_force);
         let relative = Layer { normal: 0.0, tangential, stiffening };
         if relative.compliance(1.0) > MOST_COMPLIANT * of_contact {
-            Err(Error::BadTangentialCompliance)
-        } else {
-            Ok(relative)
+            return Err(Error::BadTangentialCompliance);
         }
+        Ok((relative, under_load))
     }
 
     /// z.

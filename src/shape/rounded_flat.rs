@@ -15,13 +15,21 @@
 
 use crate::error::Error;
 use crate::limits::{LARGEST_EXPONENT, exponent_of, in_range};
-use crate::parameters::{CENTRE_POINT, Common, Pair, Parameters};
+use crate::parameters::{CENTRE_POINT, Common, Pair, Parameters, RIGID_STRIP, not_negative, positive};
 use crate::shape::{Geometry, Layer, RoundedPunch, Shape};
 use core::f64::consts::{LN_2, PI};
 
 impl Geometry for Parameters {
     fn checked(&self) -> Result<Common, Error> {
-        self.check().map(|()| self.common())
+        let Parameters { normal_force, friction_coefficient, material, layer, .. } = *self;
+        not_negative(self.flat_half_width, Error::BadFlatHalfWidth)?;
+        positive(self.edge_radius, Error::BadEdgeRadius)?;
+        positive(self.length, Error::BadLength)?;
+        let common = Common { normal_force, friction_coefficient, material, layer }.checked()?;
+        match self.displacement_reference {
+            CENTRE_POINT | RIGID_STRIP => Ok(common),
+            _ => Err(Error::BadDisplacementReference),
+        }
     }
 
     fn shape(&self) -> Result<Shape, Error> {

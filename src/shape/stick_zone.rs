@@ -104,29 +104,20 @@ pub(crate) struct StickZones {
 }
 
 impl StickZones {
-    /// The stick zones of a flat with rounded edges: the sizes below the contact `b` (lengths in units of its half-width), with the
-    /// compliance Λ of full stick.
-    pub fn of_flat(b: &RoundedPunch, compliance: f64, layer: Layer) -> StickZones {
-        StickZones { b: *b, ..StickZones::default() }.with_layer(compliance, layer)
-    }
-
-    /// The stick zones of every ellipse.
-    pub fn of_ellipse(layer: Layer) -> StickZones {
-        let b = RoundedPunch::new(0.0, 1.0);
-        StickZones { b, elliptic: 1, ..StickZones::default() }.with_layer(1.0, layer)
-    }
-
-    fn with_layer(mut self, compliance: f64, layer: Layer) -> StickZones {
-        self.load = self.load_of(&self.b);
-        [self.beta, self.gamma] = [self.beta_of(&self.b, self.load), self.gamma_of(&self.b, self.load)];
-        self.slip_shift = compliance + self.beta + layer.shift(1.0);
-        self.contact = SmallLoadSeries::new(compliance, &self.curvatures());
-        self.layer = layer;
-        self.small_load = self.contact;
-        if self.has_layer() {
-            self.small_load = SmallLoadSeries::new(compliance + layer.compliance(1.0), &self.curvatures());
+    /// The stick zones of a flat with rounded edges, the sizes below the contact `b` (lengths in units of its half-width), with the
+    /// compliance Λ of full stick; those of every ellipse without a `b`.
+    pub fn new(b: Option<&RoundedPunch>, compliance: f64, layer: Layer) -> StickZones {
+        let (punch, elliptic) = (b.copied().unwrap_or(RoundedPunch::new(0.0, 1.0)), u64::from(b.is_none()));
+        let mut zones = StickZones { b: punch, elliptic, ..StickZones::default() };
+        zones.load = zones.load_of(&punch);
+        [zones.beta, zones.gamma] = [zones.beta_of(&punch, zones.load), zones.gamma_of(&punch, zones.load)];
+        zones.slip_shift = compliance + zones.beta + layer.shift(1.0);
+        zones.contact = SmallLoadSeries::new(compliance, &zones.curvatures());
+        (zones.layer, zones.small_load) = (layer, zones.contact);
+        if zones.has_layer() {
+            zones.small_load = SmallLoadSeries::new(compliance + layer.compliance(1.0), &zones.curvatures());
         }
-        self
+        zones
     }
 
     fn is_elliptic(&self) -> bool {
