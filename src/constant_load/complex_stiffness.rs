@@ -118,23 +118,18 @@ pub(crate) fn write_values([real, imaginary]: [ValueAndSlope; 2], i: usize, outp
     }
 }
 
-impl Contact {
-    /// Writes what is requested of K', K'' and their derivatives at a checked amplitude \[m\], as value i of each output.
-    pub(crate) fn write_complex_stiffness(&self, amplitude: f64, i: usize, outputs: &mut StiffnessOutputs) {
-        let [k_real, k_imag, dk_real, dk_imag] = &*outputs;
-        let is_requested =
-            |value: &Option<_>, slope: &Option<_>| (value.is_some() || slope.is_some()) && !self.is_frictionless();
-        let real = if is_requested(k_real, dk_real) { self.real_stiffness(amplitude) } else { (0.0, 0.0) };
-        let imaginary = if is_requested(k_imag, dk_imag) { self.imaginary_stiffness(amplitude) } else { (0.0, 0.0) };
-        write_values([real, imaginary], i, outputs);
-    }
+/// Whether K' and K'', or their derivatives, are requested.
+#[inline(always)]
+pub(crate) fn requested([k_real, k_imag, dk_real, dk_imag]: &StiffnessOutputs) -> [bool; 2] {
+    [k_real.is_some() || dk_real.is_some(), k_imag.is_some() || dk_imag.is_some()]
+}
 
+impl Contact {
     /// The complex stiffness at a displacement amplitude \[m\]; at 0 it is the initial stiffness.
     /// Errors: `BadAmplitude` if the amplitude is not finite, negative, or beyond 1e150.
     pub fn complex_stiffness(&self, amplitude: f64) -> Result<ComplexStiffness, Error> {
         check_amplitude(amplitude)?;
-        let ((real, d_real), (imaginary, d_imag)) =
-            (self.real_stiffness(amplitude), self.imaginary_stiffness(amplitude));
+        let [(real, d_real), (imaginary, d_imag)] = self.stiffness_of_cycle(amplitude, [true; 2]);
         Ok(ComplexStiffness { real, imaginary, d_real, d_imag, dissipated: self.energy_of_cycle(amplitude).0 })
     }
 
@@ -224,24 +219,6 @@ impl Contact {
         )
     }
 
-    /// Tangent stiffnesses over the initial one at four rising x and remaining ρ = 1 - x.
-    #[inline(always)]
-    fn relative_stiffnesses(&self, x: &[f64; 4], rho: &[f64; 4]) -> [f64; 4] {
-        let (per_initial, slip) = (1.0 / self.initial_stiffness, self.slip_displacement);
-        let [mut values, mut remaining] = [[0.0; 4]; 2];
-        for k in 0..4 {
-            (values[k], remaining[k]) = (x[k] * slip, rho[k] * slip);
-        }
-        match self.four_stiffnesses(&values, &remaining) {
-            Some(stiffnesses) => values = stiffnesses,
-            None => (0..4).for_each(|k| values[k] = self.stiffness_in_integral(x[k], rho[k])),
-        }
-        for value in &mut values {
-            *value *= per_initial;
-        }
-        values
-    }
-
     /// The curve, continued to negative displacements, has a point of zero compliance, to first order at this distance from 0, in
     /// displacements of gross slip.
     fn relative_distance_of_zero_compliance(&self) -> f64 {
@@ -273,43 +250,43 @@ pub(crate) fn check_amplitude(amplitude: f64) -> Result<(), Error> {
 }
 
 impl Contact {
-    /// No friction, or an amplitude so small that K' and K'' are linear in it to far below rounding. Smaller amplitudes would underflow
-    /// in the general formulas.
-    fn is_linear(&self, amplitude: f64) -> bool {
-        self.is_frictionless() || amplitude <= 1e-30 * self.displacement_scale
+    /// K' and K'' with their derivatives at a checked amplitude \[m\], if requested.
+    pub(crate) fn stiffness_of_cycle(
+        &self,
+        amplitude: f64,
+        [has_real, has_imaginary]: [bool; 2],
+    ) -> [ValueAndSlope; 2] {
+        // K' and K'' are linear to far below rounding, and would underflow in the general formulas.
+        if self.is_frictionless() || amplitude <= 1e-30 * self.displacement_scale {
+            let (real, imaginary) = self.initial_slopes();
+            return [(self.initial_stiffness, real), (amplitude * imaginary, imaginary)];
+        }
+        let (mut parts, not_zero) = ([(0.0, 0.0); 2], amplitude.max(f64::MIN_POSITIVE));
+        if has_real {
+            parts[0] = self.real_stiffness(not_zero);
+        }
+        if has_imaginary {
+            let (energy, slope) = self.energy_of_cycle(amplitude);
+            let imaginary = energy / not_zero / not_zero / PI;
+            parts[1] = (imaginary, (slope / not_zero / PI - 2.0 * imaginary) / not_zero);
+        }
+        parts
     }
 
     /// K' and its derivative.
-    pub(crate) fn real_stiffness(&self, amplitude: f64) -> ValueAndSlope {
-        let (initial, not_zero) = (self.initial_stiffness, amplitude.max(f64::MIN_POSITIVE));
-        if self.is_linear(amplitude) {
-            return (initial, self.initial_slopes().0);
-        }
-        let y = not_zero * self.inner_scale;
+    fn real_stiffness(&self, amplitude: f64) -> ValueAndSlope {
+        let (initial, y) = (self.initial_stiffness, amplitude * self.inner_scale);
         if y <= 1.0
             && let Some((real, slope)) = self.interpolant().stiffness_of_cycle(y)
         {
             return (initial * real, (initial * self.inner_scale * slope).min(0.0));
         }
         let per_slip = self.per_slip_displacement;
-        let xi = not_zero * per_slip;
-        let [integral, rate] = self.cycle_integrals(xi, (self.slip_displacement - not_zero) * per_slip);
+        let xi = amplitude * per_slip;
+        let [integral, rate] = self.cycle_integrals(xi, (self.slip_displacement - amplitude) * per_slip);
         // In this order for amplitudes whose square overflows.
         let [real, slope] = [integral, rate - 2.0 * integral / xi].map(|value| 8.0 / PI * initial * (value / xi / xi));
         (real, (slope * per_slip).min(0.0))
-    }
-
-    /// K'' and its derivative.
-    #[inline(always)]
-    pub(crate) fn imaginary_stiffness(&self, amplitude: f64) -> ValueAndSlope {
-        if self.is_linear(amplitude) {
-            let slope = self.initial_slopes().1;
-            return (amplitude * slope, slope);
-        }
-        let not_zero = amplitude.max(f64::MIN_POSITIVE);
-        let (energy, slope) = self.energy_of_cycle(amplitude);
-        let imaginary = energy / not_zero / not_zero / PI;
-        (imaginary, (slope / not_zero / PI - 2.0 * imaginary) / not_zero)
     }
 
     /// Energy dissipated per cycle, and its derivative with respect to the amplitude.

@@ -33,7 +33,7 @@ pub fn jenkins(contact: &Contact, amplitude: f64) -> Result<SpringSlider, Error>
     }
     // Beyond this amplitude the result no longer changes, and K' would underflow.
     let amplitude = amplitude.min(1e100 * contact.slip_displacement);
-    let (real, imaginary) = (contact.real_stiffness(amplitude).0, contact.imaginary_stiffness(amplitude).0);
+    let [(real, _), (imaginary, _)] = contact.stiffness_of_cycle(amplitude, [true; 2]);
     let ratio = imaginary / real.max(f64::MIN_POSITIVE);
     if amplitude <= 0.0 || ratio < 1e-300 {
         let slip_force = if amplitude > 0.0 { real * amplitude } else { contact.slip_force };

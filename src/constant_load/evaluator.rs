@@ -5,6 +5,7 @@
 
 use crate::constant_load::contact::Contact;
 use crate::constant_load::interpolant::{END_OF_PIECES, Interval, root_of};
+use crate::numerics::polynomial::values_and_slopes;
 use crate::shape::Complement;
 
 /// Force \[N\] and tangent stiffness \[N/m\] at a displacement.
@@ -53,21 +54,24 @@ impl Contact {
         Response { force: self.force_of(&zone), stiffness: self.stiffness_of(&zone) }
     }
 
-    /// The tangent stiffness at x and the remaining ρ = 1 - x over the displacement of gross slip. Beyond the polynomials of the force it
-    /// follows from the last ones; without an interpolant the stick zone is found.
+    /// The tangent stiffnesses at x and the remaining ρ = 1 - x over the displacement of gross slip, one by one. Beyond the polynomials of
+    /// the force they follow from the last ones; without an interpolant the stick zones are found.
     #[inline(never)]
-    pub(crate) fn stiffness_in_integral(&self, x: f64, rho: f64) -> f64 {
-        if self.interpolant().is_converged() {
-            let rho = rho * self.slip_displacement * self.outer_scale;
-            return if rho < END_OF_PIECES {
-                let [slope] = self.interpolant().last_slopes(&[rho]);
-                self.slip_force * self.outer_scale * slope
+    fn stiffnesses_in_integral(&self, x: &[f64; 4], rho: &[f64; 4]) -> [f64; 4] {
+        let (zones, slip) = (self.stick_zones(), self.stick_zones().slip_shift);
+        let (mut stiffnesses, is_converged) = ([0.0; 4], self.interpolant().is_converged());
+        for k in 0..4 {
+            let of_last = rho[k] * self.slip_displacement * self.outer_scale;
+            stiffnesses[k] = if !is_converged {
+                self.stiffness_of(&zones.at_shift(Complement { consumed: x[k] * slip, remaining: rho[k] * slip }))
+            } else if of_last < END_OF_PIECES {
+                let [slope] = self.interpolant().last_slopes(&[of_last]);
+                self.outer_stiffness() * slope
             } else {
-                self.response(x * self.slip_displacement).stiffness
+                self.response(x[k] * self.slip_displacement).stiffness
             };
         }
-        let (zones, slip) = (self.stick_zones(), self.stick_zones().slip_shift);
-        self.stiffness_of(&zones.at_shift(Complement { consumed: x * slip, remaining: rho * slip }))
+        stiffnesses
     }
 }
 
@@ -177,30 +181,39 @@ impl Contact {
         }
     }
 
-    /// Stiffnesses in an integral at four rising displacements up to that of gross slip and the remaining ones, if all are on one
-    /// polynomial of the force or beyond all of them.
+    /// Tangent stiffnesses over the initial one, for integrals, at four rising x and remaining ρ = 1 - x over the displacement of gross
+    /// slip: at once if all are on one polynomial of the force or beyond all of them.
     #[inline(always)]
-    pub(crate) fn four_stiffnesses(&self, displacement: &[f64; 4], remaining: &[f64; 4]) -> Option<[f64; 4]> {
-        if !self.interpolant().is_converged() {
-            return None;
-        }
-        if remaining[0] * self.outer_scale < END_OF_PIECES {
-            let mut values = self.interpolant().last_slopes(&remaining.map(|remaining| remaining * self.outer_scale));
-            for value in &mut values {
-                *value *= self.outer_stiffness();
-            }
-            return Some(values);
-        }
-        if displacement[3] * self.inner_scale <= 1.0 {
-            return Some(self.inner::<4, true>(displacement).1);
-        }
-        let mut roots = [0.0; 4];
+    pub(crate) fn relative_stiffnesses(&self, x: &[f64; 4], rho: &[f64; 4]) -> [f64; 4] {
+        let (per_initial, slip) = (1.0 / self.initial_stiffness, self.slip_displacement);
+        let [mut displacement, mut remaining, mut roots] = [[0.0; 4]; 3];
         for k in 0..4 {
-            roots[k] = root_of((self.slip_displacement - displacement[k]) * self.outer_scale);
+            displacement[k] = x[k] * slip;
+            remaining[k] = (rho[k] * slip) * self.outer_scale;
         }
-        let interval = Interval::of(roots[0]);
-        let is_one = displacement[0] * self.inner_scale > 1.0 && Interval::of(roots[3]) == interval;
-        (is_one && interval.is_covered()).then(|| self.outer::<4, true>(interval, &roots).1)
+        let mut stiffnesses = None;
+        if self.interpolant().is_converged() {
+            if remaining[0] < END_OF_PIECES {
+                stiffnesses =
+                    Some(self.interpolant().last_slopes(&remaining).map(|slope| slope * self.outer_stiffness()));
+            } else if displacement[3] * self.inner_scale <= 1.0 {
+                stiffnesses = Some(self.inner::<4, true>(&displacement).1);
+            } else {
+                for k in 0..4 {
+                    roots[k] = root_of((slip - displacement[k]) * self.outer_scale);
+                }
+                let interval = Interval::of(roots[0]);
+                let is_one = displacement[0] * self.inner_scale > 1.0 && Interval::of(roots[3]) == interval;
+                if is_one && interval.is_covered() {
+                    stiffnesses = Some(self.outer::<4, true>(interval, &roots).1);
+                }
+            }
+        }
+        let mut values = stiffnesses.unwrap_or_else(|| self.stiffnesses_in_integral(x, rho));
+        for value in &mut values {
+            *value *= per_initial;
+        }
+        values
     }
 
     /// Forces and, if requested, stiffnesses at displacements in the range of the first polynomial.
@@ -210,10 +223,10 @@ impl Contact {
         for k in 0..L {
             y[k] = displacement[k] * self.inner_scale;
         }
-        let (mut forces, mut stiffnesses) = self.interpolant().secants_and_tangents::<L, STIFFNESS>(&y);
+        let (mut forces, mut stiffnesses) = values_and_slopes::<_, L, STIFFNESS>(self.interpolant().secant(), &y);
         for k in 0..L {
+            stiffnesses[k] = if STIFFNESS { (forces[k] + stiffnesses[k] * y[k]) * self.initial_stiffness } else { 0.0 };
             forces[k] *= self.initial_stiffness * displacement[k];
-            stiffnesses[k] *= self.initial_stiffness;
         }
         (forces, stiffnesses)
     }
@@ -255,8 +268,12 @@ impl Contact {
             let consumed = force / self.slip_force.max(f64::MIN_POSITIVE);
             return Some((Complement { consumed, remaining: 1.0 - consumed }, stiffness));
         }
-        let (remaining, slope) = self.interpolant().complement_and_slope(displacement.remaining * self.outer_scale)?;
-        Some((Complement { consumed: 1.0 - remaining, remaining }, self.outer_stiffness() * slope))
+        let v = root_of(displacement.remaining * self.outer_scale);
+        let interval = Interval::of(v);
+        let ([remaining], [slope]) = self.interpolant().complements_and_slopes::<1, true>(interval, &[v]);
+        interval
+            .is_covered()
+            .then_some((Complement { consumed: 1.0 - remaining, remaining }, self.outer_stiffness() * slope))
     }
 
     /// Stiffness for a derivative by ρ of 1.

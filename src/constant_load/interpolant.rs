@@ -121,19 +121,10 @@ impl ForceInterpolant {
         self.converged != 0
     }
 
-    /// The secant stiffness over the initial one.
+    /// The secant stiffness over the initial one at places y = x/(2/5 x_s), at most 1, if converged.
+    #[inline(always)]
     pub fn secant(&self) -> &Polynomial {
         &self.inner
-    }
-
-    /// Secant and, if requested, tangent stiffness over the initial one at places y = x/(2/5 x_s), at most 1, if converged.
-    #[inline(always)]
-    pub fn secants_and_tangents<const L: usize, const TANGENTS: bool>(&self, y: &[f64; L]) -> ([f64; L], [f64; L]) {
-        let (secants, mut tangents) = values_and_slopes::<_, L, TANGENTS>(&self.inner, y);
-        for k in 0..L {
-            tangents[k] = if TANGENTS { secants[k] + tangents[k] * y[k] } else { 0.0 };
-        }
-        (secants, tangents)
     }
 
     /// K' over the initial stiffness and its derivative with respect to y, for cycles up to y = 1: `8/π ∫ sqrt(t (1-t)) tⁿ dt` of each
@@ -167,15 +158,6 @@ impl ForceInterpolant {
             slopes[k] = if SLOPES { 2.0 * scale * slopes[k] / v[k] } else { 0.0 };
         }
         (remaining, slopes)
-    }
-
-    /// 1 - τ and its derivative with respect to ρ, if converged; `None` if ρ is below the last interval of v.
-    #[inline(always)]
-    pub fn complement_and_slope(&self, rho: f64) -> Option<(f64, f64)> {
-        let v = root_of(rho);
-        let interval = Interval::of(v);
-        let ([remaining], [slope]) = self.complements_and_slopes::<1, true>(interval, &[v]);
-        interval.is_covered().then_some((remaining, slope))
     }
 
     /// The derivatives at places below the last interval of v, for integrals, if converged.

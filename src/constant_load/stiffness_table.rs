@@ -17,7 +17,7 @@
 //!
 //! dF/dξ and dE/dξ, those of a single call, are interpolated first.
 
-use crate::constant_load::complex_stiffness::{StiffnessOutputs, ValueAndSlope, write_values};
+use crate::constant_load::complex_stiffness::{StiffnessOutputs, ValueAndSlope, requested, write_values};
 use crate::constant_load::contact::Contact;
 use crate::constant_load::interpolant::{CYCLE_WEIGHTS, INNER_FRACTION};
 use crate::constant_load::interpolant::{DyadicPlace, ENERGY_WEIGHTS, eighth_root, weighted};
@@ -200,7 +200,9 @@ impl StiffnessTable {
     /// Writes what is requested of K', K'' and their derivatives at checked amplitudes \[m\] of a contact of this shape.
     pub fn write(&self, contact: &Contact, amplitude: &[f64], mut outputs: StiffnessOutputs) {
         if !self.has_polynomials() || contact.is_frictionless() {
-            (0..).zip(amplitude).for_each(|(i, &one)| contact.write_complex_stiffness(one, i, &mut outputs));
+            let requested = requested(&outputs);
+            let values = amplitude.iter().map(|&amplitude| contact.stiffness_of_cycle(amplitude, requested));
+            values.enumerate().for_each(|(i, values)| write_values(values, i, &mut outputs));
             return;
         }
         let (fours, rest) = amplitude.as_chunks::<4>();
@@ -216,8 +218,8 @@ impl StiffnessTable {
         first: usize,
         outputs: &mut StiffnessOutputs,
     ) {
-        let requested = [outputs[0].is_some() || outputs[2].is_some(), outputs[1].is_some() || outputs[3].is_some()];
-        let (unit, per_slip) = (contact.initial_stiffness, contact.per_slip_displacement);
+        let (requested, unit, per_slip) =
+            (requested(outputs), contact.initial_stiffness, contact.per_slip_displacement);
         let e = amplitude.map(|amplitude| (contact.slip_displacement - amplitude) * per_slip);
         // Roots of several take the time of one.
         let u = e.map(|e| eighth_root(e.abs() * (1.0 / TOP)));

@@ -5,7 +5,7 @@ use super::pointers::{
 };
 use super::{mslip_contact, mslip_element};
 use crate::constant_load::ConstantLoad;
-use crate::constant_load::complex_stiffness::check_amplitude;
+use crate::constant_load::complex_stiffness::{check_amplitude, requested as stiffness_requested, write_values};
 use crate::constant_load::contact::Contact;
 use crate::constant_load::harmonic_force::{HarmonicOutput, harmonic_force};
 use crate::element::{Directions, Element};
@@ -279,8 +279,10 @@ pub unsafe extern "C" fn mslip_batch_complex_stiffness(
             outputs([k_real, k_imag, dk_real, dk_imag], n)?,
         );
         items.check::<ConstantLoad>(|i, _| amplitude.get(i).map_or(Ok(()), |amplitude| check_amplitude(*amplitude)))?;
-        let active = items.with(|i| amplitude.get(i));
-        active.for_each(|(i, contact, amplitude)| contact.write_complex_stiffness(*amplitude, i, &mut outputs));
+        let requested = stiffness_requested(&outputs);
+        for (i, contact, amplitude) in items.with(|i| amplitude.get(i)) {
+            write_values(contact.stiffness_of_cycle(*amplitude, requested), i, &mut outputs);
+        }
         Ok(())
     })
 }

@@ -1,6 +1,6 @@
 //! Cyclic loading: hysteresis loops, energy, complex stiffness, and equivalent spring-slider elements.
 
-use crate::constant_load::complex_stiffness::check_amplitude;
+use crate::constant_load::complex_stiffness::{check_amplitude, requested, write_values};
 use crate::constant_load::equivalents;
 use crate::constant_load::stiffness_table::{StiffnessTable, TABLE_LENGTH};
 use crate::error::Error;
@@ -71,7 +71,9 @@ pub unsafe extern "C" fn mslip_complex_stiffness(
         let (contact, amplitude, mut outputs) =
             (pointers::contact(contact)?, input(amplitude, n)?, outputs([k_real, k_imag, dk_real, dk_imag], n)?);
         amplitude.iter().try_for_each(|&amplitude| check_amplitude(amplitude))?;
-        (0..).zip(amplitude).for_each(|(i, &one)| contact.write_complex_stiffness(one, i, &mut outputs));
+        let requested = requested(&outputs);
+        let values = amplitude.iter().map(|&amplitude| contact.stiffness_of_cycle(amplitude, requested));
+        values.enumerate().for_each(|(i, values)| write_values(values, i, &mut outputs));
         Ok(())
     })
 }

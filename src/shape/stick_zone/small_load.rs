@@ -38,17 +38,6 @@ pub struct SmallLoadSeries {
     curvature: Terms,
 }
 
-/// Values of the series at one τ.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct SeriesValues {
-    /// h.
-    pub shift: f64,
-    /// λ = h'.
-    pub compliance: f64,
-    /// h''.
-    pub curvature: f64,
-}
-
 impl SmallLoadSeries {
     /// The series from values and slopes of its curvature over z at τ = (1+z)/4.
     pub(crate) fn new(compliance: f64, curvature: &[Tangent; RETAINED_TERMS / 2]) -> SmallLoadSeries {
@@ -74,15 +63,6 @@ impl SmallLoadSeries {
         let used = polynomial::rows_for(tau, RETAINED_TERMS / 4);
         let pairs = self.curvature.iter().zip(factors).take(used);
         polynomial::sum(pairs.map(|([a, b, c, d], [f, g, h, i])| [a * f, b * g, c * h, d * i]), tau)
-    }
-
-    /// h, λ and h'' at τ.
-    #[inline(always)]
-    pub fn evaluate(&self, tau: f64) -> SeriesValues {
-        // λ/τ and its derivative give λ and h''.
-        let (compliance, slope) = polynomial::value_and_slope(&self.terms(&COMPLIANCE), tau);
-        let (shift, _) = polynomial::value_and_slope(&self.terms(&SHIFT), tau);
-        SeriesValues { shift: shift * tau * tau, compliance: compliance * tau, curvature: compliance + slope * tau }
     }
 
     /// The coefficients c_m f_m.
@@ -128,14 +108,17 @@ impl SmallLoadSeries {
         let second_derivative = 2.0 * self.initial_curvature() * shift.consumed;
         let mut tau = 2.0 * shift.consumed / (linear + (linear * linear + second_derivative).sqrt());
         let mut compliance_increase = 0.0;
+        let [compliance, shift_terms] = [&COMPLIANCE, &SHIFT].map(|factors| self.terms(factors));
         for _ in 0..5 {
-            let now = self.evaluate(tau);
-            let slope = linear + now.compliance;
-            let newton = (linear * tau + now.shift - shift.consumed) / slope;
-            let step = newton / (1.0 - 0.5 * newton * now.curvature / slope);
+            // λ/τ and its derivative give λ and h''.
+            let (compliance, change) = polynomial::value_and_slope(&compliance, tau);
+            let (compliance, curvature) = (compliance * tau, compliance + change * tau);
+            let (h, slope) = (polynomial::value_and_slope(&shift_terms, tau).0 * tau * tau, linear + compliance);
+            let newton = (linear * tau + h - shift.consumed) / slope;
+            let step = newton / (1.0 - 0.5 * newton * curvature / slope);
             tau -= step;
             // To first order in the step; its square is below rounding.
-            compliance_increase = now.compliance - step * now.curvature;
+            compliance_increase = compliance - step * curvature;
             if step.abs() <= 1e-8 * tau {
                 break;
             }
