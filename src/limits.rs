@@ -15,7 +15,8 @@ pub(crate) fn check_displacement(displacement: f64) -> Result<(), Error> {
 /// Rejects coefficients that are not finite or too large.
 /// Errors: `BadDisplacement`.
 pub(crate) fn check_coefficients(displacement: &[f64]) -> Result<(), Error> {
-    displacement.iter().try_for_each(|&coefficient| check_displacement(coefficient))
+    let are_allowed = displacement.iter().all(|&coefficient| abs_le(coefficient, MAX_DISPLACEMENT));
+    if are_allowed { Ok(()) } else { Err(Error::BadDisplacement) }
 }
 
 /// Checks a tangential force of at most a limit, but for rounding.

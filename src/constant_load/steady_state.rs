@@ -38,22 +38,16 @@ impl<'c, 's> SteadyState<'c, 's> {
     /// Enters the steady state, with an empty stack, at the displacement of largest magnitude.
     pub fn begin(&mut self, displacement: f64) -> Response {
         let direction = if displacement < 0.0 { -1.0 } else { 1.0 };
-        let initial_curve = self.memory(Point { displacement, force: 0.0 }).branch(self.contact, 0, direction);
-        let gross_slip = displacement.abs() > self.contact.slip_displacement;
-        self.branch = Branch { gross_slip, ..initial_curve };
+        self.branch = self.memory(self.branch.start).branch(self.contact, 0, direction);
+        self.branch.gross_slip = displacement.abs() > self.contact.slip_displacement;
         self.initial = self.initial.after(self.contact, &self.branch, displacement);
-        self.response(displacement)
+        self.branch.response(self.contact, displacement)
     }
 
     /// The present branch; gross slip has no end.
     pub fn branch(&self) -> Branch {
         let Branch { direction, end, gross_slip, .. } = self.branch;
         Branch { end: if gross_slip { direction * f64::INFINITY } else { end }, ..self.branch }
-    }
-
-    /// Response at a displacement on the present branch.
-    pub fn response(&self, displacement: f64) -> Response {
-        self.branch.response(self.contact, displacement)
     }
 
     /// Derivatives of the force at a displacement on the present branch, less those at the reversal that it leaves.

@@ -281,7 +281,7 @@ impl<'m, 'c, 's> Period<'m, 'c, 's> {
             self.law.enter(next);
             at = event;
         }
-        self.now = self.law.response(to.displacement);
+        self.now = self.law.branch().response(self.law.contact, to.displacement);
     }
 
     /// Makes an instant the newest reversal on the stack and stores its derivatives.
@@ -326,7 +326,11 @@ impl<'m, 'c, 's> Period<'m, 'c, 's> {
         if branch.gross_slip {
             buffers.integrate_phi(from.t, to.t);
             if force {
-                add_scaled(buffers.force, self.law.response(to.displacement).force, buffers.phi_integrals);
+                add_scaled(
+                    buffers.force,
+                    branch.response(self.law.contact, to.displacement).force,
+                    buffers.phi_integrals,
+                );
             }
             if let Some(sums) = &mut self.sensitivity {
                 let stack = ReversalSensitivities::new(buffers.gradients.as_flattened_mut());
@@ -348,7 +352,7 @@ impl<'m, 'c, 's> Period<'m, 'c, 's> {
         let sums = segment_stiffness.as_flattened_mut().get_mut(..2 * coefficients - 1).unwrap_or(&mut []);
         sums.fill(0.0);
         let values = |displacement| {
-            let Response { force, stiffness } = self.law.response(displacement);
+            let Response { force, stiffness } = branch.response(self.law.contact, displacement);
             [force, stiffness]
         };
         let requested = [if force { &mut **force_sums } else { &mut [] }, if stiffness { &mut *sums } else { &mut [] }];

@@ -152,7 +152,17 @@ fn sample(count: usize, fourier: &FoldedFourier, displacement: &[f64], samples: 
         let only_odd_orders = displacement.iter().enumerate().all(|(c, value)| !even_order(c) || *value == 0.0);
         let half_wave = count.is_multiple_of(2) && only_odd_orders;
         let length = if half_wave { count / 2 } else { count };
-        Part { farthest: farthest(samples, length), length, half_wave }
+        // The first of these samples with the largest magnitude, which no sample exceeds.
+        let larger = |one: f64, two: f64| if two > one { two } else { one };
+        let mut lanes = [0.0; 4];
+        for block in samples.as_chunks::<4>().0.iter().take(length.div_ceil(4)) {
+            for k in 0..4 {
+                lanes[k] = larger(lanes[k], block[k].abs());
+            }
+        }
+        let largest = lanes.into_iter().fold(0.0, larger);
+        let farthest = samples.iter().position(|value| value.abs() == largest).unwrap_or(0);
+        Part { farthest, length, half_wave }
     })
 }
 
@@ -199,7 +209,7 @@ impl Path<'_> {
                 && let (Some(force), Some(stiffness)) = (force.get_mut(next..), stiffness.get_mut(next..))
             {
                 if branch.gross_slip {
-                    let slip_force = law.response(0.0).force;
+                    let slip_force = branch.response(law.contact, 0.0).force;
                     force.iter_mut().take(count).for_each(|force| *force = slip_force);
                     stiffness.iter_mut().take(count).for_each(|stiffness| *stiffness = 0.0);
                 } else {
@@ -234,18 +244,4 @@ fn count_on_branch(samples: &[f64], branch: &Branch) -> usize {
     let whole = 4 * blocks.take_while(continue_all).count();
     let rest = samples.iter().zip(later).skip(whole);
     1 + whole + rest.take_while(|(last, next)| continues(last, next)).count()
-}
-
-/// Index of the first of the leading `count` samples with the largest magnitude, which no sample exceeds.
-#[inline(always)]
-fn farthest(displacement: &[f64], count: usize) -> usize {
-    let larger = |one: f64, two: f64| if two > one { two } else { one };
-    let mut lanes = [0.0; 4];
-    for block in displacement.as_chunks::<4>().0.iter().take(count.div_ceil(4)) {
-        for k in 0..4 {
-            lanes[k] = larger(lanes[k], block[k].abs());
-        }
-    }
-    let largest = lanes.into_iter().fold(0.0, larger);
-    displacement.iter().position(|value| value.abs() == largest).unwrap_or(0)
 }
