@@ -6,6 +6,7 @@
 //!
 //! - `scalar`: numbers over which the law is written, values and duals;
 //! - `tables`, `contact`: the springs of a shape, aligned with a size, and under a present load;
+//! - `matrix`: small matrices;
 //! - `trial`, `slip`, `step`: a step without slip, Coulomb's law at the points in its middle and at its end, and the step itself with its
 //!   energy;
 //! - `stick`: a step under a constant load without slip;
@@ -15,6 +16,7 @@
 pub mod harmonic_force;
 
 mod contact;
+mod matrix;
 mod path;
 mod scalar;
 mod slip;

@@ -138,7 +138,7 @@ impl Contact<f64> {
     /// G of a shell.
     #[inline(always)]
     pub fn row<'a>(&'a self, t: &'a Rows, k: usize, j: usize) -> &'a Row<f64> {
-        t.get(MAP + k * N + j).filter(|_| j < self.last).unwrap_or(&self.edge[k])
+        t.get(MAP + k * (N - 1) + j).filter(|_| j < self.last).unwrap_or(&self.edge[k])
     }
 
     /// The contact with derivatives.
@@ -178,7 +178,7 @@ impl<A: Real> Contact<A> {
         for i in 0..last {
             let mut traction = weight * root_difference(now.size, lower, t.at(POINTS, i));
             for k in 0..2 {
-                let bound = t.at(MAP + k * N + before, i) * step[k];
+                let bound = t.at(MAP + k * (N - 1) + before, i) * step[k];
                 traction = if bound.value() < traction.value() { bound } else { traction };
             }
             contact.pressure[i] = t.at(PRESSURE + last, i) + traction;
@@ -230,7 +230,7 @@ impl<A: Real> Contact<A> {
     /// G of a shell at a point.
     #[inline(always)]
     pub fn map(&self, t: &impl Tables<A>, k: usize, j: usize, i: usize) -> A {
-        if j < self.last { t.at(MAP + k * N + j, i) } else { self.edge[k][i] }
+        if j < self.last { t.at(MAP + k * (N - 1) + j, i) } else { self.edge[k][i] }
     }
 
     #[inline(always)]

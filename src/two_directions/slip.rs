@@ -9,6 +9,7 @@
 //! continuously on r* and l, and sweeps of the points, each to its own minimum, find the points that slip if Newton's method does not.
 
 use super::contact::Contact;
+use super::matrix::{dot, invert, largest, times};
 use super::scalar::both;
 use super::tables::{Both, FINE, INSIDE, Matrix, N, Row, Rows, SHIFT};
 use super::trial::{FINE_SPRING, Motion, ROUNDING, Trial, Values, direction, limits_before, moved, slid, tractions};
@@ -58,8 +59,9 @@ pub(crate) struct Slips {
     pub trial: Both<Row<f64>>,
     pub v: Both<Row<f64>>,
     pub fine: FineSlips,
-    /// Tractions at the start of the step before.
-    start: Both<Row<f64>>,
+    /// Tangents of the angles by which points turned until the middle, and by which the slip of the end turned them: first guesses of the next
+    /// step.
+    pub turned: Both<Row<f64>>,
 }
 
 /// Fine springs, of which each slips on its own: e, the direction of v/limit, and 1/(x y |v/limit|) with the limits x and y, negative for a
@@ -99,6 +101,8 @@ impl FineSlips {
 #[repr(align(32))]
 pub(crate) struct Slip {
     pub set: Set,
+    /// 1 for the points of the set, 0 for others.
+    slips: Row<f64>,
     /// The limits, the directions of r and σ.
     pub level: Row<f64>,
     pub e: Both<Row<f64>>,
@@ -106,7 +110,7 @@ pub(crate) struct Slip {
     /// The springs after slip, and r of the points that stick.
     pub v: Both<Row<f64>>,
     r: Both<Row<f64>>,
-    /// K, and the inverse of the derivative of the residual by the angles, as `[m][i]`.
+    /// K, and the inverse of the derivative of the residual by the angles times the limits: both are symmetric.
     pub k: Both<Matrix>,
     pub inverse: Matrix,
     /// The points and the load of K, and those of the inverse.
@@ -114,11 +118,12 @@ pub(crate) struct Slip {
     inverted: (Set, f64),
 }
 
-/// First directions, and points that slip.
+/// First directions, points that slip, and those beyond their limits.
 #[derive(Clone, Copy)]
 struct Guess {
     e: Both<Row<f64>>,
     set: Set,
+    beyond: Set,
 }
 
 /// Springs and r without slip, and what relates them: the contact and C⁻¹.
@@ -132,6 +137,57 @@ struct Problem<'a> {
     end: usize,
 }
 
+impl Problem<'_> {
+    /// Points beyond their limits, and directions, turned by these tangents: from the start for points that slipped then and are not far from there.
+    #[inline(always)]
+    fn guess(&self, level: &Row<f64>, start: &Both<Row<f64>>, turned: &Row<f64>, middle: bool) -> Guess {
+        let ([mut x, mut y], mut beyond) = (self.r, [0.0; N]);
+        for i in 0..N {
+            let (r_x, r_y) = (start[0][i], start[1][i]);
+            let square = x[i] * x[i] + y[i] * y[i];
+            beyond[i] = if square > ROUNDING * level[i] * level[i] { 1.0 } else { 0.0 };
+            let slipped = middle && r_x * r_x + r_y * r_y > SLIPPED;
+            let near = slipped && x[i] * r_x + y[i] * r_y > NEAR * square.sqrt();
+            let (r_x, r_y) = (if near { r_x } else { x[i] }, if near { r_y } else { y[i] });
+            let turn = if near || !middle { turned[i] } else { 0.0 };
+            let (r_x, r_y) = (r_x - turn * r_y, r_y + turn * r_x);
+            let square = r_x * r_x + r_y * r_y;
+            let per = 1.0 / (if square > TINY { square } else { TINY }).sqrt();
+            (x[i], y[i]) = (r_x * per, r_y * per);
+        }
+        let beyond = points(&beyond, self.end);
+        Guess { e: [x, y], set: beyond, beyond }
+    }
+
+    /// From the middle of a step on to its trial state, slipping as until the middle.
+    #[inline(always)]
+    fn go_on(&mut self, middle: &Slip, trial: &Trial, theta: f64) {
+        let (v, r, per) = (self.v, self.r, 1.0 / theta);
+        (self.v, self.r) = (trial.v, trial.r);
+        if middle.set == 0 {
+            return;
+        }
+        for k in 0..2 {
+            for i in 0..N {
+                self.v[k][i] -= (v[k][i] - middle.v[k][i]) * per;
+                let slipped = trial.start[k][i] + (middle.level[i] * middle.e[k][i] - trial.start[k][i]) * per;
+                let sticks = self.r[k][i] - (r[k][i] - middle.r[k][i]) * per;
+                self.r[k][i] = if middle.slips[i] > 0.0 { slipped } else { sticks };
+            }
+        }
+    }
+}
+
+/// The points up to an end with positive values.
+#[inline(always)]
+fn points(values: &Row<f64>, end: usize) -> Set {
+    let mut set = 0;
+    for i in 0..end.min(N) {
+        set |= Set::from(values[i] > 0.0) << i;
+    }
+    set
+}
+
 impl Slips {
     pub const NONE: Slips = Slips {
         middle: Slip::NONE,
@@ -142,7 +198,7 @@ impl Slips {
         trial: [[0.0; N]; 2],
         v: [[0.0; N]; 2],
         fine: FineSlips::NONE,
-        start: [[0.0; N]; 2],
+        turned: [[0.0; N]; 2],
     };
 
     /// Whether nothing slips.
@@ -186,105 +242,51 @@ impl Slips {
                     problem.v[k][i] = trial.old[k][i] + theta * (trial.v[k][i] - trial.old[k][i]);
                 }
             }
-            let mut guesses = slips.guesses(&problem.r, start, &motion.by, end);
+            let mut guess = problem.guess(&slips.middle.level, start, &slips.turned[0], true);
+            guess.set = continuing(guess.beyond, start, &motion.by, end);
             for stage in 0..2 {
                 let middle = stage == 0;
                 let [slip, other] =
                     if middle { [&mut slips.middle, &mut slips.end] } else { [&mut slips.end, &mut slips.middle] };
-                if !middle {
-                    for i in 0..end {
-                        let (x, y) = (problem.r[0][i], problem.r[1][i]);
-                        let square = x * x + y * y;
-                        let length = (if square > TINY { square } else { TINY }).sqrt();
-                        (guesses[0].e[0][i], guesses[0].e[1][i]) = (x / length, y / length);
-                        guesses[0].set |= Set::from(square > ROUNDING) << i;
-                    }
-                    guesses[1] = guesses[0];
-                    guesses[0].set |= other.set;
-                }
-                if guesses[1].set != 0 {
-                    let mut sweeps = Sweeps {
-                        guess: Guess { e: problem.r, set: 0 },
-                        sigma: [[0.0; N]; 2],
-                        r: problem.r,
-                        count: SWEEPS,
-                    };
-                    let mut attempt = 0;
-                    while attempt < MOST_ATTEMPTS {
-                        let guess = if attempt < 2 { guesses[attempt] } else { sweeps.next(&problem, &slip.level) };
-                        if slip.solve(other, &problem, &guess, derivatives) {
-                            break;
-                        }
-                        attempt += 1;
-                    }
+                if guess.beyond != 0 {
+                    slip.find(other, &problem, guess, derivatives);
                 }
                 slips.v = if slip.set == 0 { problem.v } else { slip.v };
+                let from = if middle { start } else { &problem.r };
+                slips.turned[stage] = slip.turned(from);
                 if !middle || (theta >= 1.0 && slip.set.count_ones() as usize == end) {
                     // The middle of a contact that slides far is its end.
                     break;
                 }
-                // The rest of the step slips as the middle did.
-                guesses[0].set = 0;
-                let (v, r) = (problem.v, problem.r);
-                (problem.v, problem.r) = (trial.v, trial.r);
-                if slip.set != 0 {
-                    let per = 1.0 / theta;
-                    for k in 0..2 {
-                        for i in 0..N {
-                            problem.v[k][i] -= (v[k][i] - slip.v[k][i]) * per;
-                            let slipped = start[k][i] + (slip.level[i] * slip.e[k][i] - start[k][i]) * per;
-                            let sticks = problem.r[k][i] - (r[k][i] - slip.r[k][i]) * per;
-                            problem.r[k][i] = if slip.contains(i) { slipped } else { sticks };
-                        }
-                    }
-                }
+                problem.go_on(slip, trial, theta);
+                guess = problem.guess(&other.level, start, &slips.turned[1], false);
+                guess.set |= slip.set;
             }
         });
     }
+}
 
-    /// Guesses for the middle: a contact that slips on hardly turns; otherwise slip begins from the trial state.
-    #[inline(always)]
-    fn guesses(&mut self, r: &Both<Row<f64>>, start: &Both<Row<f64>>, by: &Both<f64>, end: usize) -> [Guess; 2] {
-        let (mut e, mut from_trial, mut continues) = (*r, *r, [0.0; N]);
-        let mut beyond = [0.0; N];
-        let backwards = TURNS_BACK * (by[0] * by[0] + by[1] * by[1]).sqrt();
-        for i in 0..N {
-            let (x, y) = (r[0][i], r[1][i]);
-            let (square, limit) = (x * x + y * y, self.middle.level[i]);
-            beyond[i] = if square > ROUNDING * limit * limit { 1.0 } else { 0.0 };
-            let length = (if square > TINY { square } else { TINY }).sqrt();
-            let (x, y) = (x / length, y / length);
-            (from_trial[0][i], from_trial[1][i]) = (x, y);
-            let (r_x, r_y) = (start[0][i], start[1][i]);
-            let slipped = r_x * r_x + r_y * r_y > SLIPPED;
-            let near = slipped && x * r_x + y * r_y > NEAR;
-            // A point that slipped in the step before as well turns on, by half.
-            let (b_x, b_y) = (self.start[0][i], self.start[1][i]);
-            let (cos, sin) = (b_x * r_x + b_y * r_y, b_x * r_y - b_y * r_x);
-            let turns = slipped && cos > NEAR && cos * cos + sin * sin > SLIPPED;
-            let (cos, sin) = if turns { (1.0 + cos, sin) } else { (1.0, 0.0) };
-            let (on_x, on_y) = (cos * r_x - sin * r_y, cos * r_y + sin * r_x);
-            let square = on_x * on_x + on_y * on_y;
-            let length = (if square > TINY { square } else { TINY }).sqrt();
-            (e[0][i], e[1][i]) = (if near { on_x / length } else { x }, if near { on_y / length } else { y });
-            continues[i] = if slipped && r_x * by[0] + r_y * by[1] >= backwards { 1.0 } else { 0.0 };
-        }
-        let (mut set, mut outside) = (0, 0);
-        for i in (0..end.min(N)).rev() {
-            outside |= Set::from(beyond[i] > 0.0) << i;
-            // A point that slipped before continues if the next one outside does.
-            let outer = set >> (i + 1) & 1 == 1;
-            set |= Set::from(beyond[i] > 0.0 || (continues[i] > 0.0 && outer)) << i;
-        }
-        self.start = *start;
-        [Guess { e, set }, Guess { e: from_trial, set: outside }]
+/// Points beyond their limits, and those that slipped at the start, do not turn back and have one outside that slips.
+#[inline(always)]
+fn continuing(mut set: Set, start: &Both<Row<f64>>, by: &Both<f64>, end: usize) -> Set {
+    let (mut continues, backwards) = ([0.0; N], TURNS_BACK * (by[0] * by[0] + by[1] * by[1]).sqrt());
+    for i in 0..N {
+        let (x, y) = (start[0][i], start[1][i]);
+        let continued = x * x + y * y > SLIPPED && x * by[0] + y * by[1] >= backwards;
+        continues[i] = if continued { 1.0 } else { 0.0 };
     }
+    let continues = points(&continues, end);
+    for _ in 0..N {
+        set |= set >> 1 & continues;
+    }
+    set
 }
 
 impl Slip {
     const NONE: Slip = Slip {
         set: 0,
-        level: [1.0; N],
+        slips: [0.0; N],
+        level: [0.0; N],
         e: [[0.0; N]; 2],
         sigma: [[0.0; N]; 2],
         v: [[0.0; N]; 2],
@@ -349,29 +351,61 @@ impl Slip {
         let first = (self.set.trailing_zeros() as usize).min(end);
         if self.without_gaps(end) {
             for k in 0..2 {
-                let mut sum = [[0.0; N]; N];
+                let mut scaled = [[0.0; N]; N];
                 for j in first..end {
                     let w = contact.stiffness(&t, k, j);
-                    for m in j..end {
-                        let scale = w * inverse[k][j][m];
-                        for i in 0..N {
-                            sum[m][i] += scale * inverse[k][j][i];
-                        }
+                    for m in 0..N {
+                        scaled[j][m] = w * inverse[k][j][m];
                     }
                 }
-                self.k[k] = sum;
+                for m in 0..N {
+                    let mut sum = [0.0; N];
+                    for j in first..(m + 1).min(end) {
+                        for i in 0..N {
+                            sum[i] += scaled[j][m] * inverse[k][j][i];
+                        }
+                    }
+                    self.k[k][m] = sum;
+                }
             }
             return;
         }
         for k in 0..2 {
-            let a = compliance(problem, k, first);
-            for i in first..end {
+            let (a, mut diagonal) = (compliance(problem, k, first), [0.0; N]);
+            self.k[k] = [[0.0; N]; N];
+            for i in 0..N {
+                diagonal[i] = if self.contains(i) { 0.0 } else { 1.0 };
                 for m in 0..N {
                     self.k[k][i][m] = if self.contains(i) && self.contains(m) { a[i][m] } else { 0.0 };
                 }
             }
-            invert(&mut self.k[k], self.set, [first, end]);
+            invert(&mut self.k[k], &diagonal, [first, end]);
         }
+    }
+
+    /// The slip of a problem, from a guess.
+    #[inline(always)]
+    fn find(&mut self, other: &Slip, problem: &Problem, mut guess: Guess, derivatives: bool) {
+        let mut sweeps = None;
+        for _ in 0..MOST_ATTEMPTS {
+            if self.solve(other, problem, &guess, derivatives) {
+                return;
+            }
+            guess = Sweeps::next(&mut sweeps, problem, &self.level, guess.beyond);
+        }
+    }
+
+    /// Tangents of the angles from tractions to those of points that slip, unless these are far from there.
+    #[inline(always)]
+    fn turned(&self, from: &Both<Row<f64>>) -> Row<f64> {
+        let mut turned = [0.0; N];
+        for i in 0..N {
+            let (x, y, e_x, e_y) = (from[0][i], from[1][i], self.e[0][i], self.e[1][i]);
+            let (cos, sin) = (x * e_x + y * e_y, x * e_y - y * e_x);
+            let near = if cos > NEAR { cos } else { NEAR };
+            turned[i] = if self.contains(i) && cos > NEAR { sin / near } else { 0.0 };
+        }
+        turned
     }
 
     /// Newton's method from a guess; whether it converged. What derivatives need is computed if they are requested.
@@ -383,10 +417,11 @@ impl Slip {
         let mut steps = 0;
         'sets: for _ in 0..CHANGES {
             let set = self.set;
-            let first = (set.trailing_zeros() as usize).min(end);
-            let mut slips = [0.0; N];
+            let points = [(set.trailing_zeros() as usize).min(end), end];
+            let mut per_level = [0.0; N];
             for i in 0..N {
-                slips[i] = if set >> i & 1 == 1 { 1.0 } else { 0.0 };
+                self.slips[i] = if self.contains(i) { 1.0 } else { 0.0 };
+                per_level[i] = self.slips[i] / self.level[i];
             }
             let of = (set, contact.now.load);
             if self.known != of {
@@ -401,61 +436,33 @@ impl Slip {
             let (mut turn, mut done, mut holds) = (f64::MAX, false, self.inverted == of);
             let mut renewed = [false; 2];
             loop {
-                let ([e_x, e_y], level) = (self.e, self.level);
-                let mut excess = *r_trial;
-                for k in 0..2 {
-                    for i in 0..N {
-                        excess[k][i] = slips[i] * (excess[k][i] - level[i] * self.e[k][i]);
-                    }
-                }
-                self.sigma = times([&self.k[0], &self.k[1]], [first, end], &excess);
-                let (mut residual, mut diagonal) = ([0.0; N], [0.0; N]);
-                let [s_x, s_y] = self.sigma;
-                for i in 0..N {
-                    residual[i] = e_x[i] * s_y[i] - e_y[i] * s_x[i];
-                    diagonal[i] = e_x[i] * s_x[i] + e_y[i] * s_y[i];
-                }
+                let [residual, along] = self.residual(r_trial, points);
                 let undetermined = steps % REVIEW == REVIEW - 1;
                 if (done || undetermined) && self.review(problem) {
                     continue 'sets;
                 }
                 renewed = [renewed[1], !holds];
                 if (done && derivatives) || (!done && renewed[1]) {
-                    for m in first..end {
-                        for i in 0..N {
-                            let own = if i == m { diagonal[i] } else { 0.0 };
-                            let (k_x, k_y) = (self.k[0][m][i], self.k[1][m][i]);
-                            let turns = e_x[i] * e_x[m] * k_y + e_y[i] * e_y[m] * k_x;
-                            self.inverse[m][i] = slips[i] * (turns * level[m] + own);
-                        }
-                    }
-                    invert(&mut self.inverse, set, [first, end]);
+                    self.invert(&along, points);
                     self.inverted = of;
                 }
                 if done {
                     return true;
                 }
-                let [turns] = times([&self.inverse], [first, end], &[residual]);
-                let (before, mut largest) = (turn, 0.0);
+                let [mut turns] = times([&self.inverse], points, &[residual]);
                 for i in 0..N {
-                    let size = slips[i] * turns[i].abs();
-                    largest = if size > largest { size } else { largest };
+                    turns[i] *= per_level[i];
                 }
-                turn = largest;
+                let before = turn;
+                turn = largest(&turns);
                 steps += 1;
                 if steps > STEPS || turn > LOST {
                     return false;
                 }
-                let damping = LARGEST_TURN / if turn > LARGEST_TURN { turn } else { LARGEST_TURN };
-                let (mut x, mut y) = (e_x, e_y);
-                for i in 0..N {
-                    // Cayley's formula.
-                    let half = 0.5 * damping * turns[i] * slips[i];
-                    let scale = 1.0 / (1.0 + half * half);
-                    let (cos, sin) = ((1.0 - half * half) * scale, 2.0 * half * scale);
-                    (x[i], y[i]) = (cos * e_x[i] - sin * e_y[i], cos * e_y[i] + sin * e_x[i]);
+                if turn > LARGEST_TURN {
+                    turns = damped(turns, turn);
                 }
-                self.e = [x, y];
+                self.turn(&turns);
                 // Quadratic with a new inverse, linear with an old one, of which the first change tells nothing.
                 let linear = turn / if before > TINY { before } else { TINY };
                 let rate = if renewed[1] { turn } else { linear };
@@ -466,6 +473,55 @@ impl Slip {
             }
         }
         false
+    }
+
+    /// The slip of these directions, across and along them: the former is the residual.
+    #[inline(always)]
+    fn residual(&mut self, r_trial: &Both<Row<f64>>, points: [usize; 2]) -> [Row<f64>; 2] {
+        let ([e_x, e_y], mut excess) = (self.e, *r_trial);
+        for k in 0..2 {
+            for i in 0..N {
+                excess[k][i] = self.slips[i] * (excess[k][i] - self.level[i] * self.e[k][i]);
+            }
+        }
+        self.sigma = times([&self.k[0], &self.k[1]], points, &excess);
+        let ([s_x, s_y], mut across, mut along) = (self.sigma, [0.0; N], [0.0; N]);
+        for i in 0..N {
+            across[i] = e_x[i] * s_y[i] - e_y[i] * s_x[i];
+            along[i] = e_x[i] * s_x[i] + e_y[i] * s_y[i];
+        }
+        [across, along]
+    }
+
+    /// The inverse of the derivative of the residual.
+    #[inline(always)]
+    fn invert(&mut self, along: &Row<f64>, [first, end]: [usize; 2]) {
+        let ([mut x, mut y], mut diagonal) = (self.e, [1.0; N]);
+        for i in 0..N {
+            (x[i], y[i]) = (self.slips[i] * x[i], self.slips[i] * y[i]);
+            diagonal[i] = if self.slips[i] > 0.0 { along[i] / self.level[i] } else { 1.0 };
+        }
+        for m in 2 * (first / 2)..N {
+            let (k_x, k_y, mut row) = (self.k[0][m], self.k[1][m], [0.0; N]);
+            for i in 0..N {
+                row[i] = x[i] * (x[m] * k_y[i]) + y[i] * (y[m] * k_x[i]);
+            }
+            self.inverse[m] = row;
+        }
+        invert(&mut self.inverse, &diagonal, [first, end]);
+    }
+
+    /// Turns the directions, by Cayley's formula.
+    #[inline(always)]
+    fn turn(&mut self, turns: &Row<f64>) {
+        let [mut x, mut y] = self.e;
+        for i in 0..N {
+            let half = 0.5 * turns[i];
+            let scale = 1.0 / (1.0 + half * half);
+            let (cos, sin) = ((1.0 - half * half) * scale, 2.0 * half * scale);
+            (x[i], y[i]) = (cos * x[i] - sin * y[i], cos * y[i] + sin * x[i]);
+        }
+        self.e = [x, y];
     }
 
     /// The springs after slip. Points beyond the limit slip, and those whose slip is against the traction stick: whether any has changed.
@@ -515,11 +571,19 @@ struct Sweeps {
 }
 
 impl Sweeps {
-    /// The guess after four times as many sweeps as before.
+    /// A guess from the state without slip, and at each further attempt that after four times as many sweeps as before.
     #[cold]
     #[inline(never)]
-    fn next(&mut self, problem: &Problem, level: &Row<f64>) -> Guess {
-        let Sweeps { guess, sigma, r, count } = self;
+    fn next(sweeps: &mut Option<Sweeps>, problem: &Problem, level: &Row<f64>, beyond: Set) -> Guess {
+        let Some(Sweeps { guess, sigma, r, count }) = sweeps else {
+            let (r, mut guess) = (problem.r, Guess { e: problem.r, set: beyond, beyond });
+            for i in 0..N {
+                let length = (r[0][i] * r[0][i] + r[1][i] * r[1][i]).max(TINY).sqrt();
+                (guess.e[0][i], guess.e[1][i]) = (r[0][i] / length, r[1][i] / length);
+            }
+            *sweeps = Some(Sweeps { guess, sigma: [[0.0; N]; 2], r, count: SWEEPS });
+            return guess;
+        };
         let compliance = both!(|k| compliance(problem, k, 0));
         for _ in 0..*count {
             for i in (0..problem.end.min(N)).rev() {
@@ -569,57 +633,11 @@ fn compliance(problem: &Problem, k: usize, first: usize) -> Matrix {
     a
 }
 
-/// Σ x_i y_i, in an order of vectors.
-#[inline(always)]
-fn dot(x: &Row<f64>, y: &Row<f64>) -> f64 {
-    let mut sums = [0.0; 4];
-    for b in 0..N / 4 {
-        for lane in 0..4 {
-            sums[lane] += x[4 * b + lane] * y[4 * b + lane];
-        }
-    }
-    (sums[0] + sums[1]) + (sums[2] + sums[3])
-}
-
-/// Σ x_m matrix[m][i] of several matrices: rows of points that stick are 0.
-#[inline(always)]
-fn times<const K: usize>(matrices: [&Matrix; K], [first, end]: [usize; 2], x: &[Row<f64>; K]) -> [Row<f64>; K] {
-    let mut y = [[0.0; N]; K];
-    for m in first..end {
-        for k in 0..K {
-            for i in 0..N {
-                y[k][i] += x[k][m] * matrices[k][m][i];
-            }
-        }
-    }
-    y
-}
-
-/// The inverse of the block of a set, in place, by Gauss and Jordan. Single elements are chosen by their place in the lanes: a vector that
-/// is loaded right after one of its elements was stored would wait for it.
-#[inline(always)]
-fn invert(matrix: &mut Matrix, set: Set, [first, end]: [usize; 2]) {
-    for p in first..end {
-        if set >> p & 1 == 0 {
-            continue;
-        }
-        let pivot = matrix[p][p];
-        let reciprocal = 1.0 / if pivot.abs() > TINY { pivot } else { TINY };
-        let (mut row, mut others) = (matrix[p], [0.0; N]);
-        for j in 0..N {
-            row[j] = if j == p { reciprocal } else { row[j] * reciprocal };
-            others[j] = if j == p { 0.0 } else { 1.0 };
-        }
-        for i in first..end {
-            let old = matrix[i];
-            let (factor, mut values) = (matrix[i][p], [0.0; N]);
-            for j in 0..N {
-                values[j] = old[j] * others[j] - factor * row[j];
-            }
-            matrix[i] = values;
-        }
-        matrix[p] = row;
-    }
+/// Changes, in proportion, of which the largest one is the most that a step may have.
+#[cold]
+#[inline(never)]
+fn damped(turns: Row<f64>, turn: f64) -> Row<f64> {
+    turns.map(|x| x * LARGEST_TURN / turn.max(LARGEST_TURN))
 }
 
 /// The slip of a point on its own, whose traction without slip is g, over the limit: its size and direction, by Newton's method for the root

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! [tag, v, u, normal component, key of the element, units of the springs (3), springs under the flat, last shell and part,
-//!  N, N, S, w² of the present size in the units of the springs (4), stiffnesses at the edge (2), force of the springs (2) | rows of the edge | C⁻¹ | springs
+//!  N, N, S, w² of the present size in the units of the springs (4), stiffnesses at the edge (2), force of the springs (2) | rows of the edge | turned | C⁻¹ | springs
 //!  | tables]
 //! ```
 //!
@@ -38,8 +38,9 @@ const LEAST_LEVEL: f64 = -300.0;
 
 const HEADER_ROWS: usize = 2;
 const EDGE_ROWS: usize = 5;
+const TURNED_ROWS: usize = 2;
 const INVERSE_ROWS: usize = 2 * N;
-const STATE_ROWS: usize = HEADER_ROWS + EDGE_ROWS + INVERSE_ROWS + SPRINGS / N + ROWS;
+const STATE_ROWS: usize = HEADER_ROWS + EDGE_ROWS + TURNED_ROWS + INVERSE_ROWS + SPRINGS / N + ROWS;
 pub(super) const LENGTH: usize = N * STATE_ROWS;
 
 impl Law for TwoDirections {
@@ -83,7 +84,8 @@ impl Law for TwoDirections {
         let Units { load, shift, size } = header.units;
         let positive =
             [header.normal_force, load, shift, size, contact.now.load, contact.now.shift[0], contact.now.shift[1]];
-        let held = memory.springs.as_flattened().iter().all(|value| value.abs() <= LONGEST);
+        let mut held = memory.springs.as_flattened().iter().chain(memory.turned.as_flattened());
+        let held = held.all(|value| value.abs() <= LONGEST);
         let edge = contact.edge.as_flattened().iter().chain(&contact.per_pressure).all(|value| *value >= 0.0);
         let start = starts(contact.under_flat);
         let within = (0..2).all(|k| {
@@ -168,7 +170,7 @@ impl Law for TwoDirections {
         }
         let motion = path.motion(&from, &contact, same);
         let trial = trial(memory.tables, &contact, &motion, memory.springs);
-        let mut slip = Slips::NONE;
+        let mut slip = Slips { turned: *memory.turned, ..Slips::NONE };
         slip.find(memory.tables, &contact, memory.inverse, &motion, (&trial, memory.springs), requested.tangent);
         if requested.tangent {
             let by = [0, 1].map(|k| {
@@ -193,6 +195,7 @@ impl Law for TwoDirections {
         result.force = [x, y, normal.load];
         result.dissipated = energy_unit * energy;
         let header = Header { displacement: to, normal_force: normal.load, force, ..header };
+        *memory.turned = slip.turned;
         memory.write(&header, &contact);
         result
     }
@@ -221,6 +224,7 @@ struct Header {
 struct Memory<'a> {
     header: &'a mut [Row<f64>; HEADER_ROWS],
     edge: &'a mut [Row<f64>; EDGE_ROWS],
+    turned: &'a mut Both<Row<f64>>,
     inverse: &'a mut Both<Matrix>,
     springs: &'a mut Values,
     tables: &'a mut Rows,
@@ -231,10 +235,11 @@ impl Memory<'_> {
     fn of(state: &mut [f64]) -> Option<Memory<'_>> {
         let (header, rest) = state.as_chunks_mut::<N>().0.split_first_chunk_mut()?;
         let (edge, rest) = rest.split_first_chunk_mut()?;
+        let (turned, rest) = rest.split_first_chunk_mut()?;
         let (inverse, rest) = rest.split_at_mut_checked(INVERSE_ROWS)?;
         let (springs, rest) = rest.split_first_chunk_mut()?;
         let inverse = inverse.as_chunks_mut::<N>().0.first_chunk_mut()?;
-        Some(Memory { header, edge, inverse, springs, tables: rest.first_chunk_mut()? })
+        Some(Memory { header, edge, turned, inverse, springs, tables: rest.first_chunk_mut()? })
     }
 
     #[inline(always)]
@@ -289,7 +294,8 @@ impl Memory<'_> {
     fn open(&mut self, [u, v, input]: [f64; 3]) {
         let [_, _, _, _, key, ..] = self.header[0];
         if key != 0.0 {
-            (*self.edge, *self.springs) = ([[0.0; N]; EDGE_ROWS], [[0.0; N]; SPRINGS / N]);
+            (*self.edge, *self.turned) = ([[0.0; N]; EDGE_ROWS], [[0.0; N]; TURNED_ROWS]);
+            *self.springs = [[0.0; N]; SPRINGS / N];
             (*self.inverse, *self.tables) = ([[[0.0; N]; N]; 2], [[0.0; N]; ROWS]);
             *self.header = [[0.0; N]; HEADER_ROWS];
         }

@@ -279,8 +279,8 @@ fn slide<A: Real, X: Over<A>, T: Tables<A>>(
     for j in first..end {
         let mut sum = if let Some((springs, _)) = &own { both!(|k| springs[k][j]) } else { [zero; 2] };
         for i in j..end {
-            sum[0].add_scaled(&turn[i], -slip.e[1][i] * slip.level[i] * inverse[0][j][i]);
-            sum[1].add_scaled(&turn[i], slip.e[0][i] * slip.level[i] * inverse[1][j][i]);
+            sum[0].add_scaled(&turn[i], -slip.e[1][i] * inverse[0][j][i]);
+            sum[1].add_scaled(&turn[i], slip.e[0][i] * inverse[1][j][i]);
         }
         (v[0][j], v[1][j]) = (sum[0], sum[1]);
     }
@@ -376,7 +376,7 @@ fn slide_with_gaps<A: Real, X: Over<A>, T: Tables<A>>(
         let mut change = [zero; N];
         for i in first..end {
             if slip.contains(i) {
-                change[i] = turn[i].scale(sign * across[i] * slip.level[i]);
+                change[i] = turn[i].scale(sign * across[i]);
             }
         }
         let mut sigma = product(&slip.k[k], [first, end], &change);

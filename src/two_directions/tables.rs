@@ -79,7 +79,7 @@ pub(crate) const PER_MAP: usize = FLEXIBILITY + 2;
 /// First rows of the pressure that the shells within one carry, as `[shell][point]`, and of G as `[direction][shell][point]`.
 pub(crate) const PRESSURE: usize = PER_MAP + 2;
 pub(crate) const MAP: usize = PRESSURE + N;
-pub(crate) const ROWS: usize = MAP + 2 * N;
+pub(crate) const ROWS: usize = MAP + 2 * (N - 1);
 
 pub(crate) type Rows = [Row<f64>; ROWS];
 
@@ -318,16 +318,16 @@ impl Shells {
                     rows[WEIGHT][j] * root_difference(rows[SIZE][j + 1], rows[SIZE][j], rows[POINTS][i])
                 };
                 for k in 0..2 {
-                    let bound = if i < j { rows[MAP + k * N + j - 1][i] / self.per_step[k][j] } else { traction };
+                    let bound = if i < j { rows[MAP + k * (N - 1) + j - 1][i] / self.per_step[k][j] } else { traction };
                     traction = traction.min(bound);
                 }
                 for k in 0..2 {
-                    rows[MAP + k * N + j][i] = traction * self.per_step[k][j];
+                    rows[MAP + k * (N - 1) + j][i] = traction * self.per_step[k][j];
                 }
                 rows[PRESSURE + j + 1][i] = rows[PRESSURE + j][i] + if j < self.inner { 0.0 } else { traction };
             }
             for k in 0..2 {
-                rows[PER_MAP + k][j] = 1.0 / rows[MAP + k * N + j][j];
+                rows[PER_MAP + k][j] = 1.0 / rows[MAP + k * (N - 1) + j][j];
             }
         }
     }

@@ -196,7 +196,7 @@ pub(crate) fn trial(t: &Rows, c: &Contact<f64>, motion: &Motion<f64, f64>, old: 
 pub(crate) fn tractions(t: &Rows, c: &Contact<f64>, k: usize, v: &Row<f64>, first: usize) -> Row<f64> {
     let (mut r, last) = ([0.0; N], c.last.min(N - 1));
     for j in first.max(1) - 1..last {
-        let (d, row) = (v[j] - v[j + 1], &t[MAP + k * N + j]);
+        let (d, row) = (v[j] - v[j + 1], &t[MAP + k * (N - 1) + j]);
         for i in 0..N {
             r[i] += d * row[i];
         }
