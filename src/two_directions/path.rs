@@ -32,16 +32,15 @@ impl Path {
             }
             _ => (1.0, [0.0; 2]),
         };
-        let unit = element.friction_coefficient * units.shift;
-        let distance = [to[0] - from[0], to[1] - from[1]].map(|distance| distance / unit);
-        let longest = part * distance[0].abs().max(distance[1].abs());
-        let scale = (longest / LONGEST).max(1.0);
-        let per_scale = 1.0 / scale;
+        let per_unit = 1.0 / (element.friction_coefficient * units.shift);
+        let distance = [to[0] - from[0], to[1] - from[1]].map(|distance| distance * per_unit);
+        let longest = (part * distance[0].abs().max(distance[1].abs())).max(LONGEST);
+        let per_scale = LONGEST / longest;
         Path {
             by: distance.map(|distance| part * distance * per_scale),
-            per_distance: part / unit * per_scale,
+            per_distance: part * per_unit * per_scale,
             per_input: distance.map(|distance| slopes.map(|slope| distance * slope * per_scale)),
-            scale,
+            scale: longest / LONGEST,
         }
     }
 

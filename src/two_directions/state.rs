@@ -77,7 +77,7 @@ impl Law for TwoDirections {
         if !state.iter().take(LENGTH).all(|value| is_finite(*value)) {
             return Err(Error::BadState);
         }
-        let (header, contact) = memory.read();
+        let (header, contact) = (memory.header(), memory.contact());
         if header.normal_force == 0.0 {
             return Ok(());
         }
@@ -107,7 +107,7 @@ impl Law for TwoDirections {
         let closes = element.is_closed(to[2]);
         let mut result = Step::NONE;
         let Some(mut memory) = Memory::of(state) else { return result };
-        let (mut header, mut from) = memory.read();
+        let (mut header, mut from) = (memory.header(), memory.contact());
         if element.friction_coefficient == 0.0 || !(closes || header.normal_force > 0.0) {
             // Without friction, or open before and after, only the position changes.
             if closes {
@@ -130,73 +130,15 @@ impl Law for TwoDirections {
             memory.align(element, &mut header, &mut from, largest);
         }
         let was_closed = header.normal_force > 0.0;
-        let units = header.units;
-        let path = Path::new(element, &units, [header.displacement, to], [was_closed, closes]);
-        let force_unit = element.friction_coefficient * units.load;
-        let energy_unit = force_unit * element.friction_coefficient * units.shift * path.scale;
-        if !closes {
-            if requested.energy {
-                let energy = separated(memory.tables, &from, &Pressed::NONE, path.by, memory.springs);
-                result.dissipated = energy_unit * energy;
-            }
-            memory.open(to);
-            return result;
+        let path = Path::new(element, &header.units, [header.displacement, to], [was_closed, closes]);
+        if closes {
+            return memory.step(&header, &from, &path, &End { element, to, normal, same, requested });
         }
-        let mut slopes = Pressed::NONE;
-        let mut contact = from;
-        if !same || requested.tangent {
-            let now;
-            [now, slopes] = Pressed::new(element, &units, to[2], &normal);
-            if !same {
-                contact = Contact::press(memory.tables, &now, from.under_flat, memory.inverse);
-            }
+        if requested.energy {
+            let energy = separated(memory.tables, &from, &Pressed::NONE, path.by, memory.springs);
+            result.dissipated = header.outputs(element, &path)[1] * energy;
         }
-        // A step to a displacement under the same load, unless something slips.
-        let is_short = same && path.scale <= 1.0;
-        let by = &path.by;
-        let at_edge = is_short.then(|| stick::stick(memory.tables, &contact, by, memory.springs, &mut header.force));
-        if let Some(edge) = at_edge.flatten() {
-            result.force = [force_unit * header.force[0], force_unit * header.force[1], normal.load];
-            if requested.tangent {
-                let slopes = stick::tangent(memory.tables, &contact, &slopes, &edge, memory.springs);
-                result.tangent = tangent_of(
-                    slopes,
-                    [force_unit * path.per_distance, force_unit / element.input_scale()],
-                    normal.load_slope,
-                );
-            }
-            memory.move_to(to, &header.force);
-            return result;
-        }
-        let motion = path.motion(&from, &contact, same);
-        let trial = trial(memory.tables, &contact, &motion, memory.springs);
-        let mut slip = Slips { turned: *memory.turned, ..Slips::NONE };
-        slip.find(memory.tables, &contact, memory.inverse, &motion, (&trial, memory.springs), requested.tangent);
-        if requested.tangent {
-            let by = [0, 1].map(|k| {
-                let mut by = Dual::constant(motion.by[k]);
-                (by.0[0][END], by.0[0][END + 1 + k]) = (path.per_input[k][1], path.per_distance);
-                by
-            });
-            let motion = Motion { before: motion.before.map(Dual::constant), by, constant_load: same };
-            let rows = DualRows::without_slopes(memory.tables);
-            let contact = contact.derived(&rows, &slopes);
-            let mut springs = Derivatives { values: memory.springs, slopes: &mut [] };
-            let force = derivatives(&rows, (&contact, memory.inverse), &motion, &slip, &mut springs);
-            result.tangent = tangent_of(
-                bounded(force, contact.now.load).map(|force| force.0[0]),
-                [force_unit, force_unit / element.input_scale()],
-                normal.load_slope,
-            );
-        }
-        let contacts = [&from, &contact];
-        let (force, energy) = advance(memory.tables, contacts, &motion, &slip, requested.energy, memory.springs);
-        let [x, y] = bounded(force, contact.now.load).map(|force| force_unit * force);
-        result.force = [x, y, normal.load];
-        result.dissipated = energy_unit * energy;
-        let header = Header { displacement: to, normal_force: normal.load, force, ..header };
-        *memory.turned = slip.turned;
-        memory.write(&header, &contact);
+        memory.open(to);
         result
     }
 
@@ -218,6 +160,24 @@ struct Header {
     units: Units,
     /// Of the springs, in their units.
     force: Both<f64>,
+}
+
+impl Header {
+    /// The units of forces and energies of a step.
+    #[inline(always)]
+    fn outputs(&self, element: &Element, path: &Path) -> [f64; 2] {
+        let force = element.friction_coefficient * self.units.load;
+        [force, force * element.friction_coefficient * self.units.shift * path.scale]
+    }
+}
+
+/// The end of a step of a contact that is closed then, whether under the load of the start, and what is requested of it.
+struct End<'a> {
+    element: &'a Element,
+    to: [f64; 3],
+    normal: Normal,
+    same: bool,
+    requested: Requested,
 }
 
 /// The parts of a state.
@@ -243,10 +203,18 @@ impl Memory<'_> {
     }
 
     #[inline(always)]
-    fn read(&self) -> (Header, Contact<f64>) {
+    fn header(&self) -> Header {
+        let [[_, v, u, input, key, load, shift, size, _, _, _, normal_force], [_, _, _, _, _, _, force_x, force_y, ..]] =
+            *self.header;
+        let units = Units { load, shift, size };
+        Header { displacement: [u, v, input], normal_force, key, units, force: [force_x, force_y] }
+    }
+
+    #[inline(always)]
+    fn contact(&self) -> Contact<f64> {
         let [
-            [_, v, u, input, key, unit_load, unit_shift, unit_size, flat, last, part, normal_force],
-            [load, x, y, size, w_x, w_y, force_x, force_y, inner_load, inner_x, inner_y, _],
+            [_, _, _, _, _, _, _, _, flat, last, part, _],
+            [load, x, y, size, w_x, w_y, _, _, inner_load, inner_x, inner_y, _],
         ] = *self.header;
         let [edge_x, edge_y, per_pressure, fine_x, fine_y] = &*self.edge;
         let under_flat = if flat > 0.0 { 2 } else { 0 };
@@ -254,7 +222,7 @@ impl Memory<'_> {
         let last = (last as usize).clamp(under_flat, N - 1);
         let part = (part as usize).min(FINE - 1);
         let fine = |row: &Row<f64>| row.first_chunk::<MOST_PARTS>().copied().unwrap_or([0.0; MOST_PARTS]);
-        let contact = Contact {
+        Contact {
             edge: [*edge_x, *edge_y],
             pressure: [0.0; N],
             per_pressure: *per_pressure,
@@ -266,9 +234,7 @@ impl Memory<'_> {
             part,
             first_part: starts(under_flat)[last],
             under_flat,
-        };
-        let units = Units { load: unit_load, shift: unit_shift, size: unit_size };
-        (Header { displacement: [u, v, input], normal_force, key, units, force: [force_x, force_y] }, contact)
+        }
     }
 
     #[inline(always)]
@@ -288,6 +254,73 @@ impl Memory<'_> {
         for (row, fine) in [fine_x, fine_y].into_iter().zip(&contact.fine) {
             row.iter_mut().zip(fine).for_each(|(place, value)| *place = *value);
         }
+    }
+
+    /// A step from a contact to one that is closed.
+    #[inline(always)]
+    fn step(&mut self, header: &Header, from: &Contact<f64>, path: &Path, end: &End) -> Step {
+        let &End { element, to, normal, same, requested } = end;
+        let (mut slopes, mut pressed) = (Pressed::NONE, None);
+        if !same || requested.tangent {
+            let now;
+            [now, slopes] = Pressed::new(element, &header.units, to[2], &normal);
+            if !same {
+                pressed = Some(Contact::press(self.tables, &now, from.under_flat, self.inverse));
+            }
+        }
+        let contact = pressed.as_ref().unwrap_or(from);
+        let (motion, [unit, energy_unit]) = (path.motion(from, contact, same), header.outputs(element, path));
+        let trial = trial(self.tables, contact, &motion, self.springs);
+        let mut force = header.force;
+        let sticks = same && trial.sticks;
+        let at_edge = sticks.then(|| stick::stick(self.tables, contact, &path.by, self.springs, &mut force)).flatten();
+        let (mut tangent, mut energy) = ([[0.0; 4]; 2], 0.0);
+        if let Some(edge) = at_edge {
+            if requested.tangent {
+                tangent = stick::tangent(self.tables, contact, &slopes, &edge, self.springs);
+            }
+            self.move_to(to, &force);
+        } else {
+            let mut slip = Slips { turned: *self.turned, ..Slips::NONE };
+            slip.find(self.tables, contact, self.inverse, &motion, (&trial, self.springs), requested.tangent);
+            if requested.tangent {
+                tangent = self.tangent(contact, &slopes, (path, &motion), &slip);
+            }
+            (force, energy) = advance(self.tables, [from, contact], &motion, &slip, requested.energy, self.springs);
+            *self.turned = slip.turned;
+            self.write(&Header { displacement: to, normal_force: normal.load, force, ..*header }, contact);
+            force = bounded(force, contact.now.load);
+        }
+        let mut result = Step { force: [unit * force[0], unit * force[1], normal.load], ..Step::NONE };
+        if requested.tangent {
+            let units = [unit * path.per_distance, unit / element.input_scale()];
+            result.tangent = tangent_of(tangent, units, normal.load_slope);
+        }
+        result.dissipated = energy_unit * energy;
+        result
+    }
+
+    /// Derivatives of the force of a step that slips: by the normal component and by both displacements of the springs.
+    #[inline(never)]
+    fn tangent(
+        &self,
+        contact: &Contact<f64>,
+        slopes: &Pressed<f64>,
+        (path, motion): (&Path, &Motion<f64, f64>),
+        slip: &Slips,
+    ) -> Both<[f64; 4]> {
+        let by = [0, 1].map(|k| {
+            let mut by = Dual::constant(motion.by[k]);
+            (by.0[0][END], by.0[0][END + 1 + k]) = (path.per_input[k][1], 1.0);
+            by
+        });
+        let constant_load = motion.constant_load;
+        let motion = Motion { before: motion.before.map(Dual::constant), by, constant_load };
+        let rows = DualRows::without_slopes(self.tables);
+        let contact = contact.derived(&rows, slopes);
+        let mut springs = Derivatives { values: self.springs, slopes: &mut [] };
+        let force = derivatives(&rows, (&contact, self.inverse), &motion, slip, &mut springs);
+        bounded(force, contact.now.load).map(|force| force.0[0])
     }
 
     /// The state of a new contact, at a place.

@@ -1,13 +1,14 @@
 //! A step under a constant load in which nothing slips: all springs follow the motion.
 
 use super::contact::{Contact, Pressed};
+use super::matrix::largest;
 use super::scalar::{Dual, Linear, Over, both};
-use super::tables::{Both, DualRows, END, FINE, INSIDE, N, Rows, SHIFT};
-use super::trial::{FINE_SPRING, ROUNDING, Values, direction, returned, tractions};
+use super::tables::{Both, DualRows, END, FINE, INSIDE, N, Rows, SHIFT, THINNEST};
+use super::trial::{FINE_SPRING, Values, direction, returned};
 use crate::simd::dispatch;
 
-/// Moves the springs and their force, unless a point or a fine spring would slip or the force exceeds its bound; the displacement of the fine
-/// spring at the edge, which may slip, before it returns to its limit.
+/// Moves the springs and their force if no point slips, unless a fine spring would slip or the force exceeds its bound; the displacement of the
+/// fine spring at the edge, which may slip, before it returns to its limit.
 pub(crate) fn stick(
     t: &Rows,
     c: &Contact<f64>,
@@ -16,55 +17,46 @@ pub(crate) fn stick(
     force: &mut Both<f64>,
 ) -> Option<Both<f64>> {
     dispatch!({
-        let mut largest = [0.0; N];
-        let mut r = both!(|k| tractions(t, c, k, &springs[k], 0));
-        for k in 0..2 {
-            for i in 0..N {
-                r[k][i] += c.edge[k][i] * c.per_pressure[i] * by[k];
-            }
+        // Rows of fine springs, and the nodes up to the part at the edge.
+        let (rows, first, inside) = (FINE / N, FINE_SPRING / N, c.now.inside[1] * (1.0 - THINNEST));
+        // 1 for the springs in use, 0 for others.
+        let (mut most, mut parts) = ([0.0; N], [[0.0; N]; FINE / N + 1]);
+        for j in 0..N {
+            parts[rows][j] = if j <= c.last { 1.0 } else { 0.0 };
         }
-        for i in 0..N {
-            largest[i] = r[0][i] * r[0][i] + r[1][i] * r[1][i] - ROUNDING;
-        }
-        // Rows of fine springs, up to that of the part at the edge, whose last ones are not in use.
-        let rows = FINE / N;
-        let mut fine = *springs;
         for row in 0..rows {
+            let nodes = [&t[SHIFT + row], &t[SHIFT + rows + row]];
             for j in 0..N {
-                let inside = row * N + j <= c.part;
-                let (limit_x, limit_y) =
-                    (c.now.shift[0] - t[SHIFT + row][j], c.now.shift[1] - t[SHIFT + rows + row][j]);
-                let (x, y) =
-                    (springs[FINE_SPRING / N + row][j] + by[0], springs[FINE_SPRING / N + rows + row][j] + by[1]);
-                let (x, y) = (if inside { x } else { 0.0 }, if inside { y } else { 0.0 });
-                let (across, along, bound) = (x * limit_y, y * limit_x, limit_x * limit_y);
+                let limit = both!(|k| c.now.shift[k] - nodes[k][j]);
+                let v = both!(|k| springs[first + k * rows + row][j] + by[k]);
+                let (across, along, bound) = (v[0] * limit[1], v[1] * limit[0], limit[0] * limit[1]);
                 let excess = across * across + along * along - bound * bound;
-                largest[j] = if inside && excess > largest[j] { excess } else { largest[j] };
-                (fine[FINE_SPRING / N + row][j], fine[FINE_SPRING / N + rows + row][j]) = (x, y);
+                parts[row][j] = if nodes[0][j] < inside { 1.0 } else { 0.0 };
+                let excess = parts[row][j] * excess;
+                most[j] = if excess > most[j] { excess } else { most[j] };
             }
-        }
-        let mut most = largest[0];
-        for i in 1..N {
-            most = if largest[i] > most { largest[i] } else { most };
-        }
-        if most > 0.0 {
-            return None;
         }
         let edge = both!(|k| springs[(FINE_SPRING + k * FINE + INSIDE) / N][INSIDE % N] + by[k]);
         let limit = both!(|k| c.limit_inside(k));
         let ends = returned(edge, &limit, direction(edge, limit));
         let moved = both!(|k| force[k] + by[k] * c.total(k) + c.fine_inside(k) * (ends[k] - edge[k]));
-        if moved[0] * moved[0] + moved[1] * moved[1] > c.now.load * c.now.load {
+        if largest(&most) > 0.0 || moved[0] * moved[0] + moved[1] * moved[1] > c.now.load * c.now.load {
             return None;
         }
         *force = moved;
         for k in 0..2 {
-            for j in 0..=c.last.min(N - 1) {
-                fine[k][j] += by[k];
+            for row in 0..=rows {
+                let place = if row < rows { first + k * rows + row } else { k };
+                let mut v = springs[place];
+                for j in 0..N {
+                    v[j] += parts[row][j] * by[k];
+                }
+                springs[place] = v;
             }
-            fine[(FINE_SPRING + k * FINE + INSIDE) / N][INSIDE % N] = ends[k];
         }
-        *springs = fine;
+        for k in 0..2 {
+            springs[(FINE_SPRING + k * FINE + INSIDE) / N][INSIDE % N] = ends[k];
+        }
         Some(edge)
     })
 }

@@ -57,7 +57,7 @@ const SMALLEST_FLAT: f64 = 1e-9;
 /// The least stiffness of a spring, relative to the secant: above the rounding errors of differences.
 pub(crate) const LEAST_STIFFNESS: f64 = 1e-12;
 /// Nodes closer to the present size than this part of it do not count as inside: their shell would be lost in rounding.
-const THINNEST: f64 = 1e-9;
+pub(crate) const THINNEST: f64 = 1e-9;
 /// The least reference load, relative to the normal force of the parameters: with a flat, shells of much smaller sizes are so stiff that
 /// maps between them lose their digits.
 const LEAST_REFERENCE: f64 = 1.0 / 4096.0;

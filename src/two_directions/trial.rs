@@ -1,6 +1,7 @@
 //! The springs, the trial state of a step, in which all stick, and the limits on the way.
 
 use super::contact::Contact;
+use super::matrix::largest;
 use super::scalar::{Dual, Linear, Over, Real, both};
 use super::tables::{Both, FINE, MAP, N, Row, Rows, Tables, starts};
 use crate::shape::TINY;
@@ -165,12 +166,17 @@ pub(crate) fn trial(t: &Rows, c: &Contact<f64>, motion: &Motion<f64, f64>, old: 
         let (last, start_of) = (c.last.min(N - 1), starts(c.under_flat));
         let (mut old, mut leaves, mut all) = (both!(|k| old[k]), [[0.0; 3]; N], [[0.0; N]; 2]);
         for k in 0..2 {
-            let rise = c.now.shift[k] - motion.before[k];
-            for j in 0..=last {
-                all[k][j] = old[k][j] + moved(c.limit(&t, k, start_of[j]), rise, motion.by[k]);
+            let (rise, mut part) = (c.now.shift[k] - motion.before[k], [motion.by[k]; N]);
+            if !motion.constant_load {
+                for j in 0..=last {
+                    part[j] = moved(c.limit(&t, k, start_of[j]), rise, motion.by[k]);
+                }
+            }
+            for j in 0..N {
+                all[k][j] = if j <= last { old[k][j] + part[j] } else { 0.0 };
             }
         }
-        if some_leave(&t, c, motion.before[0]) {
+        if !motion.constant_load && some_leave(&t, c, motion.before[0]) {
             leave(&t, c, motion, [&mut old, &mut all], &mut leaves);
         }
         let (mut start, mut r) = ([[0.0; N]; 2], [[0.0; N]; 2]);
@@ -182,12 +188,11 @@ pub(crate) fn trial(t: &Rows, c: &Contact<f64>, motion: &Motion<f64, f64>, old: 
                 r[k][i] += c.edge[k][i] * c.per_pressure[i] * moved;
             }
         }
-        let mut largest = 0.0;
+        let mut squares = [0.0; N];
         for i in 0..N {
-            let square = r[0][i] * r[0][i] + r[1][i] * r[1][i];
-            largest = if square > largest { square } else { largest };
+            squares[i] = r[0][i] * r[0][i] + r[1][i] * r[1][i];
         }
-        Trial { old, leaves, v: all, start, r, sticks: largest <= ROUNDING }
+        Trial { old, leaves, v: all, start, r, sticks: largest(&squares) <= ROUNDING }
     })
 }
 
