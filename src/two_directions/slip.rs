@@ -12,7 +12,9 @@ use super::contact::Contact;
 use super::matrix::{dot, invert, largest, times};
 use super::scalar::both;
 use super::tables::{Both, FINE, INSIDE, Matrix, N, Row, Rows, SHIFT};
-use super::trial::{FINE_SPRING, Motion, ROUNDING, Trial, Values, direction, limits_before, moved, slid, tractions};
+use super::trial::{
+    FINE_SPRING, Leaves, Motion, NONE_LEAVES, ROUNDING, Trial, Values, direction, limits_before, moved, slid, tractions,
+};
 use crate::shape::TINY;
 use crate::simd::dispatch;
 
@@ -53,9 +55,9 @@ pub(crate) struct Slips {
     pub end: Slip,
     /// The part in which the contact slides far.
     pub slides: f64,
-    /// The springs at the start and of the trial state, and at the end; the directions of those that leave.
+    /// The springs at the start and of the trial state, and at the end; how those slip that leave.
     pub old: Both<Row<f64>>,
-    pub leaves: [[f64; 3]; N],
+    pub leaves: Leaves,
     pub trial: Both<Row<f64>>,
     pub v: Both<Row<f64>>,
     pub fine: FineSlips,
@@ -194,7 +196,7 @@ impl Slips {
         end: Slip::NONE,
         slides: 0.0,
         old: [[0.0; N]; 2],
-        leaves: [[0.0; 3]; N],
+        leaves: NONE_LEAVES,
         trial: [[0.0; N]; 2],
         v: [[0.0; N]; 2],
         fine: FineSlips::NONE,

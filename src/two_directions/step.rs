@@ -47,13 +47,13 @@ pub(crate) fn step<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     }
     let mut old = None;
     if some_leave(t, c, motion.before[0]) {
-        let (mut springs, mut directions) = ([[zero; N]; 2], slip.leaves);
+        let (mut springs, mut leaves) = ([[zero; N]; 2], slip.leaves);
         for k in 0..2 {
             for j in 0..end {
                 springs[k][j] = s.get(k * N + j);
             }
         }
-        leave(t, c, motion, [&mut springs, &mut v], &mut directions);
+        leave(t, c, motion, [&mut springs, &mut v], &mut leaves);
         old = Some(springs);
     }
     let far = slip.slides > 0.0;

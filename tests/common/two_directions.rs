@@ -1,6 +1,9 @@
-//! An element with two tangential directions and its state.
+//! An element with two tangential directions and its state, and the harmonic force of a motion with one harmonic.
 
 use microslip::element::Element;
+use microslip::two_directions::harmonic_force::{
+    HarmonicOutput, Workspace, harmonic_force, workspace_init, workspace_length,
+};
 use microslip::two_directions::{Law, Step, TwoDirections};
 
 #[derive(Clone)]
@@ -35,4 +38,28 @@ impl Contact<'_> {
         let path: Vec<[f64; 3]> = (1..steps).map(at).chain([to]).collect();
         path.into_iter().map(|place| self.to(place).dissipated).sum()
     }
+}
+
+pub const HARMONICS: usize = 1;
+pub const SAMPLES: usize = 32;
+/// Of one component, and of all.
+pub const ROW: usize = 2 * HARMONICS + 1;
+pub const COEFFICIENTS: usize = 3 * ROW;
+
+pub struct Harmonic {
+    pub force: Vec<f64>,
+    pub jacobian: Vec<f64>,
+    pub dissipated: f64,
+    pub drift: f64,
+}
+
+pub fn harmonic(element: &Element, periods: usize, motion: &[f64; COEFFICIENTS]) -> Harmonic {
+    let (mut memory, mut drift) = (vec![0.0; workspace_length(HARMONICS, SAMPLES)], f64::NAN);
+    workspace_init(HARMONICS, SAMPLES, periods, &mut memory).unwrap();
+    let mut workspace = Workspace::new(&mut memory).unwrap();
+    let compute = |output: HarmonicOutput| {
+        harmonic_force(element, &mut workspace, motion, HarmonicOutput { drift: Some(&mut drift), ..output })
+    };
+    let (force, jacobian, dissipated) = super::outputs(COEFFICIENTS, compute).unwrap();
+    Harmonic { force, jacobian, dissipated, drift }
 }
