@@ -46,6 +46,8 @@ const BACKWARDS: f64 = 1e-14;
 pub(crate) const SLIPPED: f64 = 1.0 - 1e-9;
 /// Cosine of the angle between the tractions before and of the trial state up to which the one before is the first guess.
 const NEAR: f64 = 0.5;
+/// |r|² at the start, over that of the limit, from which on a point slipped then: after a change of the load it is less exact.
+const HELD: f64 = 0.998;
 /// Cosine of the angle between a motion and a traction from which on a point turns back.
 const TURNS_BACK: f64 = -0.6;
 
@@ -140,19 +142,17 @@ struct Problem<'a> {
 }
 
 impl Problem<'_> {
-    /// Points beyond their limits, and directions, turned by these tangents: from the start for points that slipped then and are not far from there.
+    /// Points beyond their limits, and directions: points of a mask turn by these tangents from other tractions that are not far.
     #[inline(always)]
-    fn guess(&self, level: &Row<f64>, start: &Both<Row<f64>>, turned: &Row<f64>, middle: bool) -> Guess {
+    fn guess(&self, level: &Row<f64>, from: &Both<Row<f64>>, mask: &Row<f64>, turned: &Row<f64>) -> Guess {
         let ([mut x, mut y], mut beyond) = (self.r, [0.0; N]);
         for i in 0..N {
-            let (r_x, r_y) = (start[0][i], start[1][i]);
+            let (r_x, r_y) = (from[0][i], from[1][i]);
             let square = x[i] * x[i] + y[i] * y[i];
             beyond[i] = if square > ROUNDING * level[i] * level[i] { 1.0 } else { 0.0 };
-            let slipped = middle && r_x * r_x + r_y * r_y > SLIPPED;
-            let near = slipped && x[i] * r_x + y[i] * r_y > NEAR * square.sqrt();
-            let (r_x, r_y) = (if near { r_x } else { x[i] }, if near { r_y } else { y[i] });
-            let turn = if near || !middle { turned[i] } else { 0.0 };
-            let (r_x, r_y) = (r_x - turn * r_y, r_y + turn * r_x);
+            let near = mask[i] * (x[i] * r_x + y[i] * r_y) > NEAR * square.sqrt();
+            let (on_x, on_y) = (r_x - turned[i] * r_y, r_y + turned[i] * r_x);
+            let (r_x, r_y) = (if near { on_x } else { x[i] }, if near { on_y } else { y[i] });
             let square = r_x * r_x + r_y * r_y;
             let per = 1.0 / (if square > TINY { square } else { TINY }).sqrt();
             (x[i], y[i]) = (r_x * per, r_y * per);
@@ -230,12 +230,15 @@ impl Slips {
             (slips.old, slips.leaves, slips.trial) = (trial.old, trial.leaves, trial.v);
             slips.slides = slid(&t, contact, &trial.v, &trial.v);
             let theta = 0.5 * (1.0 + slips.slides);
-            (slips.middle.level, slips.end.level) = ([1.0; N], [1.0; N]);
+            let (mut before, mut slipped) = ([1.0; N], [0.0; N]);
             if !motion.constant_load {
-                let before = limits_before(&t, contact, contact.now.shift[0] - motion.before[0]);
-                for i in 0..N {
-                    slips.middle.level[i] = if i < end { before[i] + theta * (1.0 - before[i]) } else { 1.0 };
-                }
+                before = limits_before(&t, contact, contact.now.shift[0] - motion.before[0]);
+            }
+            slips.end.level = [1.0; N];
+            for i in 0..N {
+                let square = start[0][i] * start[0][i] + start[1][i] * start[1][i];
+                slipped[i] = if square > HELD * before[i] * before[i] { 1.0 } else { 0.0 };
+                slips.middle.level[i] = if i < end { before[i] + theta * (1.0 - before[i]) } else { 1.0 };
             }
             let mut problem = Problem { v: trial.v, r: *start, t, contact, inverse, end };
             for k in 0..2 {
@@ -244,8 +247,8 @@ impl Slips {
                     problem.v[k][i] = trial.old[k][i] + theta * (trial.v[k][i] - trial.old[k][i]);
                 }
             }
-            let mut guess = problem.guess(&slips.middle.level, start, &slips.turned[0], true);
-            guess.set = continuing(guess.beyond, start, &motion.by, end);
+            let mut guess = problem.guess(&slips.middle.level, start, &slipped, &slips.turned[0]);
+            guess.set = continuing(guess.beyond, start, &slipped, &motion.by, end);
             for stage in 0..2 {
                 let middle = stage == 0;
                 let [slip, other] =
@@ -261,7 +264,8 @@ impl Slips {
                     break;
                 }
                 problem.go_on(slip, trial, theta);
-                guess = problem.guess(&other.level, start, &slips.turned[1], false);
+                let from = problem.r;
+                guess = problem.guess(&other.level, &from, &[1.0; N], &slips.turned[1]);
                 guess.set |= slip.set;
             }
         });
@@ -270,12 +274,10 @@ impl Slips {
 
 /// Points beyond their limits, and those that slipped at the start, do not turn back and have one outside that slips.
 #[inline(always)]
-fn continuing(mut set: Set, start: &Both<Row<f64>>, by: &Both<f64>, end: usize) -> Set {
+fn continuing(mut set: Set, start: &Both<Row<f64>>, slipped: &Row<f64>, by: &Both<f64>, end: usize) -> Set {
     let (mut continues, backwards) = ([0.0; N], TURNS_BACK * (by[0] * by[0] + by[1] * by[1]).sqrt());
     for i in 0..N {
-        let (x, y) = (start[0][i], start[1][i]);
-        let continued = x * x + y * y > SLIPPED && x * by[0] + y * by[1] >= backwards;
-        continues[i] = if continued { 1.0 } else { 0.0 };
+        continues[i] = if start[0][i] * by[0] + start[1][i] * by[1] >= backwards { slipped[i] } else { 0.0 };
     }
     let continues = points(&continues, end);
     for _ in 0..N {
