@@ -387,7 +387,8 @@ fn constant_load_history(options: &History, spec: &ContactSpec, table: &InputTab
     let mut total = 0.0;
     for row in &table.rows {
         let displacement = row.values[0] * if options.relative { contact.slip_displacement } else { 1.0 };
-        let mut divided = state.clone();
+        // Long histories have long states: copied only if steps are divided.
+        let mut divided = if parts > 1 { state.clone() } else { Vec::new() };
         let step = ConstantLoad::step(contact, &mut state, displacement)
             .map_err(|error| CliError::in_file(path, format!("{}: {error}", table.place(row, 0))))?;
         points.extend((1..parts).filter_map(|part| {

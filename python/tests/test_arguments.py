@@ -30,6 +30,7 @@ workspace = microslip.Workspace(1, 8)
 element_workspace = microslip.ElementWorkspace(1, 1, 8)
 state = microslip.State()
 element_state = microslip.ElementState()
+table = microslip.StiffnessTable(contact)
 SLIP = contact.slip_displacement
 TIME = np.linspace(0, 4 * np.pi, 160)
 LOOP = 2 * SLIP * np.cos(TIME), contact.update(state, 2 * SLIP * np.cos(TIME)).force
@@ -56,7 +57,7 @@ def valid():
         "Contact.update": {"state": state, "displacement": [1e-7], "out": out},
         "Contact.hysteresis_loop": {"amplitude": 1e-7, "n": 10},
         "Contact.dissipated_energy": {"force_amplitude": [100.0]},
-        "Contact.complex_stiffness": {"amplitude": [1e-7], "table": microslip.StiffnessTable(contact)},
+        "Contact.complex_stiffness": {"amplitude": [1e-7], "table": table},
         "Contact.harmonic_force": {"workspace": workspace, "displacement": [0, 1e-7, 0], "jacobian": True},
         "Contact.harmonic_sensitivity": {"workspace": workspace, "displacement": [0, 1e-7, 0]},
         "Contact.jenkins_equivalent": {"amplitude": 1e-7},

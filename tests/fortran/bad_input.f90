@@ -99,7 +99,7 @@ contains
     workspace = spread(0.0_wp, 1, int(mslip_harmonic_workspace_length(h, samples)))
     call mslip_harmonic_workspace_init(h, samples, workspace, ok)
     table = spread(0.0_wp, 1, int(mslip_stiffness_table_length()))
-    call mslip_stiffness_table_init(contacts(1), table, ok)
+    if (procedures(p)%memory == 't') call mslip_stiffness_table_init(contacts(1), table, ok)
     if (procedures(p)%element) then
       state = spread(0.0_wp, 1, int(mslip_element_state_length(directions, pieces)))
       call mslip_element_state_init(directions, state, ok)
