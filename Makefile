@@ -145,7 +145,6 @@ identification:
 ## host: build CalculiX with the law as one of its elements, and compare its results with the library (some minutes)
 host: all
 	@tools/dependencies.sh host
-	tools/python.sh
 	examples/calculix/run.sh dist
 
 ## fuzz: fuzz the C interface with TIME= seconds, JOBS= processes at once

@@ -1,7 +1,7 @@
 #!/bin/sh
-# python.sh [all [every]]: build a wheel of the Python package, and test it installed in a clean environment. `all` builds the wheel
-# to be published, tests it also by the oldest and the newest other Python that are found (`every`: by all of them), and tests
-# types, format, adapters, examples and the programs of the documents.
+# python.sh [all [every]]: test the Python package from its source, with the library that the daily tests compile. `all` builds the
+# wheel to be published and tests it installed in a clean environment, by the oldest and the newest other Python that are found too
+# (`every`: by all of them), and tests types, format, adapters, examples and the programs of the documents.
 # PYTHON= is the interpreter. With TARGET=aarch64-unknown-linux-gnu the wheel is that to be published for this processor, tested
 # by QEMU and Debian's Python for it, without the rights of root. Build and test tools come from PyPI, into target/tools: among them
 # Zig, whose linker makes wheels for any Linux with glibc 2.17 or later (manylinux2014).
@@ -24,19 +24,15 @@ version=$(sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml)
 # A wheel is built from the crates of Cargo.lock without a network, in a namespace without one if the system permits that.
 isolated=
 if unshare -rn true 2> /dev/null; then isolated='unshare -rn'; fi
-# The daily tests share the compilation of the other ones; the wheel to be published is the one of `all`.
-build='--profile dev' zig=
-[ "${1:-}$target" = '' ] || build="--release --zig --compatibility manylinux2014 ${target:+--target $target}" zig=ziglang
-# shellcheck disable=SC2086  # a package or none
 tools() {
-    "$tools/bin/python" -c "import maturin, cffi${zig:+, $zig}" 2> /dev/null ||
-        { "$PYTHON" -m venv "$tools" && "$tools/bin/pip" install 'maturin>=1.9.2,<2' 'cffi>=1.15' $zig; }
+    "$tools/bin/python" -c 'import maturin, cffi, ziglang' 2> /dev/null ||
+        { "$PYTHON" -m venv "$tools" && "$tools/bin/pip" install 'maturin>=1.9.2,<2' 'cffi>=1.15' ziglang; }
 }
-# shellcheck disable=SC2086  # flags are a list
+# shellcheck disable=SC2086  # a list
 wheel() {
     rm -rf "$wheels" && { "$CARGO" fetch --locked --offline || "$CARGO" fetch --locked; } &&
         (cd python && PATH="$tools/bin:$PATH" CARGO_NET_OFFLINE=true $isolated \
-            maturin build $build --out "$wheels") &&
+            maturin build --release --zig --compatibility manylinux2014 ${target:+--target $target} --out "$wheels") &&
         "$PYTHON" -m zipfile -e "$wheels/microslip-$version-py3-none-"*.whl "$work/wheel"
 }
 # The newest symbol version of glibc that the library needs.
@@ -101,6 +97,21 @@ core() {
         "$package"/tests/test_fit.py
 }
 
+# In a wheel, maturin writes the module _native.
+package() {
+    export PYTHONPATH="$work"
+    "$CARGO" build --locked --workspace --exclude microslip-fuzz --lib && "$PYTHON" -m venv "$work/python" &&
+        "$work/python/bin/pip" install cffi numpy pytest 'tomli; python_version < "3.11"' && cp -R python/microslip "$work" &&
+        printf 'import cffi\nffi = cffi.FFI()\nffi.cdef(open("%s/header.h").read())\nlib = ffi.dlopen("%s/debug/libmicroslip_python.so")\n' \
+            "$PWD/target" "$PWD/target" > "$work/microslip/_native.py"
+}
+
+if [ "${1:-}$target" = '' ]; then
+    check 'package' package
+    core "$work/python"
+    counts
+    exit
+fi
 check 'build tools' tools
 check 'wheel' wheel
 [ "$failed" -eq 0 ] || { counts; exit; }

@@ -1,7 +1,7 @@
 #!/bin/sh
 # run.sh PREFIX: builds CalculiX 2.20 from Debian's source package with the contact as its user element U1, runs the models,
 # compares the results with the library, and rewrites the tables of static jobs and the figures in results/. PREFIX is the installation
-# of microslip, target/python has the wheel of the Python package; everything else is in build/.
+# of microslip; everything else is in build/.
 set -eu
 
 prefix=$(cd "${1:?usage: run.sh PREFIX}" && pwd)
@@ -95,6 +95,6 @@ echo "rejected increments: $rejected; the results after a restart are equal"
 
 cd ../..
 "$PYTHON" -m venv build/python
-build/python/bin/pip install --quiet --force-reinstall ../../target/python/*.whl
+build/python/bin/pip install --quiet --force-reinstall ../../python
 build/python/bin/python compare.py results build/jobs
 "$GNUPLOT" figures.gp
