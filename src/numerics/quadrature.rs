@@ -1,12 +1,12 @@
 //! Gauss-Legendre rules on (0, 1). All weights are positive: a positive integrand is summed without cancellation.
 
-use super::const_math::{cosine, tabulate};
+use super::const_math::cosine;
 
 /// Blocks of four nodes in the largest [`gauss_rule`].
 pub(crate) const MAX_GAUSS_BLOCKS: usize = 8;
 
-/// Node i of n of the Gauss-Legendre rule on (0, 1), and its weight.
-const fn gauss_node(n: usize, i: usize) -> (f64, f64) {
+/// Node i of n, an even number, of the Gauss-Legendre rule on (0, 1), that at the same distance from the other end, and their weight.
+const fn gauss_pair(n: usize, i: usize) -> [f64; 3] {
     // Newton's method for a root of P_n from Tricomi's estimate -cos(π (i + 3/4)/(n + 1/2)), P_n by recurrence.
     let mut x = -cosine(4 * i + 3, 2 * n + 1);
     let (mut rounds, mut weight) = (0, 0.0);
@@ -22,12 +22,20 @@ const fn gauss_node(n: usize, i: usize) -> (f64, f64) {
         weight = 1.0 / ((1.0 - x * x) * slope * slope);
         rounds += 1;
     }
-    (0.5 * (1.0 + x), weight)
+    [0.5 * (1.0 + x), 0.5 * (1.0 - x), weight]
 }
 
-/// Nodes and weights of the Gauss-Legendre rule of N nodes on (0, 1).
+/// Nodes and weights of the Gauss-Legendre rule of N nodes on (0, 1), an even number.
 pub(crate) const fn gauss_legendre<const N: usize>() -> [[f64; N]; 2] {
-    [tabulate!(N, |i| gauss_node(N, i).0), tabulate!(N, |i| gauss_node(N, i).1)]
+    let [mut nodes, mut weights] = [[0.0; N]; 2];
+    let mut i = 0;
+    while i < N / 2 {
+        let last = N - 1 - i;
+        [nodes[i], nodes[last], weights[i]] = gauss_pair(N, i);
+        weights[last] = weights[i];
+        i += 1;
+    }
+    [nodes, weights]
 }
 
 /// Gauss-Legendre rules with 4, 8, 12, ... nodes, concatenated.
@@ -36,8 +44,10 @@ static GAUSS_RULES: [[[f64; 4]; 2]; MAX_GAUSS_BLOCKS * (MAX_GAUSS_BLOCKS + 1) / 
     let (mut blocks, mut start) = (1, 0);
     while blocks <= MAX_GAUSS_BLOCKS {
         let mut i = 0;
-        while i < 4 * blocks {
-            (table[start + i / 4][0][i % 4], table[start + i / 4][1][i % 4]) = gauss_node(4 * blocks, i);
+        while i < 2 * blocks {
+            let (one, other, last) = (start + i / 4, start + blocks - 1 - i / 4, 3 - i % 4);
+            [table[one][0][i % 4], table[other][0][last], table[one][1][i % 4]] = gauss_pair(4 * blocks, i);
+            table[other][1][last] = table[one][1][i % 4];
             i += 1;
         }
         start += blocks;
