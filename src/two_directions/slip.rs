@@ -230,16 +230,11 @@ impl Slips {
             (slips.old, slips.leaves, slips.trial) = (trial.old, trial.leaves, trial.v);
             slips.slides = slid(&t, contact, &trial.v, &trial.v);
             let theta = 0.5 * (1.0 + slips.slides);
-            let (mut before, mut slipped) = ([1.0; N], [0.0; N]);
+            let mut before = [1.0; N];
             if !motion.constant_load {
                 before = limits_before(&t, contact, contact.now.shift[0] - motion.before[0]);
             }
-            slips.end.level = [1.0; N];
-            for i in 0..N {
-                let square = start[0][i] * start[0][i] + start[1][i] * start[1][i];
-                slipped[i] = if square > HELD * before[i] * before[i] { 1.0 } else { 0.0 };
-                slips.middle.level[i] = if i < end { before[i] + theta * (1.0 - before[i]) } else { 1.0 };
-            }
+            let slipped = slips.limit(&before, start, theta, end);
             let mut problem = Problem { v: trial.v, r: *start, t, contact, inverse, end };
             for k in 0..2 {
                 for i in 0..N {
@@ -269,6 +264,19 @@ impl Slips {
                 guess.set |= slip.set;
             }
         });
+    }
+
+    /// Limits in the middle and at the end, from those at the start: 1 for points that slipped then, 0 for others.
+    #[inline(always)]
+    fn limit(&mut self, before: &Row<f64>, start: &Both<Row<f64>>, theta: f64, end: usize) -> Row<f64> {
+        let mut slipped = [0.0; N];
+        self.end.level = [1.0; N];
+        for i in 0..N {
+            let square = start[0][i] * start[0][i] + start[1][i] * start[1][i];
+            slipped[i] = if square > HELD * before[i] * before[i] { 1.0 } else { 0.0 };
+            self.middle.level[i] = if i < end { before[i] + theta * (1.0 - before[i]) } else { 1.0 };
+        }
+        slipped
     }
 }
 
@@ -347,9 +355,17 @@ impl Slip {
         v
     }
 
-    /// K of the points that slip.
+    /// K of the points that slip, and their load, unless it is known.
     #[inline(always)]
-    fn stiffen(&mut self, problem: &Problem) {
+    fn stiffen(&mut self, other: &Slip, problem: &Problem, of: (Set, f64)) {
+        if self.known == of {
+            return;
+        }
+        self.known = of;
+        if other.known == of {
+            self.k = other.k;
+            return;
+        }
         let &Problem { t, contact, inverse, end, .. } = problem;
         let end = end.min(N);
         let first = (self.set.trailing_zeros() as usize).min(end);
@@ -428,14 +444,7 @@ impl Slip {
                 per_level[i] = self.slips[i] / self.level[i];
             }
             let of = (set, contact.now.load);
-            if self.known != of {
-                self.known = of;
-                if other.known == of {
-                    self.k = other.k;
-                } else {
-                    self.stiffen(problem);
-                }
-            }
+            self.stiffen(other, problem, of);
             // The inverse of the step before holds while changes of angles fall to a tenth.
             let (mut turn, mut done, mut holds) = (f64::MAX, false, self.inverted == of);
             let mut renewed = [false; 2];

@@ -432,9 +432,10 @@ pub(crate) fn advance(
     springs: &mut Values,
 ) -> (Both<f64>, f64) {
     dispatch!({
-        let (old, mut v) = (*springs, slip.v);
+        let (old, mut v) = (if energy { Some(*springs) } else { None }, slip.v);
         let force = finish(&t, c, motion, slip, slip.slides, &mut v, &mut &mut *springs);
-        let dissipated = if energy { dissipated(t, [from, c], motion, slip, [&old, springs]) } else { 0.0 };
+        let dissipated =
+            if let Some(old) = &old { dissipated(t, [from, c], motion, slip, [old, springs]) } else { 0.0 };
         (force, dissipated)
     })
 }
