@@ -108,7 +108,7 @@ impl Contact<f64> {
     /// The contact under a load, and C⁻¹ as `[spring][point]`.
     pub fn press(rows: &Rows, now: &Pressed<f64>, under_flat: usize, inverse: &mut Both<Matrix>) -> Contact<f64> {
         dispatch!({
-            let contact = Contact::new(&rows, now, at_edge(rows, under_flat, now.inside[1]), under_flat);
+            let contact = Contact::new(&rows, now, at_edge(rows, under_flat, now.inside[1]), under_flat, true);
             let last = contact.last.min(N - 1);
             for k in 0..2 {
                 inverse[k] = [[0.0; N]; N];
@@ -141,17 +141,23 @@ impl Contact<f64> {
         t.get(MAP + k * (N - 1) + j).filter(|_| j < self.last).unwrap_or(&self.edge[k])
     }
 
-    /// The contact with derivatives.
+    /// The contact with derivatives, of the stiffnesses of springs, and of tractions if these are requested.
     #[inline(never)]
-    pub fn derived(&self, tables: &DualRows, slopes: &Pressed<f64>) -> Contact<Dual<1>> {
+    pub fn derived(&self, tables: &DualRows, slopes: &Pressed<f64>, tractions: bool) -> Contact<Dual<1>> {
         let now = self.now.dual(slopes, END);
-        Contact::new(tables, &now, [self.last, self.part], self.under_flat)
+        Contact::new(tables, &now, [self.last, self.part], self.under_flat, tractions)
     }
 }
 
 impl<A: Real> Contact<A> {
     #[inline(always)]
-    fn new(t: &impl Tables<A>, now: &Pressed<A>, [last, part]: [usize; 2], under_flat: usize) -> Contact<A> {
+    fn new(
+        t: &impl Tables<A>,
+        now: &Pressed<A>,
+        [last, part]: [usize; 2],
+        under_flat: usize,
+        tractions: bool,
+    ) -> Contact<A> {
         let (zero, one, last) = (A::constant(0.0), A::constant(1.0), last.min(N - 1));
         let first_part = starts(under_flat)[last];
         let before = last.max(1) - 1;
@@ -175,7 +181,7 @@ impl<A: Real> Contact<A> {
         contact.edge[0][last] = per_step[0];
         contact.edge[1][last] = per_step[1];
         let (weight, lower) = (t.at(WEIGHT, last), t.at(SIZE, last));
-        for i in 0..last {
+        for i in 0..if tractions { last } else { 0 } {
             let mut traction = weight * root_difference(now.size, lower, t.at(POINTS, i));
             for k in 0..2 {
                 let bound = t.at(MAP + k * (N - 1) + before, i) * step[k];

@@ -500,7 +500,7 @@ fn differentiate(workspace: &mut Workspace, walk: &mut Walk, taken: &Taken, samp
     let at = |basis: &[f64], c: usize| basis.get(c).copied().unwrap_or(0.0);
     let per_scale = 1.0 / walk.element.input_scale();
     let Taken { motion, path, before, old, .. } = taken;
-    let derived = walk.derived.get_or_insert_with(|| walk.contact.derived(&walk.tables, &walk.slopes));
+    let derived = walk.derived.get_or_insert_with(|| walk.contact.derived(&walk.tables, &walk.slopes, true));
     let mut dual = Motion {
         before: motion.before.map(Dual::constant),
         by: motion.by.map(Dual::constant),

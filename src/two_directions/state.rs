@@ -317,7 +317,7 @@ impl Memory<'_> {
         let constant_load = motion.constant_load;
         let motion = Motion { before: motion.before.map(Dual::constant), by, constant_load };
         let rows = DualRows::without_slopes(self.tables);
-        let contact = contact.derived(&rows, slopes);
+        let contact = contact.derived(&rows, slopes, true);
         let mut springs = Derivatives { values: self.springs, slopes: &mut [] };
         let force = derivatives(&rows, (&contact, self.inverse), &motion, slip, &mut springs);
         bounded(force, contact.now.load).map(|force| force.0[0])

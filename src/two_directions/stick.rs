@@ -73,7 +73,7 @@ pub(crate) fn tangent(
     let springs = springs.as_flattened();
     let at = |place: usize| springs.get(place).copied().unwrap_or(0.0);
     let rows = DualRows::without_slopes(t);
-    let derived = c.derived(&rows, slopes);
+    let derived = c.derived(&rows, slopes, false);
     let edge = [Dual([[0.0, 1.0, 0.0, edge[0]]]), Dual([[0.0, 0.0, 1.0, edge[1]]])];
     let limit = both!(|k| derived.limit_inside(k));
     let direction = direction(edge.map(|x| x.value()), both!(|k| c.limit_inside(k)));
