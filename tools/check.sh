@@ -1,5 +1,6 @@
 #!/bin/sh
 # check.sh: what `make test` leaves out: lints, sanitizers, applications of every kind, fuzzing, Miri, coverage, packages, audit.
+# shellcheck disable=SC2086  # lists
 set -eu
 cd "$(dirname "$0")/.."
 : "${MICROSLIP_SEED:=$(date +%s)}"
@@ -14,15 +15,14 @@ uninstall() {
 
 rust() {
     step 'formatting' "$CARGO" fmt --all --check
-    step 'lints: Rust' "$CARGO" clippy --workspace --all-targets --locked -- -D warnings
+    # Nothing is linked, so libFuzzer need not be compiled.
+    step 'lints: Rust' env CUSTOM_LIBFUZZER_PATH=/libfuzzer.a "$CARGO" clippy --workspace --all-targets --locked -- -D warnings
     step 'lints: shell' sh -c 'git ls-files "*.sh" | xargs shellcheck .ci/run'
     step 'coverage: 98 % of the lines of src/' tools/coverage.sh
-    step 'accuracy and adversarial histories, 1e5 points' "$CARGO" run --quiet --locked --package verify -- --points 1e5
-    step 'verdicts of 40 fits of each kind' env MICROSLIP_FITS=40 \
-        "$CARGO" test --locked --package microslip-fit --test wrong_models -- plateau microslip
-    step 'two directions: Jacobians of 10,000 random motions' \
-        "$CARGO" test --locked --test two_directions -- --ignored
-    step 'histories: random, and 20,000 cycles' env MICROSLIP_CYCLES=20000 "$CARGO" test --locked --test histories
+    step 'accuracy and adversarial histories, 1e5 points' target/debug/verify --points 1e5
+    step 'verdicts of 40 fits of each kind' env MICROSLIP_FITS=40 "$CARGO" test $workspace --test wrong_models -- plateau microslip
+    step 'two directions: Jacobians of 10,000 random motions' "$CARGO" test $workspace --test two_directions -- --ignored
+    step 'histories: random, and 20,000 cycles' env MICROSLIP_CYCLES=20000 "$CARGO" test $workspace --test histories
     step 'references of the interfaces' tools/docs.sh
 }
 
@@ -34,8 +34,8 @@ installed() {
     step 'Octave and NLvib: the law in harmonic balance' make -C examples/nlvib test PREFIX="$prefix"
     step 'Fortran on threads and ranks' make -C fortran_examples parallel PREFIX="$prefix"
     step 'Miri' tools/miri.sh
-    step 'instruction counts' "$CARGO" run --quiet --locked --package instructions
-    step 'benchmark, quick' make bench QUICK=1
+    step 'instruction counts' target/debug/instructions
+    step 'benchmark, quick' make bench QUICK=1 TRUTH="$PWD/target/debug/truth"
     step 'uninstall leaves no file' uninstall
 }
 
@@ -44,10 +44,11 @@ packages() {
     step 'packages: recipes of conda-forge and Spack, citation' tools/recipes.sh
     step 'packages: fpm' tools/fpm.sh "$prefix"
     step 'audit' tools/audit.sh
-    step 'Python: other versions, types, adapters, examples, documents' tools/python.sh all
+    step 'Python: wheel, versions, types, adapters, examples, documents' tools/python.sh all
 }
 
 step 'library: build, install, move' install_and_move
+step 'tools: compiled' "$CARGO" build $workspace --bins
 # Three on two processors: none is idle while one step waits for a lock, a download or its only thread.
 together rust installed packages
 summary

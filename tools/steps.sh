@@ -6,6 +6,9 @@ export CARGO CC CXX FC
 # The seed of all random tests.
 : "${MICROSLIP_SEED:=1}"
 export MICROSLIP_SEED
+# One compilation of the library serves all tests and tools: of fewer packages, crates that they share have other features.
+# shellcheck disable=SC2034  # for the scripts that source this one
+workspace='--locked --workspace --exclude microslip-fuzz'
 unset MAKEFLAGS MFLAGS MAKELEVEL # of the make that runs the script, not of those that it runs
 
 work=$(mktemp -d)

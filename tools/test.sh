@@ -1,11 +1,10 @@
 #!/bin/sh
 # test.sh: the regular tests, in Rust, and in C and Fortran against an installed copy. `make check` has the others.
+# shellcheck disable=SC2086  # lists
 set -eu
 cd "$(dirname "$0")/.."
 . tools/steps.sh
 
-# One compilation of the library serves all tests and tools, another one is the installed archive.
-workspace='--locked --workspace --exclude microslip-fuzz'
 strict='-Wall -Wextra -Wpedantic -Werror -O1'
 
 # A program of a document prints its result in the document.
@@ -21,12 +20,10 @@ installed() {
 }
 
 # By one command: the test of the library is compiled beside the library.
-# shellcheck disable=SC2086  # a list
 compiled() {
     step 'tools and tests: compiled' "$CARGO" build $workspace --bins --tests
 }
 
-# shellcheck disable=SC2086  # a list
 rust() {
     step 'tests in Rust; drivers in C and Fortran' env MICROSLIP_PREFIX="$prefix" "$CARGO" test $workspace --no-fail-fast
 }
