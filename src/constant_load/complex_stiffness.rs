@@ -134,7 +134,7 @@ impl Contact {
     }
 
     /// F and dF/dξ at ξ = 1 - e, in units of the initial stiffness.
-    pub(crate) fn cycle_integrals(&self, xi: f64, e: f64) -> [f64; 2] {
+    pub(crate) fn real_stiffness_integrals(&self, xi: f64, e: f64) -> [f64; 2] {
         dispatch!({
             if !self.has_weights_in_slip() {
                 return self.integrals(&RULE_BEYOND, xi, e);
@@ -277,13 +277,13 @@ impl Contact {
     fn real_stiffness(&self, amplitude: f64) -> ValueAndSlope {
         let (initial, y) = (self.initial_stiffness, amplitude * self.inner_scale);
         if y <= 1.0
-            && let Some((real, slope)) = self.interpolant().stiffness_of_cycle(y)
+            && let Some((real, slope)) = self.interpolant().cycle_stiffness(y)
         {
             return (initial * real, (initial * self.inner_scale * slope).min(0.0));
         }
         let per_slip = self.per_slip_displacement;
         let xi = amplitude * per_slip;
-        let [integral, rate] = self.cycle_integrals(xi, (self.slip_displacement - amplitude) * per_slip);
+        let [integral, rate] = self.real_stiffness_integrals(xi, (self.slip_displacement - amplitude) * per_slip);
         // In this order for amplitudes whose square overflows.
         let [real, slope] = [integral, rate - 2.0 * integral / xi].map(|value| 8.0 / PI * initial * (value / xi / xi));
         (real, (slope * per_slip).min(0.0))

@@ -57,7 +57,7 @@ impl Contact {
     /// The tangent stiffnesses at x and the remaining ρ = 1 - x over the displacement of gross slip, one by one. Beyond the polynomials of
     /// the force they follow from the last ones; without an interpolant the stick zones are found.
     #[inline(never)]
-    fn stiffnesses_in_integral(&self, x: &[f64; 4], rho: &[f64; 4]) -> [f64; 4] {
+    fn relative_stiffnesses_one_by_one(&self, x: &[f64; 4], rho: &[f64; 4]) -> [f64; 4] {
         let (zones, slip) = (self.stick_zones(), self.stick_zones().slip_shift);
         let (mut stiffnesses, is_converged) = ([0.0; 4], self.interpolant().is_converged());
         for k in 0..4 {
@@ -209,7 +209,7 @@ impl Contact {
                 }
             }
         }
-        let mut values = stiffnesses.unwrap_or_else(|| self.stiffnesses_in_integral(x, rho));
+        let mut values = stiffnesses.unwrap_or_else(|| self.relative_stiffnesses_one_by_one(x, rho));
         for value in &mut values {
             *value *= per_initial;
         }

@@ -129,7 +129,7 @@ impl ForceInterpolant {
 
     /// K' over the initial stiffness and its derivative with respect to y, for cycles up to y = 1: `8/π ∫ sqrt(t (1-t)) tⁿ dt` of each
     /// power of the tangent stiffness.
-    pub fn stiffness_of_cycle(&self, y: f64) -> Option<(f64, f64)> {
+    pub fn cycle_stiffness(&self, y: f64) -> Option<(f64, f64)> {
         self.is_converged().then_some(value_and_slope(&weighted(&self.inner, &CYCLE_WEIGHTS), y))
     }
 

@@ -160,7 +160,7 @@ impl StiffnessTable {
 
     fn fill(&mut self, contact: &Contact) {
         let (slip, initial) = (contact.slip_displacement, contact.initial_stiffness);
-        let integrals = |e: f64| contact.cycle_integrals(1.0 - e, e).map(|integral| 8.0 / PI * integral);
+        let integrals = |e: f64| contact.real_stiffness_integrals(1.0 - e, e).map(|integral| 8.0 / PI * integral);
         let amplitude = |e: f64| Complement { consumed: slip * (1.0 - e), remaining: slip * e };
         let energy_rate = |e: f64| contact.cycle_energy(amplitude(e)).1 / (PI * initial * slip);
         let secant = *contact.interpolant().secant();
