@@ -425,14 +425,6 @@ impl Element {
         &self.shape
     }
 
-    /// Checks a normal component.
-    /// Errors: `BadNormalForce` for a force that is negative or not finite; `BadDisplacement` for an approach that is not finite;
-    /// `LengthTooShort` if the contact would become too wide for its length.
-    #[inline(always)]
-    pub(crate) fn check_input(&self, input: f64) -> Result<(), Error> {
-        self.check_normal(self.by_approach(), input)
-    }
-
     /// Checks an approach or a normal force.
     #[inline(always)]
     pub(crate) fn check_normal(&self, is_approach: bool, value: f64) -> Result<(), Error> {

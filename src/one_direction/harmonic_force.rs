@@ -186,7 +186,9 @@ impl Workspace<'_> {
         let (tangential, input) = displacement.split_at_checked(self.coefficients()).ok_or(Error::BadArraySize)?;
         let mean = input.first().copied().unwrap_or(0.0);
         let amplitude: f64 = input.iter().skip(1).map(|value| value.abs()).sum();
-        if (element.by_approach() || mean >= amplitude) && element.check_input(mean + amplitude).is_ok() {
+        if (element.by_approach() || mean >= amplitude)
+            && element.check_normal(element.by_approach(), mean + amplitude).is_ok()
+        {
             return Ok(());
         }
         self.press(element, tangential, input, false).map(|_| ())
@@ -230,7 +232,7 @@ impl Workspace<'_> {
         if least < -rounding {
             return Err(Error::BadNormalForce);
         }
-        element.check_input(largest.max(0.0))?;
+        element.check_normal(element.by_approach(), largest.max(0.0))?;
         motion.open = !element.is_closed(largest);
         if motion.open {
             return Ok(motion);

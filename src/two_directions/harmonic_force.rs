@@ -122,7 +122,9 @@ impl<'a> Workspace<'a> {
         let input = displacement.get(2 * self.coefficients()..).unwrap_or(&[]);
         let mean = input.first().copied().unwrap_or(0.0);
         let amplitude: f64 = input.iter().skip(1).map(|value| value.abs()).sum();
-        if (element.by_approach() || mean >= amplitude) && element.check_input(mean + amplitude).is_ok() {
+        if (element.by_approach() || mean >= amplitude)
+            && element.check_normal(element.by_approach(), mean + amplitude).is_ok()
+        {
             return Ok(());
         }
         self.synthesise(element, displacement)
@@ -144,7 +146,7 @@ impl<'a> Workspace<'a> {
                 }
                 sample[2] = sample[2].max(0.0);
             }
-            element.check_input(sample[2])?;
+            element.check_normal(element.by_approach(), sample[2])?;
         }
         Ok(())
     }
