@@ -96,7 +96,7 @@ const MOST_LOAD_WITH_LAYER: f64 = f64::from_bits((1023 + 40) << 52);
 
 /// 2^-150: sizes of loads below this part of the normal force of the parameters are not distinguished, and a contact whose input is
 /// below this part of that of the tables counts as open in a step. There squares and products would underflow.
-const SMALLEST_LOAD: f64 = f64::from_bits((1023 - 150) << 52);
+pub(crate) const SMALLEST_LOAD: f64 = f64::from_bits((1023 - 150) << 52);
 
 /// 2^-80: the same with two directions. There the shell at the edge of a flat, at 1e-8 of the size of the parameters, is 1e8 times
 /// as stiff as the others, and derivatives lose the digits of its square.
@@ -251,11 +251,6 @@ impl Element {
         }
         let rest = 1.0 - ratio;
         [linear[0] + rest * layer.shift(load), linear[1] + rest * (layer.compliance(load) * load_slope)]
-    }
-
-    /// The size w under a load > 0.
-    pub(crate) fn size_under(&self, load: f64) -> f64 {
-        self.shape().at_load(load.max(SMALLEST_LOAD * self.normal_force))
     }
 
     /// Whether the tag is that of an element initialised by this version.

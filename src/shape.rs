@@ -242,20 +242,21 @@ impl Shape {
         self.punch_at(w).psi
     }
 
-    /// d(w²)/dN \[m²/N\].
-    pub fn size_slope(&self, w: f64) -> f64 {
-        let punch = self.punch_at(w);
+    /// The size w under a normal force \[N\], and d(w²)/dN \[m²/N\].
+    pub fn size_under(&self, load: f64) -> [f64; 2] {
+        let load = load / self.load_scale;
         if self.is_elliptic() {
-            2.0 / 3.0 * (w / (self.load_scale * self.unscaled_load(&punch)).max(TINY)) * w
-        } else {
-            0.5 / (self.load_scale * punch.psi).max(TINY)
+            let w = self.length * load.cbrt();
+            let load = self.load(w).max(TINY);
+            return [w, 2.0 / 3.0 * (w / load) * w];
         }
+        let punch = RoundedPunch::from_load(self.flat, load);
+        [punch.w, 0.5 / (self.load_scale * punch.psi).max(TINY)]
     }
 
     /// The size w under a normal force \[N\].
     pub fn at_load(&self, load: f64) -> f64 {
-        let load = load / self.load_scale;
-        if self.is_elliptic() { self.length * load.cbrt() } else { RoundedPunch::from_load(self.flat, load).w }
+        self.size_under(load)[0]
     }
 
     /// The size w at which N, U or S has a value: Newton's method in the logarithms. The size at which the contact alone has the value and

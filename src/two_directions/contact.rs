@@ -6,7 +6,7 @@ use super::tables::{
     Matrix, N, PER_MAP, POINTS, PRESSURE, Row, Rows, SECANT, SHIFT, SIZE, STIFFNESS, Tables, Units, WEIGHT, at_edge,
     root_difference, starts,
 };
-use crate::element::{Element, Normal};
+use crate::element::{Element, Normal, SMALLEST_LOAD};
 use crate::simd::dispatch;
 
 /// Normal state in the units of the springs: N, S of both directions, w²; N and S of a slightly smaller size, inside the edge.
@@ -29,8 +29,8 @@ impl Pressed<f64> {
         let Normal { load, shift, load_slope, shift_slope } = *normal;
         // Products only: the compiler may divide by what is beside a number in its vector register.
         let [per_load, per_shift, per_size] = [units.load, units.shift, units.size].map(f64::recip);
-        let w = element.size_under(load);
-        let (size, slope) = (w * per_size, element.shape().size_slope(w) * load_slope * per_size * per_size);
+        let [w, slope] = element.shape().size_under(load.max(SMALLEST_LOAD * element.normal_force));
+        let (size, slope) = (w * per_size, slope * load_slope * per_size * per_size);
         let (inner, scale) = (element.normal(INSIDE_EDGE * input), element.input_scale());
         let [lateral, lateral_inside] = [normal, &inner].map(|normal| element.lateral(normal));
         let inside = [
