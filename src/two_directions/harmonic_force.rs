@@ -251,19 +251,18 @@ impl<'a> Walk<'a> {
         let same = was_closed && to[2].to_bits() == self.at[2].to_bits();
         let path = Path::new(self.element, &self.units, [self.at, to], closed);
         let (from, old, before) = (self.contact, self.springs, if was_closed { self.slopes } else { Pressed::NONE });
+        let motion = Motion { before: from.now.shift, by: path.by, constant_load: same || !closes };
         self.at = to;
         if !closes {
             let energy = was_closed && requested.energy;
             let dissipated =
                 if energy { separated(self.tables.values, &from, &Pressed::NONE, path.by, &old) } else { 0.0 };
             self.open();
-            let motion = path.motion(&from, &from, true);
             return Taken { force: [0.0; 2], dissipated: dissipated * path.scale, old, motion, path, before, closed };
         }
         if !same {
             self.press(to[2]);
         }
-        let motion = path.motion(&from, &self.contact, same);
         let trial = trial(self.tables.values, &self.contact, &motion, &old);
         self.slip.find(self.tables.values, &self.contact, &self.inverse, &motion, (&trial, &old), requested.tangent);
         let contacts = [&from, &self.contact];

@@ -1,8 +1,6 @@
 //! The part of a step in contact, in the units of the springs.
 
-use super::contact::Contact;
 use super::tables::{Both, Units};
-use super::trial::Motion;
 use crate::element::Element;
 
 /// A motion over more than this many slip displacements is shortened to it: the force does not depend on the rest, and the energy is
@@ -42,11 +40,5 @@ impl Path {
             per_input: distance.map(|distance| slopes.map(|slope| distance * slope * per_scale)),
             scale: longest / LONGEST,
         }
-    }
-
-    /// The motion from a contact to another one.
-    pub fn motion(&self, from: &Contact<f64>, to: &Contact<f64>, constant_load: bool) -> Motion<f64, f64> {
-        let before = if constant_load { to.now.shift } else { from.now.shift };
-        Motion { before, by: self.by, constant_load }
     }
 }

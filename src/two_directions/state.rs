@@ -269,7 +269,8 @@ impl Memory<'_> {
             }
         }
         let contact = pressed.as_ref().unwrap_or(from);
-        let (motion, [unit, energy_unit]) = (path.motion(from, contact, same), header.outputs(element, path));
+        let motion = Motion { before: from.now.shift, by: path.by, constant_load: same };
+        let [unit, energy_unit] = header.outputs(element, path);
         let trial = trial(self.tables, contact, &motion, self.springs);
         let mut force = header.force;
         let sticks = same && trial.sticks;
