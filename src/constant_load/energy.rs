@@ -58,22 +58,22 @@ impl Contact {
 pub(crate) struct Dissipation<'a> {
     contact: &'a Contact,
     sum: f64,
-    open: Segment,
+    last: Segment,
 }
 
 impl<'a> Dissipation<'a> {
     pub fn new(contact: &'a Contact) -> Dissipation<'a> {
-        Dissipation { contact, sum: 0.0, open: Segment { scale: 0.0, start: 0.0, end: 0.0, slip_length: 0.0 } }
+        Dissipation { contact, sum: 0.0, last: Segment { scale: 0.0, start: 0.0, end: 0.0, slip_length: 0.0 } }
     }
 
     #[inline(always)]
     pub fn add(&mut self, segment: Segment) {
-        if segment.scale == self.open.scale && segment.start == self.open.end {
-            self.open.end = segment.end;
-            self.open.slip_length += segment.slip_length;
+        if segment.scale == self.last.scale && segment.start == self.last.end {
+            self.last.end = segment.end;
+            self.last.slip_length += segment.slip_length;
         } else {
-            self.close();
-            self.open = segment;
+            self.add_last();
+            self.last = segment;
         }
     }
 
@@ -90,8 +90,8 @@ impl<'a> Dissipation<'a> {
         }
     }
 
-    fn close(&mut self) {
-        let Segment { scale, start, end, slip_length } = self.open;
+    fn add_last(&mut self) {
+        let Segment { scale, start, end, slip_length } = self.last;
         if end > start {
             let difference = self.cycle_energy(end) - self.cycle_energy(start);
             self.sum += 0.25 * scale * if difference > 0.0 { difference } else { 0.0 };
@@ -101,7 +101,7 @@ impl<'a> Dissipation<'a> {
 
     /// The energy \[J\] of all segments.
     pub fn total(mut self) -> f64 {
-        self.close();
+        self.add_last();
         self.sum
     }
 }

@@ -223,7 +223,7 @@ impl Memory<'_> {
         Transition { branch: self.close_loops(contact, branch, target, on_segment), reversed: false }
     }
 
-    /// The branch on which a displacement beyond the end of `branch` lies.
+    /// The branch on which a displacement beyond the end of `branch` lies. Its depth leaves out the reversals of the closed loops.
     #[inline(never)]
     fn close_loops(
         &self,
