@@ -9,7 +9,7 @@ export MICROSLIP_SEED
 # One compilation of the library serves all tests and tools: of fewer packages, crates that they share have other features.
 # shellcheck disable=SC2034  # for the scripts that source this one
 workspace='--locked --workspace --exclude microslip-fuzz'
-unset MAKEFLAGS MFLAGS MAKELEVEL # of the make that runs the script, not of those that it runs
+unset MAKEFLAGS MFLAGS MAKELEVEL CARGO_TARGET_DIR # of what runs the script, not of what it runs; programs are in target/
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
