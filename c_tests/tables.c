@@ -179,8 +179,8 @@ static int same_results(const law *l, const results *r, size_t n, const double *
     return holds;
 }
 
-/* Step by step, each with a new state; then in place, discarded, as a path in one part and in two, and in a batch with the mirrored
-   motion: the same bits. */
+/* Step by step, each with a new state; then in place, discarded, as a path in one part and in two, the second one to a new state, and in
+   a batch with the mirrored motion: the same bits. */
 static void run(const law *l, size_t length, size_t n, const double *u, results *r)
 {
     static double force[MOST_STEPS * COMPONENTS], tangent[MOST_STEPS * COMPONENTS * COMPONENTS], energy[MOST_STEPS];
@@ -211,8 +211,8 @@ static void run(const law *l, size_t length, size_t n, const double *u, results 
     OK(init_state(l, length, trial));
     OK(path(l, length, trial, half, u, trial, force, tangent, energy));
     for (int discarded = 0; discarded < 2; ++discarded) {
-        memcpy(state, trial, sizeof state);
-        OK(path(l, length, state, n - half, u + half * m, discarded ? NULL : state, force + half * m, tangent + half * m * m,
+        memset(state, 0xff, sizeof state);
+        OK(path(l, length, trial, n - half, u + half * m, discarded ? NULL : state, force + half * m, tangent + half * m * m,
                 energy + half));
         CHECK(same_results(l, r, n, force, tangent, energy, discarded ? NULL : state));
     }

@@ -483,6 +483,9 @@ fn layers(call: &Call, arguments: &mut Arguments, first: usize) {
         layer.iter().enumerate().for_each(|(k, value)| _ = arguments.exchange(0, first + k, *value));
         extreme(call, arguments, "layer");
     }
+    let soft = [1e-9, 1e-9, 0.01 * load, 1e13 * load];
+    soft.iter().enumerate().for_each(|(k, value)| _ = arguments.exchange(0, first + k, *value));
+    rejected_as(call, arguments, MSLIP_BAD_REFERENCE_LOAD, "a layer of 1e13 times its compliance under the load");
 }
 
 /// Normal motions with an open contact, negative normal forces, and loads from the smallest to beyond the tables.
