@@ -580,8 +580,8 @@ fn nothing_drifts_after_separation() {
     assert!(one != before && one == last && last == other);
 }
 
-/// Random motions after 1, 3 or 10 periods, by both inputs, from sticking to gross slip, with and without separation, of all layers: their Jacobians against central
-/// differences, or at a corner against those of one side.
+/// Random motions after 1, 3 or 10 periods, by both inputs, with and without separation, of all layers: their Jacobians against
+/// central differences, or at a corner against those of one side.
 fn check_random_jacobians(motions: usize, seed: u64) {
     let mut random = Random(seed);
     let mut elements = layered(Directions::Two, NormalInput::Force);

@@ -62,9 +62,9 @@ fn masked(x: f64, mask: u64) -> f64 {
     f64::from_bits(x.to_bits() & mask)
 }
 
-/// The inverse of a matrix and a diagonal beside it, in place, by Gauss and Jordan with pivots of two rows, of those that hold points from one
-/// to another. Single elements are chosen by their place in the lanes: a vector that is loaded right after one of its elements was stored would
-/// wait for it.
+/// Inverts the sum of a matrix and a diagonal in place, by Gauss-Jordan elimination with pivots of two rows, for the points from one to
+/// another. Single elements are chosen by their place in the lanes: a vector that is loaded right after one of its elements was stored
+/// would wait for it.
 #[inline(always)]
 pub(super) fn invert(matrix: &mut Matrix, diagonal: &Row<f64>, [first, end]: [usize; 2]) {
     for h in 0..N / 2 {

@@ -13,7 +13,7 @@ use super::matrix::{dot, invert, largest, times};
 use super::scalar::both;
 use super::tables::{Both, FINE, INSIDE, Matrix, N, Row, Rows, SHIFT};
 use super::trial::{
-    FINE_SPRING, Leaves, Motion, NONE_LEAVES, ROUNDING, Trial, Values, direction, limits_before, moved, slid, tractions,
+    FINE_SPRING, Leaving, Motion, NONE_LEAVE, ROUNDING, Trial, Values, direction, limits_before, moved, slid, tractions,
 };
 use crate::shape::TINY;
 use crate::simd::dispatch;
@@ -33,7 +33,7 @@ const SMALL_TURN: f64 = 1e-9;
 const STALLED: f64 = 0.5;
 /// Beyond this a guess is lost.
 const LOST: f64 = 1e4;
-/// Sweeps of the points before Newton's method is tried again, at first, and attempts, of which the first two are without: in random steps, one
+/// Sweeps of the points before Newton's method is tried again, at first, and attempts, of which the first one is without: in random steps, one
 /// of two million needs sweeps, and few of these more than the first.
 const SWEEPS: usize = 30;
 const MOST_ATTEMPTS: usize = 8;
@@ -59,7 +59,7 @@ pub(crate) struct Slips {
     pub slides: f64,
     /// The springs at the start and of the trial state, and at the end; how those slip that leave.
     pub old: Both<Row<f64>>,
-    pub leaves: Leaves,
+    pub leaves: Leaving,
     pub trial: Both<Row<f64>>,
     pub v: Both<Row<f64>>,
     pub fine: FineSlips,
@@ -196,7 +196,7 @@ impl Slips {
         end: Slip::NONE,
         slides: 0.0,
         old: [[0.0; N]; 2],
-        leaves: NONE_LEAVES,
+        leaves: NONE_LEAVE,
         trial: [[0.0; N]; 2],
         v: [[0.0; N]; 2],
         fine: FineSlips::NONE,

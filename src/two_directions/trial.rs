@@ -112,10 +112,11 @@ pub(crate) fn some_leave<A: Real>(t: &impl Tables<A>, c: &Contact<A>, before: A)
     falls(c.limit(t, 0, starts(c.under_flat)[c.last.min(N - 1)]), c.now.shift[0] - before)
 }
 
-/// How the springs that leave slip: the directions, and v/limit at the start over its length, from a length of 1 on, and the excess.
-pub(crate) type Leaves = [([f64; 3], [f64; 3]); N];
+/// How the springs that leave slip: as of [`direction`]; and the direction of v/limit at the start with the excess of its length over 1,
+/// 0 within.
+pub(crate) type Leaving = [([f64; 3], [f64; 3]); N];
 
-pub(crate) const NONE_LEAVES: Leaves = [([0.0; 3], [0.0; 3]); N];
+pub(crate) const NONE_LEAVE: Leaving = [([0.0; 3], [0.0; 3]); N];
 
 /// Springs whose limits fall by more follow alone until these have fallen to that multiple of their ends: `old` becomes the springs there, and
 /// v what sticks from there on. Neighbours may hold a spring beyond its limit: it then keeps that ratio. How they slip is found for values, and
@@ -127,7 +128,7 @@ pub(crate) fn leave<A: Real, X: Over<A>>(
     c: &Contact<A>,
     motion: &Motion<A, X>,
     [old, v]: [&mut Both<Row<X>>; 2],
-    leaves: &mut Leaves,
+    leaves: &mut Leaving,
 ) {
     let rise = both!(|k| c.now.shift[k] - motion.before[k]);
     for j in 0..(c.last + 1).min(N) {
@@ -151,11 +152,10 @@ pub(crate) fn leave<A: Real, X: Over<A>>(
         let bound = both!(|k| there[k].scale(1.0 + excess));
         let mut start = returned(own, &bound, direction);
         if X::DERIVED && direction[2] > 0.0 {
-            // Of a length, without its value.
-            let rises = ratio[0].scale(x) + ratio[1].scale(y);
-            let rises = rises.chain(0.0, 1.0);
+            // The bound has the value of the excess; it changes with the length of the ratio.
+            let change = (ratio[0].scale(x) + ratio[1].scale(y)).chain(0.0, 1.0);
             for k in 0..2 {
-                start[k].add_scaled(&rises, direction[k] * there[k].value());
+                start[k].add_scaled(&change, direction[k] * there[k].value());
             }
         }
         for k in 0..2 {
@@ -173,7 +173,7 @@ pub(crate) const ROUNDING: f64 = 1.0 + 1e-12;
 pub(crate) struct Trial {
     /// The springs at the start, with the directions of those that leave, and v*; r of both.
     pub old: Both<Row<f64>>,
-    pub leaves: Leaves,
+    pub leaves: Leaving,
     pub v: Both<Row<f64>>,
     pub start: Both<Row<f64>>,
     pub r: Both<Row<f64>>,
@@ -185,7 +185,7 @@ pub(crate) struct Trial {
 pub(crate) fn trial(t: &Rows, c: &Contact<f64>, motion: &Motion<f64, f64>, old: &Values) -> Trial {
     dispatch!({
         let (last, start_of) = (c.last.min(N - 1), starts(c.under_flat));
-        let (mut old, mut leaves, mut all) = (both!(|k| old[k]), NONE_LEAVES, [[0.0; N]; 2]);
+        let (mut old, mut leaves, mut all) = (both!(|k| old[k]), NONE_LEAVE, [[0.0; N]; 2]);
         for k in 0..2 {
             let (rise, mut part) = (c.now.shift[k] - motion.before[k], [motion.by[k]; N]);
             if !motion.constant_load {
