@@ -34,7 +34,7 @@ programs() {
     step 'paper: figures and claims' target/debug/paper --check
     step 'validation: boundary elements, measurements' target/debug/validation --check
     step 'C header and Fortran module: generated from the source' target/debug/xtask header --check
-    step 'Fortran examples, short' make -C fortran_examples short PREFIX="$prefix" FFLAGS=-O0
+    step 'Fortran examples, short' make -C fortran_examples short PREFIX="$prefix"
     step 'Python: interface and reference tables' tools/python.sh
     step 'documents: links' tools/links.sh
     for document in README.md docs/*.md; do
