@@ -2,8 +2,8 @@
 
 use super::scalar::{Dual, Linear, Real, both};
 use super::tables::{
-    BIAS, Both, DualRows, END, FINE, FINE_SECANT, FINE_STIFFNESS, FLEXIBILITY, LEAST_STIFFNESS, LOAD, MAP, MOST_PARTS,
-    Matrix, N, PER_MAP, POINTS, PRESSURE, Row, Rows, SECANT, SHIFT, SIZE, STIFFNESS, Tables, Units, WEIGHT, at_edge,
+    BIAS, Both, DualRows, END, FINE, FINE_SECANT, FINE_STIFFNESS, FLEXIBILITY, LEAST_STIFFNESS, LOAD, MAP, Matrix, N,
+    PER_MAP, POINTS, PRESSURE, Row, Rows, SECANT, SHIFT, SIZE, STIFFNESS, Tables, Units, WEIGHT, at_edge,
     root_difference, starts,
 };
 use crate::element::{Element, Normal, SMALLEST_LOAD};
@@ -37,16 +37,24 @@ impl Pressed<f64> {
             [inner.load, inner.shift, lateral_inside[0]],
             [inner.load_slope, inner.shift_slope, lateral_inside[1]].map(|slope| INSIDE_EDGE * scale * slope),
         ];
-        let of = |load: f64, [x, y]: [f64; 2], size: f64, [inner_load, inner_x, inner_y]: [f64; 3]| Pressed {
-            load: load * per_load,
-            shift: [x * per_shift, y * per_shift],
-            size,
-            inside: [inner_load * per_load, inner_x * per_shift, inner_y * per_shift],
+        let of = |load: f64, [x, y]: [f64; 2], size: f64, [inner_load, inner_x, inner_y]: [f64; 3]| {
+            let inside = [inner_load * per_load, inner_x * per_shift, inner_y * per_shift];
+            Pressed { load: load * per_load, shift: [x * per_shift, y * per_shift], size, inside }
         };
         [
             of(load, [shift, lateral[0]], size * size, inside[0]),
             of(scale * load_slope, [scale * shift_slope, scale * lateral[1]], scale * slope, inside[1]),
         ]
+    }
+
+    /// From all its numbers, in order.
+    pub fn of([load, x, y, size, inner_load, inner_x, inner_y]: [f64; 7]) -> Pressed<f64> {
+        Pressed { load, shift: [x, y], size, inside: [inner_load, inner_x, inner_y] }
+    }
+
+    pub fn values(self) -> [f64; 7] {
+        let Pressed { load, shift: [x, y], size, inside: [inner_load, inner_x, inner_y] } = self;
+        [load, x, y, size, inner_load, inner_x, inner_y]
     }
 
     /// With derivatives by one parameter.
@@ -81,8 +89,10 @@ pub(crate) struct Contact<A> {
     /// Stiffnesses of the last spring, their reciprocals, and those of the fine springs in its shell.
     pub stiffness: Both<A>,
     pub flexibility: Both<A>,
-    pub fine: Both<[A; MOST_PARTS]>,
+    pub fine: Both<Row<A>>,
     pub now: Pressed<A>,
+    /// The derivatives of the normal state by the normal component over its scale.
+    pub slopes: Pressed<f64>,
     /// The last shell and part, the first part of that shell, and the springs under the flat.
     pub last: usize,
     pub part: usize,
@@ -97,18 +107,25 @@ impl Contact<f64> {
         per_pressure: [0.0; N],
         stiffness: [0.0; 2],
         flexibility: [0.0; 2],
-        fine: [[0.0; MOST_PARTS]; 2],
+        fine: [[0.0; N]; 2],
         now: Pressed::NONE,
+        slopes: Pressed::NONE,
         last: 0,
         part: 0,
         first_part: 0,
         under_flat: 0,
     };
 
-    /// The contact under a load, and C⁻¹ as `[spring][point]`.
-    pub fn press(rows: &Rows, now: &Pressed<f64>, under_flat: usize, inverse: &mut Both<Matrix>) -> Contact<f64> {
+    /// The contact in a normal state with derivatives, and C⁻¹ as `[spring][point]`.
+    pub fn press(
+        rows: &Rows,
+        [now, slopes]: &[Pressed<f64>; 2],
+        under_flat: usize,
+        inverse: &mut Both<Matrix>,
+    ) -> Contact<f64> {
         dispatch!({
-            let contact = Contact::new(&rows, now, at_edge(rows, under_flat, now.inside[1]), under_flat, true);
+            let edge = at_edge(rows, under_flat, now.inside[1]);
+            let contact = Contact::new(&rows, now, slopes, edge, under_flat, true);
             let last = contact.last.min(N - 1);
             for k in 0..2 {
                 inverse[k] = [[0.0; N]; N];
@@ -143,9 +160,9 @@ impl Contact<f64> {
 
     /// The contact with derivatives, of the stiffnesses of springs, and of tractions if these are requested.
     #[inline(never)]
-    pub fn derived(&self, tables: &DualRows, slopes: &Pressed<f64>, tractions: bool) -> Contact<Dual<1>> {
-        let now = self.now.dual(slopes, END);
-        Contact::new(tables, &now, [self.last, self.part], self.under_flat, tractions)
+    pub fn derived(&self, tables: &DualRows, tractions: bool) -> Contact<Dual<1>> {
+        let now = self.now.dual(&self.slopes, END);
+        Contact::new(tables, &now, &self.slopes, [self.last, self.part], self.under_flat, tractions)
     }
 }
 
@@ -154,6 +171,7 @@ impl<A: Real> Contact<A> {
     fn new(
         t: &impl Tables<A>,
         now: &Pressed<A>,
+        slopes: &Pressed<f64>,
         [last, part]: [usize; 2],
         under_flat: usize,
         tractions: bool,
@@ -167,8 +185,9 @@ impl<A: Real> Contact<A> {
             per_pressure: [zero; N],
             stiffness: [zero; 2],
             flexibility: [zero; 2],
-            fine: [[zero; MOST_PARTS]; 2],
+            fine: [[zero; N]; 2],
             now: *now,
+            slopes: *slopes,
             last,
             part,
             first_part,
@@ -227,10 +246,10 @@ impl<A: Real> Contact<A> {
             } else if f == start[before.min(N)] {
                 law = t.at(if before > self.under_flat { STIFFNESS } else { SECANT } + k, before);
             }
-            self.fine[k][(f - from).min(MOST_PARTS - 1)] = secant - slope - law;
+            self.fine[k][(f - from).min(N - 1)] = secant - slope - law;
             (slope, lower) = (secant, upper);
         }
-        self.fine[k][(part + 1 - from).min(MOST_PARTS - 1)] = self.total(k) - slope;
+        self.fine[k][(part + 1 - from).min(N - 1)] = self.total(k) - slope;
     }
 
     /// G of a shell at a point.
@@ -260,7 +279,7 @@ impl<A: Real> Contact<A> {
     #[inline(always)]
     pub fn fine(&self, t: &impl Tables<A>, k: usize, f: usize) -> A {
         let edge = self.first_edge();
-        if f < edge { t.at(FINE_STIFFNESS + k * FINE / N, f) } else { self.fine[k][(f - edge).min(MOST_PARTS - 1)] }
+        if f < edge { t.at(FINE_STIFFNESS + k * FINE / N, f) } else { self.fine[k][(f - edge).min(N - 1)] }
     }
 
     /// The first fine spring whose stiffness depends on the load.
@@ -272,7 +291,7 @@ impl<A: Real> Contact<A> {
     /// Stiffness of the fine spring at the edge.
     #[inline(always)]
     pub fn fine_inside(&self, k: usize) -> A {
-        self.fine[k][(self.part + 1 - self.first_edge().min(self.part)).min(MOST_PARTS - 1)]
+        self.fine[k][(self.part + 1 - self.first_edge().min(self.part)).min(N - 1)]
     }
 
     /// Stiffness of all springs together: the secant at the edge.

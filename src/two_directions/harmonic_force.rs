@@ -194,9 +194,8 @@ struct Walk<'a> {
     units: Units,
     tables: DualRows<'a>,
     at: [f64; 3],
-    /// The contact, its derivatives by the normal component, those with respect to parameters, and its normal force.
+    /// The contact, its derivatives by the parameters, and its normal force.
     contact: Contact<f64>,
-    slopes: Pressed<f64>,
     derived: Option<Contact<Dual<1>>>,
     normal: Normal,
     springs: Values,
@@ -216,8 +215,8 @@ struct Taken {
     old: Values,
     motion: Motion<f64, f64>,
     path: Path,
-    /// The derivatives of the state before, by the normal component.
-    before: Pressed<f64>,
+    /// The derivatives of S at the start by the normal component.
+    before: Both<f64>,
     closed: [bool; 2],
 }
 
@@ -230,7 +229,6 @@ impl<'a> Walk<'a> {
             tables,
             at: [0.0, 0.0, top],
             contact: Contact::NONE,
-            slopes: Pressed::NONE,
             derived: None,
             normal: Normal::OPEN,
             springs: [[0.0; N]; SPRINGS / N],
@@ -240,7 +238,7 @@ impl<'a> Walk<'a> {
             by_top: 0.0,
         };
         walk.press(top);
-        walk.by_top = if walk.normal.load >= walk.units.load * 0.99 { 0.5 * walk.slopes.size } else { 0.0 };
+        walk.by_top = if walk.normal.load >= walk.units.load * 0.99 { 0.5 * walk.contact.slopes.size } else { 0.0 };
         walk
     }
 
@@ -250,8 +248,9 @@ impl<'a> Walk<'a> {
         let closed = [was_closed, closes];
         let same = was_closed && to[2].to_bits() == self.at[2].to_bits();
         let path = Path::new(self.element, &self.units, [self.at, to], closed);
-        let (from, old, before) = (self.contact, self.springs, if was_closed { self.slopes } else { Pressed::NONE });
-        let motion = Motion { before: from.now.shift, by: path.by, constant_load: same || !closes };
+        let (from, old) = (self.contact, self.springs);
+        let (before, constant_load) = (from.slopes.shift, same || !closes);
+        let motion = Motion { before: from.now.shift, by: path.by, constant_load };
         self.at = to;
         if !closes {
             let energy = was_closed && requested.energy;
@@ -275,8 +274,7 @@ impl<'a> Walk<'a> {
     /// The contact under a normal component that closes it.
     fn press(&mut self, input: f64) {
         self.normal = self.element.normal(input);
-        let now;
-        [now, self.slopes] = Pressed::new(self.element, &self.units, input, &self.normal);
+        let now = Pressed::new(self.element, &self.units, input, &self.normal);
         let under_flat = under_flat(self.element, &self.units);
         self.contact = Contact::press(self.tables.values, &now, under_flat, &mut self.inverse);
         self.derived = None;
@@ -501,13 +499,13 @@ fn differentiate(workspace: &mut Workspace, walk: &mut Walk, taken: &Taken, samp
     let at = |basis: &[f64], c: usize| basis.get(c).copied().unwrap_or(0.0);
     let per_scale = 1.0 / walk.element.input_scale();
     let Taken { motion, path, before, old, .. } = taken;
-    let derived = walk.derived.get_or_insert_with(|| walk.contact.derived(&walk.tables, &walk.slopes, true));
+    let derived = walk.derived.get_or_insert_with(|| walk.contact.derived(&walk.tables, true));
     let mut dual = Motion {
         before: motion.before.map(Dual::constant),
         by: motion.by.map(Dual::constant),
         constant_load: motion.constant_load,
     };
-    dual.before.iter_mut().zip(before.shift).for_each(|(shift, slope)| shift.0[0][START] = slope);
+    dual.before.iter_mut().zip(*before).for_each(|(shift, slope)| shift.0[0][START] = slope);
     let slopes = &mut walk.by_parameters;
     let force = derivatives(
         &walk.tables,

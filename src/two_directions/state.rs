@@ -2,8 +2,8 @@
 //!
 //! ```text
 //! [tag, v, u, normal component, key of the element, units of the springs (3), springs under the flat, last shell and part,
-//!  N, N, S, w² of the present size in the units of the springs (4), stiffnesses at the edge (2), force of the springs (2) | rows of the edge | turned | C⁻¹ | springs
-//!  | tables]
+//!  N | the normal state in the units of the springs and its derivatives (7 each), stiffnesses at the edge (2), force of the springs (2),
+//!  derivative of N | rows of the edge | turned | C⁻¹ | springs | tables]
 //! ```
 //!
 //! in rows of as many doubles as springs. The tables are aligned with a load: the state carries them, as they change with its history only.
@@ -16,10 +16,8 @@ use super::scalar::{Dual, Linear};
 use super::slip::Slips;
 use super::step::{advance, bounded, derivatives, separated};
 use super::stick;
-use super::tables::{
-    Both, DualRows, END, FINE, MOST_PARTS, Matrix, N, ROWS, Row, Rows, Units, fill, starts, under_flat,
-};
-use super::trial::{Derivatives, FINE_SPRING, Motion, SPRINGS, Values, trial};
+use super::tables::{Both, DualRows, END, FINE, Matrix, N, ROWS, Row, Rows, Units, fill, starts, under_flat};
+use super::trial::{Derivatives, FINE_SPRING, LEAST, Motion, SPRINGS, Values, trial};
 use super::{Requested, Step, TwoDirections};
 use crate::element::{Directions, Element, Normal};
 use crate::error::Error;
@@ -36,7 +34,7 @@ const OUTGROWN: f64 = 1.02;
 /// The least power: below, loads are aligned with the least reference load.
 const LEAST_LEVEL: f64 = -300.0;
 
-const HEADER_ROWS: usize = 2;
+const HEADER_ROWS: usize = 3;
 const EDGE_ROWS: usize = 5;
 const TURNED_ROWS: usize = 2;
 const INVERSE_ROWS: usize = 2 * N;
@@ -87,13 +85,18 @@ impl Law for TwoDirections {
         let mut held = memory.springs.as_flattened().iter().chain(memory.turned.as_flattened());
         let held = held.all(|value| value.abs() <= LONGEST);
         let edge = contact.edge.as_flattened().iter().chain(&contact.per_pressure).all(|value| *value >= 0.0);
+        let finite = contact.slopes.values().iter().all(|slope| slope.abs() <= 1.0 / LEAST);
         let start = starts(contact.under_flat);
         let within = (0..2).all(|k| {
             let rounding = 1e-9 * contact.now.shift[k];
             let limit = |j: usize| contact.limit(&&*memory.tables, k, start[j]) + rounding;
             (0..=contact.last.min(N - 1)).all(|j| memory.springs[k][j].abs() <= limit(j))
         });
-        if within && held && edge && positive.iter().all(|value| *value > 0.0) { Ok(()) } else { Err(Error::BadState) }
+        if within && held && edge && finite && positive.iter().all(|value| *value > 0.0) {
+            Ok(())
+        } else {
+            Err(Error::BadState)
+        }
     }
 
     #[inline(always)]
@@ -120,10 +123,10 @@ impl Law for TwoDirections {
         let belongs = header.key == element.key;
         let same =
             belongs && closes && header.normal_force > 0.0 && to[2].to_bits() == header.displacement[2].to_bits();
-        let normal = if closes && (!same || requested.tangent) {
+        let normal = if closes && !same {
             element.normal(to[2])
         } else {
-            Normal { load: header.normal_force, ..Normal::OPEN }
+            Normal { load: header.normal_force, load_slope: header.load_slope, ..Normal::OPEN }
         };
         let largest = header.normal_force.max(normal.load);
         if !belongs || (!same && largest > OUTGROWN * header.units.load) {
@@ -155,6 +158,7 @@ impl Law for TwoDirections {
 struct Header {
     displacement: [f64; 3],
     normal_force: f64,
+    load_slope: f64,
     /// Of the element whose tables these are.
     key: f64,
     units: Units,
@@ -204,32 +208,28 @@ impl Memory<'_> {
 
     #[inline(always)]
     fn header(&self) -> Header {
-        let [[_, v, u, input, key, load, shift, size, _, _, _, normal_force], [_, _, _, _, _, _, force_x, force_y, ..]] =
-            *self.header;
+        let [[_, v, u, input, key, load, shift, size, _, _, _, normal_force], [.., x, y, load_slope], _] = *self.header;
         let units = Units { load, shift, size };
-        Header { displacement: [u, v, input], normal_force, key, units, force: [force_x, force_y] }
+        Header { displacement: [u, v, input], normal_force, load_slope, key, units, force: [x, y] }
     }
 
     #[inline(always)]
     fn contact(&self) -> Contact<f64> {
-        let [
-            [_, _, _, _, _, _, _, _, flat, last, part, _],
-            [load, x, y, size, w_x, w_y, _, _, inner_load, inner_x, inner_y, _],
-        ] = *self.header;
-        let [edge_x, edge_y, per_pressure, fine_x, fine_y] = &*self.edge;
+        let [[.., flat, last, part, _], [now @ .., w_x, w_y, _, _, _], [slopes @ .., _, _, _, _, _]] = *self.header;
+        let [edge_x, edge_y, per_pressure, fine_x, fine_y] = *self.edge;
         let under_flat = if flat > 0.0 { 2 } else { 0 };
         // Counts from outside the process may be too large.
         let last = (last as usize).clamp(under_flat, N - 1);
         let part = (part as usize).min(FINE - 1);
-        let fine = |row: &Row<f64>| row.first_chunk::<MOST_PARTS>().copied().unwrap_or([0.0; MOST_PARTS]);
         Contact {
-            edge: [*edge_x, *edge_y],
+            edge: [edge_x, edge_y],
             pressure: [0.0; N],
-            per_pressure: *per_pressure,
+            per_pressure,
             stiffness: [w_x, w_y],
             flexibility: [1.0 / w_x.max(TINY), 1.0 / w_y.max(TINY)],
-            fine: [fine(fine_x), fine(fine_y)],
-            now: Pressed { load, shift: [x, y], size, inside: [inner_load, inner_x, inner_y] },
+            fine: [fine_x, fine_y],
+            now: Pressed::of(now),
+            slopes: Pressed::of(slopes),
             last,
             part,
             first_part: starts(under_flat)[last],
@@ -239,36 +239,32 @@ impl Memory<'_> {
 
     #[inline(always)]
     fn write(&mut self, header: &Header, contact: &Contact<f64>) {
-        let Header { displacement: [u, v, input], normal_force, key, units, force } = *header;
+        let Header { displacement: [u, v, input], normal_force, load_slope, key, units, force } = *header;
         let Units { load, shift, size } = units;
         let [flat, last, part] = [contact.under_flat, contact.last, contact.part].map(|count| count as f64);
         let tag = Kind::TwoDirectionsState.tag(0);
-        let Pressed { load: now, shift: [x, y], size: area, inside: [inner_load, inner_x, inner_y] } = contact.now;
+        let [[a, b, c, d, e, f, g], [p, q, r, s, t, w, x]] = [contact.now, contact.slopes].map(Pressed::values);
         let [w_x, w_y] = contact.stiffness;
         *self.header = [
             [tag, v, u, input, key, load, shift, size, flat, last, part, normal_force],
-            [now, x, y, area, w_x, w_y, force[0], force[1], inner_load, inner_x, inner_y, 0.0],
+            [a, b, c, d, e, f, g, w_x, w_y, force[0], force[1], load_slope],
+            [p, q, r, s, t, w, x, 0.0, 0.0, 0.0, 0.0, 0.0],
         ];
-        let [edge_x, edge_y, per_pressure, fine_x, fine_y] = &mut *self.edge;
-        (*edge_x, *edge_y, *per_pressure) = (contact.edge[0], contact.edge[1], contact.per_pressure);
-        for (row, fine) in [fine_x, fine_y].into_iter().zip(&contact.fine) {
-            row.iter_mut().zip(fine).for_each(|(place, value)| *place = *value);
-        }
+        let ([edge_x, edge_y], [fine_x, fine_y]) = (contact.edge, contact.fine);
+        *self.edge = [edge_x, edge_y, contact.per_pressure, fine_x, fine_y];
     }
 
     /// A step from a contact to one that is closed.
     #[inline(always)]
     fn step(&mut self, header: &Header, from: &Contact<f64>, path: &Path, end: &End) -> Step {
         let &End { element, to, normal, same, requested } = end;
-        let (mut slopes, mut pressed) = (Pressed::NONE, None);
-        if !same || requested.tangent {
-            let now;
-            [now, slopes] = Pressed::new(element, &header.units, to[2], &normal);
-            if !same {
-                pressed = Some(Contact::press(self.tables, &now, from.under_flat, self.inverse));
-            }
+        let mut contact = from;
+        let pressed;
+        if !same {
+            let now = Pressed::new(element, &header.units, to[2], &normal);
+            pressed = Contact::press(self.tables, &now, from.under_flat, self.inverse);
+            contact = &pressed;
         }
-        let contact = pressed.as_ref().unwrap_or(from);
         let motion = Motion { before: from.now.shift, by: path.by, constant_load: same };
         let [unit, energy_unit] = header.outputs(element, path);
         let trial = trial(self.tables, contact, &motion, self.springs);
@@ -278,18 +274,19 @@ impl Memory<'_> {
         let (mut tangent, mut energy) = ([[0.0; 4]; 2], 0.0);
         if let Some(edge) = at_edge {
             if requested.tangent {
-                tangent = stick::tangent(self.tables, contact, &slopes, &edge, self.springs);
+                tangent = stick::tangent(self.tables, contact, &edge, self.springs);
             }
             self.move_to(to, &force);
         } else {
             let mut slip = Slips { turned: *self.turned, ..Slips::NONE };
             slip.find(self.tables, contact, self.inverse, &motion, (&trial, self.springs), requested.tangent);
             if requested.tangent {
-                tangent = self.tangent(contact, &slopes, (path, &motion), &slip);
+                tangent = self.tangent(contact, (path, &motion), &slip);
             }
             (force, energy) = advance(self.tables, [from, contact], &motion, &slip, requested.energy, self.springs);
             *self.turned = slip.turned;
-            self.write(&Header { displacement: to, normal_force: normal.load, force, ..*header }, contact);
+            let Normal { load: normal_force, load_slope, .. } = normal;
+            self.write(&Header { displacement: to, normal_force, load_slope, force, ..*header }, contact);
             force = bounded(force, contact.now.load);
         }
         let mut result = Step { force: [unit * force[0], unit * force[1], normal.load], ..Step::NONE };
@@ -306,7 +303,6 @@ impl Memory<'_> {
     fn tangent(
         &self,
         contact: &Contact<f64>,
-        slopes: &Pressed<f64>,
         (path, motion): (&Path, &Motion<f64, f64>),
         slip: &Slips,
     ) -> Both<[f64; 4]> {
@@ -318,7 +314,7 @@ impl Memory<'_> {
         let constant_load = motion.constant_load;
         let motion = Motion { before: motion.before.map(Dual::constant), by, constant_load };
         let rows = DualRows::without_slopes(self.tables);
-        let contact = contact.derived(&rows, slopes, true);
+        let contact = contact.derived(&rows, true);
         let mut springs = Derivatives { values: self.springs, slopes: &mut [] };
         let force = derivatives(&rows, (&contact, self.inverse), &motion, slip, &mut springs);
         bounded(force, contact.now.load).map(|force| force.0[0])
@@ -339,7 +335,7 @@ impl Memory<'_> {
 
     /// The place of a state in which nothing slipped.
     fn move_to(&mut self, [u, v, _]: [f64; 3], force: &Both<f64>) {
-        let [[_, v_place, u_place, ..], [_, _, _, _, _, _, x, y, ..]] = &mut *self.header;
+        let [[_, v_place, u_place, ..], [.., x, y, _], _] = &mut *self.header;
         (*v_place, *u_place, *x, *y) = (v, u, force[0], force[1]);
     }
 
@@ -361,7 +357,7 @@ impl Memory<'_> {
             return;
         }
         let input = header.displacement[2];
-        let [now, _] = Pressed::new(element, &units, input, &element.normal(input));
+        let now = Pressed::new(element, &units, input, &element.normal(input));
         *contact = Contact::press(self.tables, &now, inner, self.inverse);
         if belongs {
             transfer([&old_tables, self.tables], [&from, contact], ratio, &old, self.springs);

@@ -1,6 +1,6 @@
 //! A step under a constant load in which nothing slips: all springs follow the motion.
 
-use super::contact::{Contact, Pressed};
+use super::contact::Contact;
 use super::matrix::largest;
 use super::scalar::{Dual, Linear, Over, both};
 use super::tables::{Both, DualRows, END, FINE, INSIDE, N, Rows, SHIFT, THINNEST};
@@ -61,19 +61,12 @@ pub(crate) fn stick(
     })
 }
 
-/// Derivatives of the force of such a step: by the normal component, of which `slopes` are those of the contact, and by both displacements of
-/// the springs.
-pub(crate) fn tangent(
-    t: &Rows,
-    c: &Contact<f64>,
-    slopes: &Pressed<f64>,
-    edge: &Both<f64>,
-    springs: &Values,
-) -> Both<[f64; 4]> {
+/// Derivatives of the force of such a step: by the normal component and by both displacements of the springs.
+pub(crate) fn tangent(t: &Rows, c: &Contact<f64>, edge: &Both<f64>, springs: &Values) -> Both<[f64; 4]> {
     let springs = springs.as_flattened();
     let at = |place: usize| springs.get(place).copied().unwrap_or(0.0);
     let rows = DualRows::without_slopes(t);
-    let derived = c.derived(&rows, slopes, false);
+    let derived = c.derived(&rows, false);
     let edge = [Dual([[0.0, 1.0, 0.0, edge[0]]]), Dual([[0.0, 0.0, 1.0, edge[1]]])];
     let limit = both!(|k| derived.limit_inside(k));
     let direction = direction(edge.map(|x| x.value()), both!(|k| c.limit_inside(k)));
