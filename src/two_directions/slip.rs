@@ -6,7 +6,7 @@
 //! With K the inverse of A among the points that slip and e the direction of r, `σ = K (r* - l e)`, and the residual is `e × σ`: Newton's
 //! method for the angles of e. Slip without gaps, of all points from one on to the edge, has the springs `v = C⁻¹ l e` there, and
 //! `K = C⁻¹' w C⁻¹`, free of cancellation. σ is the minimum of the strictly convex `σ'Aσ/2 - σ·r* + Σ l |σ|`: there is one, it depends
-//! continuously on r* and l, and sweeps of the points, each to its own minimum, find the points that slip if Newton's method does not.
+//! continuously on r* and l, and sweeps of the points, each towards its own minimum, find the points that slip if Newton's method does not.
 
 use super::contact::Contact;
 use super::matrix::{dot, invert, largest, times};
@@ -33,8 +33,8 @@ const SMALL_TURN: f64 = 1e-9;
 const STALLED: f64 = 0.5;
 /// Beyond this a guess is lost.
 const LOST: f64 = 1e4;
-/// Sweeps of the points before Newton's method is tried again, at first, and attempts, of which the first one is without: in random steps, one
-/// of two million needs sweeps, and few of these more than the first.
+/// Sweeps of the points before Newton's method is tried again, at first, four times as many each time; attempts, of which the first one is
+/// without: in random steps, one of two million needs sweeps.
 const SWEEPS: usize = 30;
 const MOST_ATTEMPTS: usize = 8;
 /// Newton steps after which points that slip backwards stick: the angle of a point that hardly slips is undetermined.
@@ -406,12 +406,12 @@ impl Slip {
     /// The slip of a problem, from a guess.
     #[inline(always)]
     fn find(&mut self, other: &Slip, problem: &Problem, mut guess: Guess, derivatives: bool) {
-        let mut sweeps = None;
-        for _ in 0..MOST_ATTEMPTS {
+        let mut swept = ([[0.0; N]; 2], problem.r);
+        for attempt in 0..MOST_ATTEMPTS {
             if self.solve(other, problem, &guess, derivatives) {
                 return;
             }
-            guess = Sweeps::next(&mut sweeps, problem, &self.level, guess.beyond);
+            sweep(problem, &self.level, SWEEPS << (2 * attempt), &mut swept, &mut guess);
         }
     }
 
@@ -574,53 +574,38 @@ impl Slip {
     }
 }
 
-/// Sweeps of the points: each slips to its own minimum, again and again.
-struct Sweeps {
-    guess: Guess,
-    sigma: Both<Row<f64>>,
-    r: Both<Row<f64>>,
-    /// Of the next attempt.
+/// Sweeps of the points, each of which slips towards its own minimum: σ and r, from which a guess follows.
+#[cold]
+#[inline(never)]
+fn sweep(
+    problem: &Problem,
+    level: &Row<f64>,
     count: usize,
-}
-
-impl Sweeps {
-    /// A guess from the state without slip, and at each further attempt that after four times as many sweeps as before.
-    #[cold]
-    #[inline(never)]
-    fn next(sweeps: &mut Option<Sweeps>, problem: &Problem, level: &Row<f64>, beyond: Set) -> Guess {
-        let Some(Sweeps { guess, sigma, r, count }) = sweeps else {
-            let (r, mut guess) = (problem.r, Guess { e: problem.r, set: beyond, beyond });
-            for i in 0..N {
-                let length = (r[0][i] * r[0][i] + r[1][i] * r[1][i]).max(TINY).sqrt();
-                (guess.e[0][i], guess.e[1][i]) = (r[0][i] / length, r[1][i] / length);
+    (sigma, r): &mut (Both<Row<f64>>, Both<Row<f64>>),
+    guess: &mut Guess,
+) {
+    let compliance = both!(|k| compliance(problem, k, 0));
+    for _ in 0..count {
+        for i in (0..problem.end.min(N)).rev() {
+            // The softer direction bounds the curvature in both.
+            let (a, limit) = (compliance[0][i][i].max(compliance[1][i][i]), level[i]);
+            let g = [r[0][i] + a * sigma[0][i], r[1][i] + a * sigma[1][i]];
+            let length = (g[0] * g[0] + g[1] * g[1]).sqrt();
+            guess.set &= !(1 << i);
+            let mut now = [0.0; 2];
+            if length > limit {
+                (guess.e[0][i], guess.e[1][i]) = (g[0] / length, g[1] / length);
+                now = guess.e.map(|e| e[i] * ((length - limit) / a));
+                guess.set |= 1 << i;
             }
-            *sweeps = Some(Sweeps { guess, sigma: [[0.0; N]; 2], r, count: SWEEPS });
-            return guess;
-        };
-        let compliance = both!(|k| compliance(problem, k, 0));
-        for _ in 0..*count {
-            for i in (0..problem.end.min(N)).rev() {
-                let (a, limit) = ([compliance[0][i][i], compliance[1][i][i]], level[i]);
-                let g = [r[0][i] + a[0] * sigma[0][i], r[1][i] + a[1] * sigma[1][i]];
-                guess.set &= !(1 << i);
-                let mut now = [0.0; 2];
-                if g[0] * g[0] + g[1] * g[1] > limit * limit {
-                    let (size, e) = own_slip(g.map(|g| g / limit), a.map(|a| a / limit));
-                    now = e.map(|e| size * e);
-                    guess.set |= 1 << i;
-                    (guess.e[0][i], guess.e[1][i]) = (e[0], e[1]);
-                }
-                for k in 0..2 {
-                    let change = now[k] - sigma[k][i];
-                    sigma[k][i] = now[k];
-                    for m in 0..N {
-                        r[k][m] -= compliance[k][i][m] * change;
-                    }
+            for k in 0..2 {
+                let change = now[k] - sigma[k][i];
+                sigma[k][i] = now[k];
+                for m in 0..N {
+                    r[k][m] -= compliance[k][i][m] * change;
                 }
             }
         }
-        *count *= 4;
-        *guess
     }
 }
 
@@ -651,23 +636,4 @@ fn compliance(problem: &Problem, k: usize, first: usize) -> Matrix {
 #[inline(never)]
 fn damped(turns: Row<f64>, turn: f64) -> Row<f64> {
     turns.map(|x| x * LARGEST_TURN / turn.max(LARGEST_TURN))
-}
-
-/// The slip of a point on its own, whose traction without slip is g, over the limit: its size and direction, by Newton's method for the root
-/// of `|g/(1 + a size)|² = 1`, of which 1/sqrt is concave.
-fn own_slip(g: Both<f64>, a: Both<f64>) -> (f64, Both<f64>) {
-    let (mut size, mut e) = (0.0, g);
-    for _ in 0..40 {
-        let d = [1.0 / (1.0 + a[0] * size), 1.0 / (1.0 + a[1] * size)];
-        e = [g[0] * d[0], g[1] * d[1]];
-        let square = e[0] * e[0] + e[1] * e[1];
-        let slope = e[0] * e[0] * a[0] * d[0] + e[1] * e[1] * a[1] * d[1];
-        let by = (square.sqrt() - 1.0) * square / slope.max(TINY);
-        size += by;
-        if by.abs() <= 1e-14 * size {
-            break;
-        }
-    }
-    let length = (e[0] * e[0] + e[1] * e[1]).sqrt();
-    (size, e.map(|e| e / length))
 }
