@@ -48,9 +48,6 @@ pub(crate) const SLIPPED: f64 = 1.0 - 1e-9;
 const NEAR: f64 = 0.5;
 /// |r|² at the start, over that of the limit, from which on a point slipped then: after a change of the load it is less exact.
 const HELD: f64 = 0.998;
-/// Cosine of the angle between a motion and a traction from which on a point turns back.
-const TURNS_BACK: f64 = -0.6;
-
 /// Both slips of a step.
 pub(crate) struct Slips {
     pub middle: Slip,
@@ -243,7 +240,11 @@ impl Slips {
                 }
             }
             let mut guess = problem.guess(&slips.middle.level, start, &slipped, &slips.turned[0]);
-            guess.set = continuing(guess.beyond, start, &slipped, &motion.by, end);
+            // Points that slipped at the start and have one outside that slips continue.
+            let slipped = points(&slipped, end);
+            for _ in 0..N {
+                guess.set |= guess.set >> 1 & slipped;
+            }
             for stage in 0..2 {
                 let middle = stage == 0;
                 let [slip, other] =
@@ -278,20 +279,6 @@ impl Slips {
         }
         slipped
     }
-}
-
-/// Points beyond their limits, and those that slipped at the start, do not turn back and have one outside that slips.
-#[inline(always)]
-fn continuing(mut set: Set, start: &Both<Row<f64>>, slipped: &Row<f64>, by: &Both<f64>, end: usize) -> Set {
-    let (mut continues, backwards) = ([0.0; N], TURNS_BACK * (by[0] * by[0] + by[1] * by[1]).sqrt());
-    for i in 0..N {
-        continues[i] = if start[0][i] * by[0] + start[1][i] * by[1] >= backwards { slipped[i] } else { 0.0 };
-    }
-    let continues = points(&continues, end);
-    for _ in 0..N {
-        set |= set >> 1 & continues;
-    }
-    set
 }
 
 impl Slip {
