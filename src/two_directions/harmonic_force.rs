@@ -262,8 +262,8 @@ impl<'a> Walk<'a> {
         if !same {
             self.press(to[2]);
         }
-        let trial = trial(self.tables.values, &self.contact, &motion, &old);
-        self.slip.find(self.tables.values, &self.contact, &self.inverse, &motion, (&trial, &old), requested.tangent);
+        self.slip.trial = trial(self.tables.values, &self.contact, &motion, &old);
+        self.slip.find(self.tables.values, &self.contact, &self.inverse, &motion, &old, requested.tangent);
         let contacts = [&from, &self.contact];
         let (force, dissipated) =
             advance(self.tables.values, contacts, &motion, &self.slip, requested.energy, &mut self.springs);

@@ -12,9 +12,7 @@ use super::contact::Contact;
 use super::matrix::{dot, invert, largest, times};
 use super::scalar::both;
 use super::tables::{Both, FINE, INSIDE, Matrix, N, Row, Rows, SHIFT};
-use super::trial::{
-    FINE_SPRING, Leaving, Motion, NONE_LEAVE, ROUNDING, Trial, Values, direction, limits_before, moved, slid, tractions,
-};
+use super::trial::{FINE_SPRING, Motion, ROUNDING, Trial, Values, direction, limits_before, moved, slid, tractions};
 use crate::shape::TINY;
 use crate::simd::dispatch;
 
@@ -54,10 +52,8 @@ pub(crate) struct Slips {
     pub end: Slip,
     /// The part in which the contact slides far.
     pub slides: f64,
-    /// The springs at the start and of the trial state, and at the end; how those slip that leave.
-    pub old: Both<Row<f64>>,
-    pub leaves: Leaving,
-    pub trial: Both<Row<f64>>,
+    /// The trial state, and the springs at the end.
+    pub trial: Trial,
     pub v: Both<Row<f64>>,
     pub fine: FineSlips,
     /// Tangents of the angles by which points turned until the middle, and by which the slip of the end turned them: first guesses of the next
@@ -192,9 +188,7 @@ impl Slips {
         middle: Slip::NONE,
         end: Slip::NONE,
         slides: 0.0,
-        old: [[0.0; N]; 2],
-        leaves: NONE_LEAVE,
-        trial: [[0.0; N]; 2],
+        trial: Trial::NONE,
         v: [[0.0; N]; 2],
         fine: FineSlips::NONE,
         turned: [[0.0; N]; 2],
@@ -205,33 +199,36 @@ impl Slips {
         self.middle.set | self.end.set == 0
     }
 
-    /// The slip of a step from its trial state and the springs at its start, and what derivatives need if they are requested.
+    /// The slip of a step whose trial state is known, from the springs at its start, and what derivatives need if they are requested.
     pub fn find(
         &mut self,
         t: &Rows,
         contact: &Contact<f64>,
         inverse: &Both<Matrix>,
         motion: &Motion<f64, f64>,
-        (trial, old): (&Trial, &Values),
+        old: &Values,
         derivatives: bool,
     ) {
-        let slips = self;
+        let Slips { middle, end: last, slides, trial, v, fine, turned } = self;
         dispatch!({
-            let (end, start) = ((contact.last + 1).min(N), &trial.start);
-            (slips.middle.set, slips.end.set, slips.slides, slips.v) = (0, 0, 0.0, trial.v);
-            slips.fine.find(t, contact, motion, old);
+            let end = (contact.last + 1).min(N);
+            (middle.set, last.set, *slides, *v) = (0, 0, 0.0, trial.v);
+            fine.find(t, contact, motion, old);
             // Under a constant load, the middle sticks if the end does.
             if trial.sticks && motion.constant_load {
                 return;
             }
-            (slips.old, slips.leaves, slips.trial) = (trial.old, trial.leaves, trial.v);
-            slips.slides = slid(&t, contact, &trial.v, &trial.v);
-            let theta = 0.5 * (1.0 + slips.slides);
-            let mut before = [1.0; N];
-            if !motion.constant_load {
-                before = limits_before(&t, contact, contact.now.shift[0] - motion.before[0]);
+            *slides = slid(&t, contact, &trial.v, &trial.v);
+            let theta = 0.5 * (1.0 + *slides);
+            // The limits, and the points that slipped at the start.
+            let before = limits_before(&t, contact, contact.now.shift[0] - motion.before[0]);
+            let (start, mut slipped) = (&trial.start, [0.0; N]);
+            last.level = [1.0; N];
+            for i in 0..N {
+                let square = start[0][i] * start[0][i] + start[1][i] * start[1][i];
+                slipped[i] = if square > HELD * before[i] * before[i] { 1.0 } else { 0.0 };
+                middle.level[i] = before[i] + theta * (1.0 - before[i]);
             }
-            let slipped = slips.limit(&before, start, theta, end);
             let mut problem = Problem { v: trial.v, r: *start, t, contact, inverse, end };
             for k in 0..2 {
                 for i in 0..N {
@@ -239,45 +236,29 @@ impl Slips {
                     problem.v[k][i] = trial.old[k][i] + theta * (trial.v[k][i] - trial.old[k][i]);
                 }
             }
-            let mut guess = problem.guess(&slips.middle.level, start, &slipped, &slips.turned[0]);
+            let mut guess = problem.guess(&middle.level, start, &slipped, &turned[0]);
             // Points that slipped at the start and have one outside that slips continue.
             let slipped = points(&slipped, end);
             for _ in 0..N {
                 guess.set |= guess.set >> 1 & slipped;
             }
             for stage in 0..2 {
-                let middle = stage == 0;
-                let [slip, other] =
-                    if middle { [&mut slips.middle, &mut slips.end] } else { [&mut slips.end, &mut slips.middle] };
+                let (slip, other) = if stage == 0 { (&mut *middle, &mut *last) } else { (&mut *last, &mut *middle) };
                 if guess.beyond != 0 {
                     slip.find(other, &problem, guess, derivatives);
                 }
-                slips.v = if slip.set == 0 { problem.v } else { slip.v };
-                let from = if middle { start } else { &problem.r };
-                slips.turned[stage] = slip.turned(from);
-                if !middle || (theta >= 1.0 && slip.set.count_ones() as usize == end) {
+                *v = if slip.set == 0 { problem.v } else { slip.v };
+                turned[stage] = slip.turned(if stage == 0 { start } else { &problem.r });
+                if stage > 0 || (theta >= 1.0 && slip.set.count_ones() as usize == end) {
                     // The middle of a contact that slides far is its end.
                     break;
                 }
                 problem.go_on(slip, trial, theta);
                 let from = problem.r;
-                guess = problem.guess(&other.level, &from, &[1.0; N], &slips.turned[1]);
+                guess = problem.guess(&other.level, &from, &[1.0; N], &turned[1]);
                 guess.set |= slip.set;
             }
         });
-    }
-
-    /// Limits in the middle and at the end, from those at the start: 1 for points that slipped then, 0 for others.
-    #[inline(always)]
-    fn limit(&mut self, before: &Row<f64>, start: &Both<Row<f64>>, theta: f64, end: usize) -> Row<f64> {
-        let mut slipped = [0.0; N];
-        self.end.level = [1.0; N];
-        for i in 0..N {
-            let square = start[0][i] * start[0][i] + start[1][i] * start[1][i];
-            slipped[i] = if square > HELD * before[i] * before[i] { 1.0 } else { 0.0 };
-            self.middle.level[i] = if i < end { before[i] + theta * (1.0 - before[i]) } else { 1.0 };
-        }
-        slipped
     }
 }
 

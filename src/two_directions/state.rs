@@ -278,8 +278,8 @@ impl Memory<'_> {
             }
             self.move_to(to, &force);
         } else {
-            let mut slip = Slips { turned: *self.turned, ..Slips::NONE };
-            slip.find(self.tables, contact, self.inverse, &motion, (&trial, self.springs), requested.tangent);
+            let mut slip = Slips { trial, turned: *self.turned, ..Slips::NONE };
+            slip.find(self.tables, contact, self.inverse, &motion, self.springs, requested.tangent);
             if requested.tangent {
                 tangent = self.tangent(contact, (path, &motion), &slip);
             }

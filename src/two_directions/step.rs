@@ -47,7 +47,7 @@ pub(crate) fn step<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     }
     let mut old = None;
     if some_leave(t, c, motion.before[0]) {
-        let (mut springs, mut leaves) = ([[zero; N]; 2], slip.leaves);
+        let (mut springs, mut leaves) = ([[zero; N]; 2], slip.trial.leaves);
         for k in 0..2 {
             for j in 0..end {
                 springs[k][j] = s.get(k * N + j);
@@ -57,7 +57,7 @@ pub(crate) fn step<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
         old = Some(springs);
     }
     let far = slip.slides > 0.0;
-    let slides = if far { slid(t, c, &v, &slip.trial) } else { zero };
+    let slides = if far { slid(t, c, &v, &slip.trial.v) } else { zero };
     let part = 0.5 * (1.0 + slip.slides);
     let theta = slides.chain(part, 0.5);
     for stage in 0..2 {
@@ -77,13 +77,19 @@ pub(crate) fn step<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
                     level[i] = level[i].times(before[i]) + theta.times(A::constant(1.0) - before[i]);
                 }
             }
-            in_part(&mut v, [&slip.trial, &slip.old], (old.as_ref(), s), (far.then_some(theta), part), [first, end]);
+            in_part(
+                &mut v,
+                [&slip.trial.v, &slip.trial.old],
+                (old.as_ref(), s),
+                (far.then_some(theta), part),
+                [first, end],
+            );
         }
         slide(t, c, inverse, level.as_ref(), &mut v, now);
         if middle {
             let per = 1.0 / part;
             let part = (far.then_some(theta.chain(per, -per * per)), per);
-            in_part(&mut v, [&now.v, &slip.old], (old.as_ref(), s), part, [first, end]);
+            in_part(&mut v, [&now.v, &slip.trial.old], (old.as_ref(), s), part, [first, end]);
         }
     }
     finish(t, c, motion, slip, slides, &mut v, s)
