@@ -2,11 +2,11 @@
 
 use super::scalar::{Dual, Linear, Real, both};
 use super::tables::{
-    BIAS, Both, DualRows, END, FINE, FINE_SECANT, FINE_STIFFNESS, FLEXIBILITY, LEAST_STIFFNESS, LOAD, MAP, Matrix, N,
-    PER_MAP, POINTS, PRESSURE, Row, Rows, SECANT, SHIFT, SIZE, STIFFNESS, Tables, Units, WEIGHT, at_edge,
-    root_difference, starts,
+    BIAS, Both, DualRows, END, FINE, FINE_SECANT, FINE_STIFFNESS, LEAST_STIFFNESS, LOAD, MAP, Matrix, N, POINTS,
+    PRESSURE, Row, Rows, SECANT, SHIFT, SIZE, STIFFNESS, Tables, Units, WEIGHT, at_edge, root_difference, starts,
 };
 use crate::element::{Element, Normal, SMALLEST_LOAD};
+use crate::shape::TINY;
 use crate::simd::dispatch;
 
 /// Normal state in the units of the springs: N, S of both directions, w²; N and S of a slightly smaller size, inside the edge.
@@ -86,9 +86,8 @@ pub(crate) struct Contact<A> {
     /// p_i and 1/p_i; 0 outside.
     pub pressure: Row<A>,
     pub per_pressure: Row<A>,
-    /// Stiffnesses of the last spring, their reciprocals, and those of the fine springs in its shell.
+    /// Stiffnesses of the last spring, and those of the fine springs in its shell.
     pub stiffness: Both<A>,
-    pub flexibility: Both<A>,
     pub fine: Both<Row<A>>,
     pub now: Pressed<A>,
     /// The derivatives of the normal state by the normal component over its scale.
@@ -106,7 +105,6 @@ impl Contact<f64> {
         pressure: [0.0; N],
         per_pressure: [0.0; N],
         stiffness: [0.0; 2],
-        flexibility: [0.0; 2],
         fine: [[0.0; N]; 2],
         now: Pressed::NONE,
         slopes: Pressed::NONE,
@@ -142,7 +140,7 @@ impl Contact<f64> {
                         }
                         before = g;
                     }
-                    let per_map = contact.per_map(&rows, k, i);
+                    let per_map = 1.0 / contact.map(&rows, k, i, i);
                     for m in 0..N {
                         inverse[k][i][m] = row[m] * per_map;
                     }
@@ -184,7 +182,6 @@ impl<A: Real> Contact<A> {
             pressure: [zero; N],
             per_pressure: [zero; N],
             stiffness: [zero; 2],
-            flexibility: [zero; 2],
             fine: [[zero; N]; 2],
             now: *now,
             slopes: *slopes,
@@ -216,7 +213,6 @@ impl<A: Real> Contact<A> {
             let inner = if last > 0 { t.at(SECANT + k, before) } else { zero };
             let (rise, least) = (own - inner, own.scale(LEAST_STIFFNESS));
             contact.stiffness[k] = if rise.value() > least.value() { rise } else { least };
-            contact.flexibility[k] = contact.stiffness[k].inverse();
             contact.press_fine(t, k, [own, inner]);
         }
         contact
@@ -266,13 +262,7 @@ impl<A: Real> Contact<A> {
     /// 1/w_j.
     #[inline(always)]
     pub fn flexibility(&self, t: &impl Tables<A>, k: usize, j: usize) -> A {
-        if j < self.last { t.at(FLEXIBILITY + k, j) } else { self.flexibility[k] }
-    }
-
-    /// 1/G_jj.
-    #[inline(always)]
-    pub fn per_map(&self, t: &impl Tables<A>, k: usize, j: usize) -> A {
-        if j < self.last { t.at(PER_MAP + k, j) } else { self.limit(t, k, self.first_part) }
+        self.stiffness(t, k, j).at_least(TINY).inverse()
     }
 
     /// Stiffness of a fine spring.

@@ -226,7 +226,6 @@ impl Memory<'_> {
             pressure: [0.0; N],
             per_pressure,
             stiffness: [w_x, w_y],
-            flexibility: [1.0 / w_x.max(TINY), 1.0 / w_y.max(TINY)],
             fine: [fine_x, fine_y],
             now: Pressed::of(now),
             slopes: Pressed::of(slopes),

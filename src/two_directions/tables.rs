@@ -65,17 +65,15 @@ pub(crate) const LOAD: usize = 0;
 pub(crate) const SHIFT: usize = LOAD + FINE / N;
 pub(crate) const FINE_STIFFNESS: usize = SHIFT + 2 * FINE / N;
 pub(crate) const BIAS: usize = FINE_STIFFNESS + 2 * FINE / N;
-/// Rows of w_j², x_i² - a² and ψ_j; in both directions of W_j, w_j, 1/w_j and 1/G_jj.
+/// Rows of w_j², x_i² - a² and ψ_j; in both directions of W_j and w_j.
 pub(crate) const FINE_SECANT: usize = BIAS + FINE / N;
 pub(crate) const SIZE: usize = FINE_SECANT + 2 * FINE / N;
 pub(crate) const POINTS: usize = SIZE + 1;
 pub(crate) const WEIGHT: usize = SIZE + 2;
 pub(crate) const SECANT: usize = SIZE + 3;
 pub(crate) const STIFFNESS: usize = SECANT + 2;
-pub(crate) const FLEXIBILITY: usize = STIFFNESS + 2;
-pub(crate) const PER_MAP: usize = FLEXIBILITY + 2;
 /// First rows of the pressure that the shells within one carry, as `[shell][point]`, and of G as `[direction][shell][point]`.
-pub(crate) const PRESSURE: usize = PER_MAP + 2;
+pub(crate) const PRESSURE: usize = STIFFNESS + 2;
 pub(crate) const MAP: usize = PRESSURE + N;
 pub(crate) const ROWS: usize = MAP + 2 * (N - 1);
 
@@ -284,7 +282,6 @@ impl Shells {
                 // If all sizes have the same stiffness, the differences are rounding errors.
                 let stiffness = (own - before).max(LEAST_STIFFNESS * own);
                 (rows[SECANT + k][j], rows[STIFFNESS + k][j]) = (own, stiffness);
-                rows[FLEXIBILITY + k][j] = 1.0 / stiffness;
                 // The springs under the flat are at the first node of the fine ones.
                 let law = own - if j > inner { before } else { 0.0 };
                 for (r, f) in (start[j]..start[j + 1]).enumerate() {
@@ -323,9 +320,6 @@ impl Shells {
                     rows[MAP + k * (N - 1) + j][i] = traction * self.per_step[k][j];
                 }
                 rows[PRESSURE + j + 1][i] = rows[PRESSURE + j][i] + if j < self.inner { 0.0 } else { traction };
-            }
-            for k in 0..2 {
-                rows[PER_MAP + k][j] = 1.0 / rows[MAP + k * (N - 1) + j][j];
             }
         }
     }
