@@ -10,7 +10,7 @@ use crate::shape::TINY;
 use crate::simd::dispatch;
 
 /// Normal state in the units of the springs: N, S of both directions, w²; N and S of a slightly smaller size, inside the edge.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Pressed<A> {
     pub load: A,
     pub shift: Both<A>,
@@ -22,8 +22,6 @@ pub(crate) struct Pressed<A> {
 const INSIDE_EDGE: f64 = 1.0 - 2e-5;
 
 impl Pressed<f64> {
-    pub const NONE: Pressed<f64> = Pressed { load: 0.0, shift: [0.0; 2], size: 0.0, inside: [0.0; 3] };
-
     /// The state of a contact that is closed, and its derivatives by the normal component over its scale.
     pub fn new(element: &Element, units: &Units, input: f64, normal: &Normal) -> [Pressed<f64>; 2] {
         let Normal { load, shift, load_slope, shift_slope } = *normal;
@@ -78,7 +76,7 @@ impl Pressed<f64> {
 }
 
 /// What depends on the present load.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 #[repr(align(32))]
 pub(crate) struct Contact<A> {
     /// G of the last shell.
@@ -100,20 +98,6 @@ pub(crate) struct Contact<A> {
 }
 
 impl Contact<f64> {
-    pub const NONE: Contact<f64> = Contact {
-        edge: [[0.0; N]; 2],
-        pressure: [0.0; N],
-        per_pressure: [0.0; N],
-        stiffness: [0.0; 2],
-        fine: [[0.0; N]; 2],
-        now: Pressed::NONE,
-        slopes: Pressed::NONE,
-        last: 0,
-        part: 0,
-        first_part: 0,
-        under_flat: 0,
-    };
-
     /// The contact in a normal state with derivatives, and C⁻¹ as `[spring][point]`.
     pub fn press(
         rows: &Rows,

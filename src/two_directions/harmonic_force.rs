@@ -228,11 +228,11 @@ impl<'a> Walk<'a> {
             units,
             tables,
             at: [0.0, 0.0, top],
-            contact: Contact::NONE,
+            contact: Contact::default(),
             derived: None,
             normal: Normal::OPEN,
             springs: [[0.0; N]; SPRINGS / N],
-            slip: Slips::NONE,
+            slip: Slips::default(),
             inverse: [[[0.0; N]; N]; 2],
             by_parameters: [[0.0; 4]; SPRINGS],
             by_top: 0.0,
@@ -255,7 +255,7 @@ impl<'a> Walk<'a> {
         if !closes {
             let energy = was_closed && requested.energy;
             let dissipated =
-                if energy { separated(self.tables.values, &from, &Pressed::NONE, path.by, &old) } else { 0.0 };
+                if energy { separated(self.tables.values, &from, &Pressed::default(), path.by, &old) } else { 0.0 };
             self.open();
             return Taken { force: [0.0; 2], dissipated: dissipated * path.scale, old, motion, path, before, closed };
         }
@@ -305,7 +305,7 @@ impl<'a> Walk<'a> {
     }
 
     fn open(&mut self) {
-        (self.contact, self.springs, self.normal) = (Contact::NONE, [[0.0; N]; SPRINGS / N], Normal::OPEN);
+        (self.contact, self.springs, self.normal) = (Contact::default(), [[0.0; N]; SPRINGS / N], Normal::OPEN);
     }
 }
 

@@ -47,6 +47,7 @@ const NEAR: f64 = 0.5;
 /// |r|² at the start, over that of the limit, from which on a point slipped then: after a change of the load it is less exact.
 const HELD: f64 = 0.998;
 /// Both slips of a step.
+#[derive(Default)]
 pub(crate) struct Slips {
     pub middle: Slip,
     pub end: Slip,
@@ -63,11 +64,10 @@ pub(crate) struct Slips {
 
 /// Fine springs, of which each slips on its own: e, the direction of v/limit, and 1/(x y |v/limit|) with the limits x and y, negative for a
 /// spring that sticks.
+#[derive(Default)]
 pub(crate) struct FineSlips([[Row<f64>; FINE / N]; 3]);
 
 impl FineSlips {
-    const NONE: FineSlips = FineSlips([[[0.0; N]; FINE / N]; 3]);
-
     #[inline(always)]
     pub fn at(&self, f: usize) -> [f64; 3] {
         let [e_x, e_y, per_length] = &self.0;
@@ -95,6 +95,7 @@ impl FineSlips {
 }
 
 /// Points that slip, and what derivatives need.
+#[derive(Default)]
 #[repr(align(32))]
 pub(crate) struct Slip {
     pub set: Set,
@@ -184,16 +185,6 @@ fn points(values: &Row<f64>, end: usize) -> Set {
 }
 
 impl Slips {
-    pub const NONE: Slips = Slips {
-        middle: Slip::NONE,
-        end: Slip::NONE,
-        slides: 0.0,
-        trial: Trial::NONE,
-        v: [[0.0; N]; 2],
-        fine: FineSlips::NONE,
-        turned: [[0.0; N]; 2],
-    };
-
     /// Whether nothing slips.
     pub fn is_empty(&self) -> bool {
         self.middle.set | self.end.set == 0
@@ -263,20 +254,6 @@ impl Slips {
 }
 
 impl Slip {
-    const NONE: Slip = Slip {
-        set: 0,
-        slips: [0.0; N],
-        level: [0.0; N],
-        e: [[0.0; N]; 2],
-        sigma: [[0.0; N]; 2],
-        v: [[0.0; N]; 2],
-        r: [[0.0; N]; 2],
-        k: [[[0.0; N]; N]; 2],
-        inverse: [[0.0; N]; N],
-        known: (0, 0.0),
-        inverted: (0, 0.0),
-    };
-
     #[inline(always)]
     pub fn contains(&self, i: usize) -> bool {
         self.set >> i & 1 == 1

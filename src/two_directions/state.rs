@@ -138,7 +138,7 @@ impl Law for TwoDirections {
             return memory.step(&header, &from, &path, &End { element, to, normal, same, requested });
         }
         if requested.energy {
-            let energy = separated(memory.tables, &from, &Pressed::NONE, path.by, memory.springs);
+            let energy = separated(memory.tables, &from, &Pressed::default(), path.by, memory.springs);
             result.dissipated = header.outputs(element, &path)[1] * energy;
         }
         memory.open(to);
@@ -277,7 +277,7 @@ impl Memory<'_> {
             }
             self.move_to(to, &force);
         } else {
-            let mut slip = Slips { trial, turned: *self.turned, ..Slips::NONE };
+            let mut slip = Slips { trial, turned: *self.turned, ..Slips::default() };
             slip.find(self.tables, contact, self.inverse, &motion, self.springs, requested.tangent);
             if requested.tangent {
                 tangent = self.tangent(contact, (path, &motion), &slip);
@@ -350,7 +350,7 @@ impl Memory<'_> {
         (header.key, header.units) = (element.key, units);
         fill(self.tables, element, &units, 1.0);
         *self.springs = [[0.0; N]; SPRINGS / N];
-        let from = core::mem::replace(contact, Contact { under_flat: inner, ..Contact::NONE });
+        let from = core::mem::replace(contact, Contact { under_flat: inner, ..Contact::default() });
         if !element.is_closed(header.displacement[2]) || header.normal_force <= 0.0 {
             header.normal_force = 0.0;
             return;

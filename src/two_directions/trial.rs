@@ -167,7 +167,7 @@ pub(crate) const ROUNDING: f64 = 1.0 + 1e-12;
 
 /// The state in which all springs stick. Under a constant load r changes by the motion of the last shell; of springs it would have the
 /// rounding errors of their differences.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 #[repr(align(32))]
 pub(crate) struct Trial {
     /// The springs at the start, with the directions of those that leave, and v*; r of both.
@@ -180,22 +180,11 @@ pub(crate) struct Trial {
     pub sticks: bool,
 }
 
-impl Trial {
-    pub const NONE: Trial = Trial {
-        old: [[0.0; N]; 2],
-        leaves: [([0.0; 3], [0.0; 3]); N],
-        v: [[0.0; N]; 2],
-        start: [[0.0; N]; 2],
-        r: [[0.0; N]; 2],
-        sticks: false,
-    };
-}
-
 /// The trial state of a step of values.
 pub(crate) fn trial(t: &Rows, c: &Contact<f64>, motion: &Motion<f64, f64>, old: &Values) -> Trial {
     dispatch!({
         let (last, start_of) = (c.last.min(N - 1), starts(c.under_flat));
-        let (mut old, mut leaves, mut all) = (both!(|k| old[k]), Trial::NONE.leaves, [[0.0; N]; 2]);
+        let (mut old, mut leaves, mut all) = (both!(|k| old[k]), Leaving::default(), [[0.0; N]; 2]);
         for k in 0..2 {
             let (rise, mut part) = (c.now.shift[k] - motion.before[k], [motion.by[k]; N]);
             if !motion.constant_load {
