@@ -3,15 +3,6 @@
 use super::tables::{Matrix, N, Row};
 use crate::shape::TINY;
 
-const UNITS: Matrix = {
-    let (mut units, mut i) = ([[0.0; N]; N], 0);
-    while i < N {
-        units[i][i] = 1.0;
-        i += 1;
-    }
-    units
-};
-
 /// The largest size, in an order of vectors.
 #[inline(always)]
 pub(super) fn largest(x: &Row<f64>) -> f64 {
@@ -57,18 +48,13 @@ pub(super) fn times<const K: usize>(
     y
 }
 
-#[inline(always)]
-fn masked(x: f64, mask: u64) -> f64 {
-    f64::from_bits(x.to_bits() & mask)
-}
-
 /// Inverts the sum of a matrix and a diagonal in place, by Gauss-Jordan elimination with pivots of two rows, for the points from one to
 /// another. Single elements are chosen by their place in the lanes: a vector that is loaded right after one of its elements was stored
 /// would wait for it.
 #[inline(always)]
 pub(super) fn invert(matrix: &mut Matrix, diagonal: &Row<f64>, [first, end]: [usize; 2]) {
     for h in 0..N / 2 {
-        let (p, q, mut keep) = (2 * h, 2 * h + 1, [0; N]);
+        let (p, q, mut keep) = (2 * h, 2 * h + 1, [0.0; N]);
         if q < first || p >= end {
             continue;
         }
@@ -78,15 +64,16 @@ pub(super) fn invert(matrix: &mut Matrix, diagonal: &Row<f64>, [first, end]: [us
         let (a, b, c, d) = (a * per_det, b * per_det, c * per_det, d * per_det);
         let (mut upper, mut lower) = (matrix[p], matrix[q]);
         for j in 0..N {
-            keep[j] = if UNITS[p][j] + UNITS[q][j] > 0.0 { 0 } else { u64::MAX };
-            let (x, y) = (masked(upper[j], keep[j]) + UNITS[p][j], masked(lower[j], keep[j]) + UNITS[q][j]);
+            let (unit_p, unit_q) = (f64::from(j == p), f64::from(j == q));
+            keep[j] = 1.0 - unit_p - unit_q;
+            let (x, y) = (upper[j] * keep[j] + unit_p, lower[j] * keep[j] + unit_q);
             (upper[j], lower[j]) = (d * x - b * y, a * y - c * x);
         }
         for i in 2 * (first / 2)..end.min(N) {
             let (x, y) = (matrix[i][p], matrix[i][q]);
             let mut row = matrix[i];
             for j in 0..N {
-                row[j] = masked(row[j], keep[j]) - x * upper[j] - y * lower[j];
+                row[j] = row[j] * keep[j] - x * upper[j] - y * lower[j];
             }
             matrix[i] = row;
         }
