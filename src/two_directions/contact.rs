@@ -31,47 +31,34 @@ impl Pressed<f64> {
         let (size, slope) = (w * per_size, slope * load_slope * per_size * per_size);
         let (inner, scale) = (element.normal(INSIDE_EDGE * input), element.input_scale());
         let [lateral, lateral_inside] = [normal, &inner].map(|normal| element.lateral(normal));
-        let inside = [
-            [inner.load, inner.shift, lateral_inside[0]],
-            [inner.load_slope, inner.shift_slope, lateral_inside[1]].map(|slope| INSIDE_EDGE * scale * slope),
-        ];
-        let of = |load: f64, [x, y]: [f64; 2], size: f64, [inner_load, inner_x, inner_y]: [f64; 3]| {
-            let inside = [inner_load * per_load, inner_x * per_shift, inner_y * per_shift];
-            Pressed { load: load * per_load, shift: [x * per_shift, y * per_shift], size, inside }
-        };
-        [
-            of(load, [shift, lateral[0]], size * size, inside[0]),
-            of(scale * load_slope, [scale * shift_slope, scale * lateral[1]], scale * slope, inside[1]),
-        ]
+        let per = [per_load, per_shift, per_shift, 1.0, per_load, per_shift, per_shift];
+        let now = [load, shift, lateral[0], size * size, inner.load, inner.shift, lateral_inside[0]];
+        let inside = [inner.load_slope, inner.shift_slope, lateral_inside[1]].map(|slope| INSIDE_EDGE * slope);
+        let slopes = [load_slope, shift_slope, lateral[1], slope, inside[0], inside[1], inside[2]];
+        [now, slopes.map(|slope| scale * slope)]
+            .map(|numbers| Pressed::of(core::array::from_fn(|i| numbers[i] * per[i])))
     }
 
+    /// With derivatives by the normal component over its scale.
+    pub fn dual(&self, slopes: &Pressed<f64>) -> Pressed<Dual<1>> {
+        let (values, slopes) = (self.values(), slopes.values());
+        Pressed::of(core::array::from_fn(|i| {
+            let mut dual = Dual::constant(values[i]);
+            dual.0[0][END] = slopes[i];
+            dual
+        }))
+    }
+}
+
+impl<A: Copy> Pressed<A> {
     /// From all its numbers, in order.
-    pub fn of([load, x, y, size, inner_load, inner_x, inner_y]: [f64; 7]) -> Pressed<f64> {
+    pub fn of([load, x, y, size, inner_load, inner_x, inner_y]: [A; 7]) -> Pressed<A> {
         Pressed { load, shift: [x, y], size, inside: [inner_load, inner_x, inner_y] }
     }
 
-    pub fn values(self) -> [f64; 7] {
+    pub fn values(self) -> [A; 7] {
         let Pressed { load, shift: [x, y], size, inside: [inner_load, inner_x, inner_y] } = self;
         [load, x, y, size, inner_load, inner_x, inner_y]
-    }
-
-    /// With derivatives by one parameter.
-    pub fn dual(&self, slopes: &Pressed<f64>, parameter: usize) -> Pressed<Dual<1>> {
-        let of = |value: f64, slope: f64| {
-            let mut dual = Dual::constant(value);
-            dual.0[0][parameter] = slope;
-            dual
-        };
-        Pressed {
-            load: of(self.load, slopes.load),
-            shift: both!(|k| of(self.shift[k], slopes.shift[k])),
-            size: of(self.size, slopes.size),
-            inside: [
-                of(self.inside[0], slopes.inside[0]),
-                of(self.inside[1], slopes.inside[1]),
-                of(self.inside[2], slopes.inside[2]),
-            ],
-        }
     }
 }
 
@@ -143,7 +130,7 @@ impl Contact<f64> {
     /// The contact with derivatives, of the stiffnesses of springs, and of tractions if these are requested.
     #[inline(never)]
     pub fn derived(&self, tables: &DualRows, tractions: bool) -> Contact<Dual<1>> {
-        let now = self.now.dual(&self.slopes, END);
+        let now = self.now.dual(&self.slopes);
         Contact::new(tables, &now, &self.slopes, [self.last, self.part], self.under_flat, tractions)
     }
 }
