@@ -22,15 +22,14 @@ pub(crate) type Set = u32;
 /// Newton steps, and changes of the set, after which a guess is given up.
 const STEPS: usize = 60;
 const CHANGES: usize = 12;
-/// Changes of angles: the one that would be next, at the end, that up to which the inverse is renewed, and the largest one of a step.
+/// Changes of angles: the one that would be next, at the end, and that up to which the inverse is kept.
 const CONVERGED: f64 = 1e-12;
 const RENEWED: f64 = 1e-2;
-const LARGEST_TURN: f64 = 0.8;
+/// The square of a larger one could overflow.
+const LOST: f64 = 1e100;
 /// Of two changes that are at most the first number, with a new inverse each, the second one is a rounding error from this part on.
 const SMALL_TURN: f64 = 1e-9;
 const STALLED: f64 = 0.5;
-/// Beyond this a guess is lost.
-const LOST: f64 = 1e4;
 /// Sweeps of the points before Newton's method is tried again, at first, four times as many each time; attempts, of which the first one is
 /// without: in random steps, one of two million needs sweeps.
 const SWEEPS: usize = 30;
@@ -417,9 +416,6 @@ impl Slip {
                 if steps > STEPS || turn > LOST {
                     return false;
                 }
-                if turn > LARGEST_TURN {
-                    turns = damped(turns, turn);
-                }
                 self.turn(&turns);
                 // Quadratic with a new inverse, linear with an old one, of which the first change tells nothing.
                 let linear = turn / if before > TINY { before } else { TINY };
@@ -574,11 +570,4 @@ fn compliance(problem: &Problem, k: usize, first: usize) -> Matrix {
         }
     }
     a
-}
-
-/// Changes, in proportion, of which the largest one is the most that a step may have.
-#[cold]
-#[inline(never)]
-fn damped(turns: Row<f64>, turn: f64) -> Row<f64> {
-    turns.map(|x| x * LARGEST_TURN / turn.max(LARGEST_TURN))
 }
