@@ -88,8 +88,6 @@ pub(crate) trait Geometry {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Shape {
-    /// 1 for an ellipse.
-    elliptic: u64,
     /// Half-width a of the flat \[m\]; 0 for an ellipse.
     pub flat: f64,
     /// L, or the semi-axis x under the normal force of the parameters \[m\].
@@ -107,7 +105,7 @@ pub(crate) struct Shape {
     pressure_scale: f64,
     /// The largest size for which the laws hold in both directions of the plane of contact; 0 unless set by an element.
     pub largest: f64,
-    /// The half-width under the normal force of the parameters \[m\], and for a flat with rounded edges the punch with lengths over it.
+    /// The half-width under the normal force of the parameters \[m\], and the punch with lengths over it.
     pub reference: (f64, RoundedPunch),
     /// E* \[Pa\].
     pub composite_modulus: f64,
@@ -122,7 +120,7 @@ const LARGEST: f64 = f64::from_bits((1023 + 498) << 52);
 
 impl Shape {
     fn is_elliptic(&self) -> bool {
-        self.elliptic != 0
+        self.reference.1.is_elliptic()
     }
 
     /// The constant of U or of S.
@@ -130,29 +128,19 @@ impl Shape {
         self.constants[usize::from(quantity == Quantity::Shift)]
     }
 
+    /// The punch of a size; of an ellipse over that of the parameters.
     fn punch_at(&self, w: f64) -> RoundedPunch {
-        if self.is_elliptic() {
-            RoundedPunch { flat: 0.0, w, half_width: w, psi: 1.0 }
-        } else {
-            RoundedPunch::new(self.flat, w)
-        }
+        if self.is_elliptic() { RoundedPunch::ellipse(w / self.length) } else { RoundedPunch::new(self.flat, w) }
     }
 
     /// Half-width s \[m\]; for an ellipse the semi-axis x.
     pub fn half_width(&self, w: f64) -> f64 {
-        self.punch_at(w).half_width
-    }
-
-    /// g of a size.
-    #[inline(always)]
-    fn unscaled_load(&self, punch: &RoundedPunch) -> f64 {
-        let ratio = punch.w / self.length;
-        if self.is_elliptic() { ratio * ratio * ratio } else { punch.load() }
+        if self.is_elliptic() { w } else { self.punch_at(w).half_width }
     }
 
     /// N \[N\].
     pub fn load(&self, w: f64) -> f64 {
-        self.load_scale * self.unscaled_load(&self.punch_at(w))
+        self.load_scale * self.punch_at(w).load()
     }
 
     /// K_n or K_t \[m/N\] without the layer, or 1 for N.
@@ -160,7 +148,7 @@ impl Shape {
     fn own_compliance(&self, quantity: Quantity, punch: &RoundedPunch) -> f64 {
         match quantity {
             Quantity::Load => 1.0,
-            _ if self.is_elliptic() => self.constant(quantity) * (self.length / punch.w.max(TINY)),
+            _ if self.is_elliptic() => self.constant(quantity) / punch.w.max(TINY),
             _ => self.compliance_scale * self.log_compliance(punch.half_width, self.constant(quantity)),
         }
     }
@@ -199,7 +187,7 @@ impl Shape {
 
     #[inline(always)]
     fn sums(&self, quantity: Quantity, punch: &RoundedPunch) -> [f64; 2] {
-        let (load, unloaded) = (self.unscaled_load(punch), self.layer.unloaded(quantity));
+        let (load, unloaded) = (punch.load(), self.layer.unloaded(quantity));
         let mut compliance = self.own_compliance(quantity, punch);
         let mut value = self.own_value(quantity, punch, load, compliance);
         if unloaded > 0.0 {
@@ -212,7 +200,7 @@ impl Shape {
     /// M = ∫ N dS \[J\].
     pub fn potential(&self, w: f64) -> f64 {
         let punch = self.punch_at(w);
-        let (load, compliance) = (self.unscaled_load(&punch), self.own_compliance(Quantity::Shift, &punch));
+        let (load, compliance) = (punch.load(), self.own_compliance(Quantity::Shift, &punch));
         let mean = if self.is_elliptic() { 0.2 * compliance } else { self.compliance_scale * punch.gamma(load) };
         let load = self.load_scale * load;
         // The square of a small load would underflow.
@@ -223,7 +211,7 @@ impl Shape {
     /// N, and S in both directions.
     pub fn load_and_shifts(&self, w: f64) -> [f64; 3] {
         let punch = self.punch_at(w);
-        let (load, compliance) = (self.unscaled_load(&punch), self.own_compliance(Quantity::Approach, &punch));
+        let (load, compliance) = (punch.load(), self.own_compliance(Quantity::Approach, &punch));
         let approach = self.own_value(Quantity::Approach, &punch, load, compliance);
         let load = self.load_scale * load;
         let layer = self.layer.shift(load);
@@ -239,7 +227,7 @@ impl Shape {
 
     /// The pressure that a size adds, times sqrt(s² - x²)/s and in any unit: dp/d(s²).
     pub fn pressure_weight(&self, w: f64) -> f64 {
-        self.punch_at(w).psi
+        if self.is_elliptic() { 1.0 } else { self.punch_at(w).psi }
     }
 
     /// The size w under a normal force \[N\], and d(w²)/dN \[m²/N\].
@@ -290,8 +278,7 @@ impl Shape {
                 return [2.0 * value, 1.0];
             }
             // dN/d(ln w).
-            let slope = if self.is_elliptic() { 3.0 * self.unscaled_load(&punch) } else { 4.0 * w * w * punch.psi };
-            [sum, self.load_scale * slope * compliance / sum]
+            [sum, self.load_scale * punch.load_slope() * compliance / sum]
         })
     }
 

@@ -89,7 +89,7 @@ impl Contact {
         let compliance = shape.full_stick();
         let scale = contact.stiffness_scale;
         let (layer, under_load) = Layer::relative(&parameters.layer, normal_force, scale, compliance)?;
-        contact.zones = StickZones::new(Some(&shape.reference.1), compliance, layer);
+        contact.zones = StickZones::new(shape.reference.1, compliance, layer);
         contact.set_friction(normal_force, under_load, [half_width, edge_radius, length, composite_modulus])?;
         Ok(contact)
     }
@@ -104,10 +104,11 @@ impl Contact {
         }
         let composite_modulus = contact.composite_modulus;
         contact.half_width = semi_axis_x;
-        contact.stiffness_scale = 1.0 / parameters.shape()?.compliance(Quantity::Shift, semi_axis_x);
+        let shape = parameters.shape()?;
+        contact.stiffness_scale = 1.0 / shape.compliance(Quantity::Shift, semi_axis_x);
         contact.pressure_scale = normal_force / semi_axis_x / semi_axis_y;
         let (layer, under_load) = Layer::relative(&parameters.layer, normal_force, contact.stiffness_scale, 1.0)?;
-        contact.zones = StickZones::new(None, 1.0, layer);
+        contact.zones = StickZones::new(shape.reference.1, 1.0, layer);
         // The radius of the sphere with this semi-axis.
         in_range(&[semi_axis_x, semi_axis_x, semi_axis_x, composite_modulus], &[normal_force])?;
         let radius = 4.0 / 3.0 * (semi_axis_x * (semi_axis_x * (semi_axis_x * composite_modulus / normal_force)));

@@ -51,14 +51,13 @@ impl Geometry for EllipticParameters {
         let tangential = sum(&|nu| (1.0 - nu) * all + nu * cosine);
         let lateral = sum(&|nu| (1.0 - nu) * all + nu * (all - cosine));
         Ok(Shape {
-            elliptic: 1,
             length: semi_axis_x,
             load_scale: normal_force,
             compliance_scale: 1.0,
             constants: [normal, tangential],
             per_approach: [tangential / normal, lateral / normal],
             pressure_scale: 1.5 / PI * (normal_force / (semi_axis_x * semi_axis_y) / semi_axis_x),
-            reference: (semi_axis_x, RoundedPunch::default()),
+            reference: (semi_axis_x, RoundedPunch::ellipse(1.0)),
             composite_modulus,
             layer: Layer::default(),
             ..Shape::default()

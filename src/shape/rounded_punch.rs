@@ -1,6 +1,6 @@
-//! Load and size of a punch with a flat and rounded edges (Eq. 1, 19, 24).
+//! Load and size of a punch with a flat and rounded edges (Eq. 1, 19, 24), or of an ellipse.
 //!
-//! The contact has half-width c, the flat a. With `w = sqrt(c² - a²)` and `ψ = atan2(w, a)` the load is
+//! The contact with rounded edges has half-width c, the flat a. With `w = sqrt(c² - a²)` and `ψ = atan2(w, a)` the load is
 //!
 //! ```text
 //! g(w) = 2 c² ψ - 2 a w  =  4 R P(c) / E*          Eq. 1, corrected
@@ -16,6 +16,9 @@
 //!
 //! The closed forms in ψ suffer cancellation for a nearly flat contact (g ~ w³, βg ~ w⁵, γg² ~ w⁸). Up to ψ = π/3, power series in
 //! `χ = tan²(ψ/2) = (w/(a+c))² ≤ 1/3` are used instead; they converge for χ < 1 and lose at most one bit.
+//!
+//! An ellipse, in units of one of its family, has `g = w³`, `β = 1/(2w)` and `γ = 1/(5w)`: means over its compliance 1/w, as ln c is that
+//! of the others. With `ψ = 3w/4` the load of both has the derivative `dg/dw = 4 w ψ`.
 
 use crate::numerics::const_math::tabulate;
 use crate::numerics::polynomial::{self, Rows, rows};
@@ -76,7 +79,7 @@ fn sum(table: &Table, chi: f64) -> f64 {
     polynomial::sum(used.iter().copied(), chi)
 }
 
-/// A contact, given by the half-width a of the flat and by w; lengths in any one unit.
+/// A contact, given by the half-width a of the flat and by w: lengths in any one unit, those of an ellipse in units of its family.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct RoundedPunch {
@@ -84,8 +87,10 @@ pub(crate) struct RoundedPunch {
     pub w: f64,
     /// Half-width c of the contact.
     pub half_width: f64,
-    /// ψ = atan2(w, a), between 0 and π/2.
+    /// ψ = atan2(w, a), between 0 and π/2; of an ellipse 3w/4.
     pub psi: f64,
+    /// 1 for an ellipse.
+    pub elliptic: u64,
 }
 
 impl RoundedPunch {
@@ -96,7 +101,24 @@ impl RoundedPunch {
             w,
             half_width: (flat * flat + w * w).sqrt(),
             psi: w.max(if flat > 0.0 { 0.0 } else { TINY }).atan2(flat),
+            elliptic: 0,
         }
+    }
+
+    /// An ellipse.
+    pub const fn ellipse(w: f64) -> RoundedPunch {
+        RoundedPunch { flat: 0.0, w, half_width: w, psi: 0.75 * w, elliptic: 1 }
+    }
+
+    /// Another contact of the same family.
+    pub fn resized(&self, w: f64) -> RoundedPunch {
+        if self.is_elliptic() { RoundedPunch::ellipse(w) } else { RoundedPunch::new(self.flat, w) }
+    }
+
+    /// Whether it is an ellipse.
+    #[inline(always)]
+    pub fn is_elliptic(&self) -> bool {
+        self.elliptic != 0
     }
 
     /// χ = tan²(ψ/2) if the series apply.
@@ -110,19 +132,37 @@ impl RoundedPunch {
         self.w - self.flat * self.psi
     }
 
-    /// g = 4RP/E* \[length²\].
+    /// g = 4RP/E* \[length²\], or w³.
     pub fn load(&self) -> f64 {
         let (a, w, c) = (self.flat, self.w, self.half_width);
         match self.chi() {
+            _ if self.is_elliptic() => w * w * w,
             Some(chi) => 8.0 * w * w * (w / (a + c).max(TINY)) * sum(&LOAD, chi),
             None => 2.0 * (w * w * self.psi - a * self.w_minus_arc()),
         }
+    }
+
+    /// Derivative of g with respect to ln w.
+    pub fn load_slope(&self) -> f64 {
+        4.0 * self.w * self.w * self.psi
+    }
+
+    /// Decrease of the compliance with ln w, and the derivative of this decrease with respect to ln w.
+    #[inline(always)]
+    pub fn decrease(&self) -> [f64; 2] {
+        if self.is_elliptic() {
+            let compliance = 1.0 / self.w.max(TINY);
+            return [compliance, -compliance];
+        }
+        let share = self.w * self.w / (self.half_width * self.half_width).max(TINY);
+        [share, 2.0 * share * (1.0 - share)]
     }
 
     /// β, the mean of the load over ln c, given the load g.
     pub fn beta(&self, load: f64) -> f64 {
         let (a, w) = (self.flat, self.w);
         match self.chi() {
+            _ if self.is_elliptic() => 0.5 / w.max(TINY),
             Some(chi) => chi * sum(&BETA, chi),
             None => (w * w * self.psi - 3.0 * a * self.w_minus_arc()) / load.max(TINY),
         }
@@ -132,6 +172,7 @@ impl RoundedPunch {
     pub fn gamma(&self, load: f64) -> f64 {
         let (a, w) = (self.flat, self.w);
         match self.chi() {
+            _ if self.is_elliptic() => 0.2 / w.max(TINY),
             Some(chi) => chi * sum(&GAMMA, chi),
             None => {
                 let c2 = (a * a + w * w).max(TINY);
@@ -144,40 +185,39 @@ impl RoundedPunch {
         }
     }
 
-    /// The contact that carries a load: the inverse of g (Eq. 1), from an initial guess with an error of at most 3 %.
-    pub fn from_load(flat: f64, load: f64) -> RoundedPunch {
-        let start = RoundedPunch::new(flat, RoundedPunch::initial_guess_w(flat, load));
-        RoundedPunch::new(flat, RoundedPunch::refine_from(start, load).0.w)
-    }
-
-    /// The contact that carries a load, by iteration from one close to it, and the inverse of the load close to both: each iteration
+    /// The contact that carries a load: the inverse of g (Eq. 1), from an initial guess with an error of at most 3 %. Each iteration
     /// raises the error to its fourth power.
-    pub fn refine_from(start: RoundedPunch, load: f64) -> (RoundedPunch, InversePower) {
-        let mut now = start;
-        let mut iterations_left = 4;
-        loop {
+    pub fn from_load(flat: f64, load: f64) -> RoundedPunch {
+        let mut now = RoundedPunch::new(flat, RoundedPunch::initial_guess_w(flat, load));
+        for _ in 0..4 {
             let found = now.load();
-            let inverse = now.inverse(found, 4.0 * now.w * now.w * now.psi / found.max(TINY), now.rates(), [0.0; 2]);
-            let step = inverse.step(load);
-            iterations_left -= 1;
-            if step.abs() <= 2e-5 * now.w || iterations_left == 0 {
-                return (now.moved(step), inverse);
+            let inverse = now.inverse(found, now.load_slope() / found.max(TINY), now.rates(), [0.0; 2]);
+            let (w, step) = (now.w, inverse.step(load));
+            now = RoundedPunch::new(flat, w + step);
+            if step.abs() <= 2e-5 * w {
+                break;
             }
-            now = RoundedPunch::new(now.flat, now.w + step);
         }
+        now
     }
 
     /// The contact after a step of w: third powers of `step/w` are below rounding.
     pub fn moved(&self, step: f64) -> RoundedPunch {
-        let RoundedPunch { flat, w, half_width, psi } = *self;
+        let RoundedPunch { flat, w, half_width, psi, .. } = *self;
+        if self.is_elliptic() {
+            return RoundedPunch::ellipse(w + step);
+        }
         // The tangent of the change of ψ.
         let change = flat * step / (half_width * half_width + w * step).max(TINY);
         let w = w + step;
-        RoundedPunch { flat, w, half_width: (flat * flat + w * w).sqrt(), psi: psi + change }
+        RoundedPunch { w, half_width: (flat * flat + w * w).sqrt(), psi: psi + change, ..*self }
     }
 
     /// d ln ψ/d ln w and its derivative with respect to ln w.
     pub fn rates(&self) -> [f64; 2] {
+        if self.is_elliptic() {
+            return [1.0, 0.0];
+        }
         let c2 = (self.half_width * self.half_width).max(TINY);
         let rho = self.flat * self.w / (c2 * self.psi).max(TINY);
         [rho, rho * (1.0 - 2.0 * (self.w * self.w / c2) - rho)]
@@ -199,14 +239,14 @@ impl RoundedPunch {
     /// The contact that carries a load, by one Newton step from a contact that is nearly always within 1e-9 of it; otherwise by
     /// [`RoundedPunch::from_load`].
     pub fn newton_step_from(start: RoundedPunch, load: f64) -> RoundedPunch {
-        let RoundedPunch { w, psi, half_width, flat } = start;
+        let RoundedPunch { w, psi, half_width, flat, .. } = start;
         let step = (load - start.load()) / (4.0 * w * psi).max(TINY);
         if step.abs() > 1e-9 * w {
             return RoundedPunch::from_load(flat, load);
         }
         // The square of such a step is below rounding.
         let c = half_width.max(TINY);
-        RoundedPunch { w: w + step, psi: psi + step * (flat / c) / c, half_width: half_width + step * (w / c), flat }
+        RoundedPunch { w: w + step, psi: psi + step * (flat / c) / c, half_width: half_width + step * (w / c), ..start }
     }
 
     /// w of the contact that carries a load, with an error of at most 3 %: the limits `sqrt(g/π)` of the cylinder and `(3ag/4)^(1/3)` of

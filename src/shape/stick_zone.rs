@@ -86,13 +86,11 @@ pub(crate) struct Moments {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct StickZones {
-    /// b, a flat of 0 for an ellipse; its load g, β and γ.
+    /// b, and its load g, β and γ.
     b: RoundedPunch,
     load: f64,
     beta: f64,
     gamma: f64,
-    /// 1 for an ellipse.
-    elliptic: u64,
     /// x_s, the shift at the onset of gross slip.
     pub slip_shift: f64,
     /// The layer in series.
@@ -104,13 +102,10 @@ pub(crate) struct StickZones {
 }
 
 impl StickZones {
-    /// The stick zones of a flat with rounded edges, the sizes below the contact `b` (lengths in units of its half-width), with the
-    /// compliance Λ of full stick; those of every ellipse without a `b`.
-    pub fn new(b: Option<&RoundedPunch>, compliance: f64, layer: Layer) -> StickZones {
-        let (punch, elliptic) = (b.copied().unwrap_or(RoundedPunch::new(0.0, 1.0)), u64::from(b.is_none()));
-        let mut zones = StickZones { b: punch, elliptic, ..StickZones::default() };
-        zones.load = zones.load_of(&punch);
-        [zones.beta, zones.gamma] = [zones.beta_of(&punch, zones.load), zones.gamma_of(&punch, zones.load)];
+    /// The sizes below the contact `b` (lengths in units of its half-width), with the compliance Λ of full stick.
+    pub fn new(b: RoundedPunch, compliance: f64, layer: Layer) -> StickZones {
+        let load = b.load();
+        let mut zones = StickZones { b, load, beta: b.beta(load), gamma: b.gamma(load), ..StickZones::default() };
         zones.slip_shift = compliance + zones.beta + layer.shift(1.0);
         zones.contact = SmallLoadSeries::new(compliance, &zones.curvatures());
         (zones.layer, zones.small_load) = (layer, zones.contact);
@@ -121,35 +116,13 @@ impl StickZones {
     }
 
     fn is_elliptic(&self) -> bool {
-        self.elliptic != 0
+        self.b.is_elliptic()
     }
 
     /// Whether there is a layer that is compliant in the tangential direction.
     #[inline(always)]
     pub fn has_layer(&self) -> bool {
         self.layer.tangential > 0.0
-    }
-
-    /// The size of a w.
-    fn punch(&self, w: f64) -> RoundedPunch {
-        if self.is_elliptic() { RoundedPunch { w, half_width: w, ..self.b } } else { RoundedPunch::new(self.b.flat, w) }
-    }
-
-    /// g of a size.
-    #[inline(always)]
-    fn load_of(&self, punch: &RoundedPunch) -> f64 {
-        if self.is_elliptic() { punch.w * punch.w * punch.w } else { punch.load() }
-    }
-
-    /// β of a size, given its load g.
-    #[inline(always)]
-    fn beta_of(&self, punch: &RoundedPunch, load: f64) -> f64 {
-        if self.is_elliptic() { 0.5 / punch.w.max(TINY) } else { punch.beta(load) }
-    }
-
-    /// γ of a size, given its load g.
-    fn gamma_of(&self, punch: &RoundedPunch, load: f64) -> f64 {
-        if self.is_elliptic() { 0.2 / punch.w.max(TINY) } else { punch.gamma(load) }
     }
 
     /// λ of a size of the contact without its layer, accurate also for c close to b.
@@ -165,38 +138,21 @@ impl StickZones {
         }
     }
 
-    /// Derivative of g with respect to ln w.
-    fn load_slope(&self, punch: &RoundedPunch) -> f64 {
-        let square = punch.w * punch.w;
-        if self.is_elliptic() { 3.0 * square * punch.w } else { 4.0 * square * punch.psi }
-    }
-
     /// `h'' = dλ/dτ` of a size of the contact without its layer: `g_b/(4 c² ψ_c)`, or `1/(3w⁴)`.
     fn curvature_of(&self, punch: &RoundedPunch) -> f64 {
-        let square = punch.half_width * punch.half_width;
-        self.load / if self.is_elliptic() { 3.0 * square * square } else { 4.0 * square * punch.psi }.max(TINY)
+        let power = punch.half_width * punch.half_width * if self.is_elliptic() { punch.w } else { 1.0 };
+        self.load / (4.0 * power * punch.psi).max(TINY)
     }
 
     /// Values and slopes of h'' over z at τ = (1+z)/4: positive, with its singularity as far beyond as the interval is long.
     fn curvatures(&self) -> [Tangent; RETAINED_TERMS / 2] {
-        let mut last: Option<InversePower> = None;
         let mut tangents = Interpolant::<{ RETAINED_TERMS / 2 }>::at_points(|z| {
             let load = Complement::of_remaining(0.75 + 0.25 * z);
-            let punch = if self.is_elliptic() {
-                self.size_under(load.remaining)
-            } else {
-                let w = last.as_ref().map_or(self.b.w, |last| last.w(load.remaining * self.load));
-                let start = RoundedPunch::new(self.b.flat, w);
-                let (punch, inverse) = RoundedPunch::refine_from(start, load.remaining * self.load);
-                last = Some(inverse);
-                punch
-            };
-            let RoundedPunch { flat, w, psi, half_width } = punch;
+            let punch = self.size_under(load.remaining);
             let value = self.curvature_of(&punch);
-            // Logarithmic derivative of h'' with respect to ln w.
-            let decrease =
-                if self.is_elliptic() { 4.0 } else { w * (2.0 * w + flat / psi) / (half_width * half_width) };
-            let slope = value * decrease * self.load / self.load_slope(&punch);
+            // Logarithmic derivative of h'' with respect to -ln w.
+            let ([decrease, change], [rate, _]) = (punch.decrease(), punch.rates());
+            let slope = value * (2.0 + rate - change / decrease) * self.load / punch.load_slope();
             let [layer, layer_slope] = self.layer.curvature(load);
             Tangent { value: value + layer, slope: 0.25 * (slope + layer_slope) }
         });
@@ -207,11 +163,8 @@ impl StickZones {
 
     /// The size with `1 - τ = remaining`.
     fn size_under(&self, remaining: f64) -> RoundedPunch {
-        if self.is_elliptic() {
-            self.punch(remaining.cbrt())
-        } else {
-            RoundedPunch::from_load(self.b.flat, remaining * self.load)
-        }
+        let of_flat = || RoundedPunch::from_load(self.b.flat, remaining * self.load);
+        if self.is_elliptic() { RoundedPunch::ellipse(remaining.cbrt()) } else { of_flat() }
     }
 
     /// The size with `1 - τ = remaining`, given λ of contact and layer to the rounding of Λ + λ, and its load g.
@@ -221,8 +174,7 @@ impl StickZones {
         if self.is_elliptic() {
             return (self.size_under(remaining), load);
         }
-        let of_layer = if self.has_layer() { self.layer.increase(Complement::of_remaining(remaining)) } else { 0.0 };
-        let own = compliance_increase - of_layer;
+        let own = compliance_increase - self.layer.increase(Complement::of_remaining(remaining));
         let w = (self.b.w * self.b.w + (-2.0 * own).exp_m1()).max(0.25 * self.b.w * self.b.w * remaining).sqrt();
         (RoundedPunch::newton_step_from(RoundedPunch::new(self.b.flat, w), load), load)
     }
@@ -231,7 +183,7 @@ impl StickZones {
     /// terms if the curve is nearly straight; that of the layer, a logarithm which the iteration does not need, is not in it.
     #[inline(always)]
     fn zone(&self, punch: &RoundedPunch, load: f64, remaining: f64) -> StickZone {
-        let (full_stick, beta) = (self.contact.compliance, self.beta_of(punch, load));
+        let (full_stick, beta) = (self.contact.compliance, punch.beta(load));
         let (load, increase) = (Complement::of_remaining(remaining), self.increase_of(punch));
         let mut zone = StickZone {
             load,
@@ -260,39 +212,32 @@ impl StickZones {
             own = own.min(slip_shift * of_layer.sqrt()).max(f64::MIN_POSITIVE);
         }
         if self.is_elliptic() {
-            return self.punch((own / slip_shift).sqrt());
+            return RoundedPunch::ellipse((own / slip_shift).sqrt());
         }
         let w = RoundedPunch::initial_guess_w(self.b.flat, own / slip_shift * self.load);
         let increase = -0.5 * (self.b.flat * self.b.flat + w * w).clamp(TINY, 1.0).ln();
         let load = own / (slip_shift + increase) * self.load;
-        self.punch(RoundedPunch::initial_guess_w(self.b.flat, load).min(self.b.w))
+        self.b.resized(RoundedPunch::initial_guess_w(self.b.flat, load).min(self.b.w))
     }
 
     /// The stick zone at a remaining shift, from a size close to it; its size, and the inverse of the remaining shift close to it.
     ///
     /// The iteration raises an error to its fourth power.
     fn refine(&self, remaining: f64, start: RoundedPunch) -> (StickZone, RoundedPunch, InversePower) {
-        let is_ellipse = self.is_elliptic();
-        if is_ellipse && !self.has_layer() {
+        if self.is_elliptic() && !self.has_layer() {
             let punch = self.initial_guess(remaining);
-            let zone = self.zone(&punch, self.load_of(&punch), self.load_of(&punch));
+            let load = punch.w * punch.w * punch.w;
+            let zone = self.zone(&punch, load, load);
             let shift = Complement { consumed: self.slip_shift - remaining, remaining };
             return (StickZone { shift, ..zone }, punch, InversePower::default());
         }
         let mut punch = start;
         let mut iterations_left = 8;
         loop {
-            let (w, c2) = (punch.w, (punch.half_width * punch.half_width).max(TINY));
-            let load = self.load_of(&punch);
+            let (w, load, slope) = (punch.w, punch.load(), punch.load_slope());
             let now = self.zone(&punch, load, load / self.load);
             let compliance = self.compliance(&now);
-            let slope = self.load_slope(&punch);
-            // Decrease of the compliance with ln w, its derivative, and the rates of the load.
-            let (mut decrease, mut change, rho) = if is_ellipse {
-                (1.0 / w.max(TINY), -1.0 / w.max(TINY), [1.0, 0.0])
-            } else {
-                (w * w / c2, 2.0 * (w * w / c2) * (1.0 - w * w / c2), punch.rates())
-            };
+            let ([mut decrease, mut change], rho) = (punch.decrease(), punch.rates());
             if self.has_layer() {
                 let ([of_layer, rate], slope) = (self.layer.curvature(now.load), slope / self.load);
                 decrease += of_layer * slope;
@@ -309,7 +254,7 @@ impl StickZones {
                 let (zone, moved) = self.last_step(&now, &punch, step, remaining);
                 return (zone, moved, inverse);
             }
-            punch = self.punch((w + step).max(0.0).min(self.b.w));
+            punch = self.b.resized((w + step).max(0.0).min(self.b.w));
         }
     }
 
@@ -350,7 +295,7 @@ impl StickZones {
         let mut last: Option<InversePower> = None;
         move |remaining| {
             let w = last.as_ref().map_or(self.b.w, |last| last.w(remaining));
-            let (zone, punch, inverse) = self.refine(remaining, self.punch(w));
+            let (zone, punch, inverse) = self.refine(remaining, self.b.resized(w));
             last = Some(inverse);
             let [of_layer, _] = self.layer.curvature(zone.load);
             LoadPoint {
@@ -367,9 +312,7 @@ impl StickZones {
             return self.small_load.at_load(load, self.slip_shift);
         }
         let mut zone = self.zone(&self.size_under(load.remaining), load.remaining * self.load, load.remaining);
-        if self.has_layer() {
-            zone.shift.consumed += self.layer.shift(self.layer.lost(load));
-        }
+        zone.shift.consumed += self.layer.shift(self.layer.lost(load));
         let vanishes = load.remaining <= 0.0 && self.b.flat <= 0.0;
         StickZone { compliance_increase: if vanishes { f64::INFINITY } else { zone.compliance_increase }, ..zone }
     }
@@ -398,7 +341,7 @@ impl StickZones {
         }
         let remaining = load.remaining;
         let (punch, load_c) = self.size_near(remaining, compliance_increase);
-        let (beta, gamma) = (self.beta_of(&punch, load_c), self.gamma_of(&punch, load_c));
+        let (beta, gamma) = (punch.beta(load_c), punch.gamma(load_c));
         let increase = self.increase_of(&punch);
         let squares = self.gamma - remaining * remaining * gamma;
         let energy = 4.0 * ((1.0 + remaining) * (self.beta - remaining * beta) - remaining * increase - squares);
@@ -422,7 +365,7 @@ impl StickZones {
         } else {
             let (punch, load_c) = self.size_near(load.remaining, compliance_increase);
             let increase = self.increase_of(&punch);
-            let complement = self.beta - load.remaining * self.beta_of(&punch, load_c);
+            let complement = self.beta - load.remaining * punch.beta(load_c);
             (increase, increase - complement, complement, w - punch.w)
         };
         let by_flat = if w * w <= 3.0 * flat * flat {
@@ -492,7 +435,7 @@ impl StickZones {
     /// Relative slip (Eq. 15) in units of shift; `None` for an ellipse, for which there is no closed form.
     pub fn slip(&self, point: &SurfacePoint, zone: &StickZone) -> Option<f64> {
         let [square, _] = self.squares(zone);
-        let slip = || tractions::slip_beyond(&self.punch(square.sqrt()), point) * self.traction_scale();
+        let slip = || tractions::slip_beyond(&self.b.resized(square.sqrt()), point) * self.traction_scale();
         (!self.is_elliptic()).then(slip)
     }
 }

@@ -120,7 +120,7 @@ fn log_ratio(w: f64, zeta: f64, outside: f64) -> f64 {
 /// x ψ ξ + (x² + a²) atan2(a ξ, x w) - 2 a x atan2(ξ, w) - (g_c/2) acosh(x/c).
 /// ```
 pub(crate) fn slip_beyond(stick: &RoundedPunch, point: &SurfacePoint) -> f64 {
-    let RoundedPunch { flat: a, w, half_width: c, psi } = *stick;
+    let RoundedPunch { flat: a, w, half_width: c, psi, .. } = *stick;
     let x = point.x;
     let w_x = outside(a, point).max(0.0).sqrt();
     if w_x <= w {
