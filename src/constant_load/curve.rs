@@ -78,10 +78,9 @@ impl Contact {
         self.stick_zones().at_shift(Complement { consumed: consumed / unit, remaining: remaining / unit })
     }
 
-    /// The same; with a layer that of the load which the interpolant gives, if there is one.
+    /// The same: that of the load which the interpolant gives, if there is one.
     fn stick_zone_of_curve(&self, displacement: f64) -> StickZone {
-        let load = if self.stick_zones().has_layer() { self.load_at(self.before_slip(displacement)) } else { None };
-        match load {
+        match self.load_at(self.before_slip(displacement)) {
             Some((load, _)) => self.stick_zones().at_load(load),
             None => self.stick_zone_at_displacement(displacement),
         }
