@@ -106,31 +106,6 @@ impl<'a> Workspace<'a> {
             ByRule::EventDriven(workspace) => workspace.coefficients(),
         }
     }
-
-    /// [`harmonic_force`] with checked arguments.
-    pub(crate) fn evaluate(&mut self, contact: &Contact, displacement: &[f64], mut output: HarmonicOutput) {
-        if let Some(jacobian) = &mut output.jacobian {
-            jacobian.fill(0.0);
-        }
-        if let Some(drift) = &mut output.drift {
-            **drift = 0.0;
-        }
-        if contact.is_frictionless() {
-            if let Some(force) = output.force {
-                force.fill(0.0);
-            }
-            if let Some(dissipated) = output.dissipated {
-                *dissipated = 0.0;
-            }
-        } else if output.force.is_some() || output.jacobian.is_some() || output.dissipated.is_some() {
-            match &mut self.0 {
-                ByRule::UniformSampling(of_rule) => {
-                    uniform_sampling::harmonic_force(contact, of_rule, displacement, output);
-                }
-                ByRule::EventDriven(of_rule) => event_driven::harmonic_force(contact, of_rule, displacement, output),
-            }
-        }
-    }
 }
 
 /// Harmonic force of a periodic displacement given by its 2H + 1 coefficients \[m\], by the rule of the workspace.
@@ -140,10 +115,30 @@ pub fn harmonic_force(
     contact: &Contact,
     workspace: &mut Workspace,
     displacement: &[f64],
-    output: HarmonicOutput,
+    mut output: HarmonicOutput,
 ) -> Result<(), Error> {
     output.check(workspace.coefficients(), displacement)?;
-    workspace.evaluate(contact, displacement, output);
+    if let Some(jacobian) = &mut output.jacobian {
+        jacobian.fill(0.0);
+    }
+    if let Some(drift) = &mut output.drift {
+        **drift = 0.0;
+    }
+    if contact.is_frictionless() {
+        if let Some(force) = output.force {
+            force.fill(0.0);
+        }
+        if let Some(dissipated) = output.dissipated {
+            *dissipated = 0.0;
+        }
+    } else if output.force.is_some() || output.jacobian.is_some() || output.dissipated.is_some() {
+        match &mut workspace.0 {
+            ByRule::UniformSampling(of_rule) => {
+                uniform_sampling::harmonic_force(contact, of_rule, displacement, output);
+            }
+            ByRule::EventDriven(of_rule) => event_driven::harmonic_force(contact, of_rule, displacement, output),
+        }
+    }
     Ok(())
 }
 

@@ -7,7 +7,7 @@ use super::{mslip_contact, mslip_element};
 use crate::constant_load::ConstantLoad;
 use crate::constant_load::complex_stiffness::{check_amplitude, requested as stiffness_requested, write_values};
 use crate::constant_load::contact::Contact;
-use crate::constant_load::harmonic_force::{HarmonicOutput, Workspace};
+use crate::constant_load::harmonic_force::{HarmonicOutput, harmonic_force};
 use crate::element::{Directions, Element};
 use crate::error::Error;
 use crate::fourier::workspace::Layout;
@@ -335,11 +335,7 @@ pub unsafe extern "C" fn mslip_batch_harmonic_force(
         let (mut workspace, outputs) =
             (pointers::workspace(workspace)?, [force, jacobian, dissipated, ptr::null_mut()]);
         let (one, check) = (workspace.coefficients(), |_: &mut _, _: &_, u: &[f64]| check_coefficients(u));
-        let compute = |contact: &_, workspace: &mut Workspace, u: &[f64], output: HarmonicOutput| {
-            workspace.evaluate(contact, u, output);
-            Ok(())
-        };
-        harmonic_forces::<ConstantLoad, _>(items, &mut workspace, one, displacement, outputs, check, compute)
+        harmonic_forces::<ConstantLoad, _>(items, &mut workspace, one, displacement, outputs, check, harmonic_force)
     })
 }
 
