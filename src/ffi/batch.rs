@@ -1,7 +1,8 @@
 //! Batches of contacts and of elements: all items are checked before the first output is written.
 
 use super::pointers::{
-    self, call, check_alignment, check_length, input, item, output, outputs, requested, set, state_input, with_law,
+    self, call, check_alignment, check_length, input, item, output, outputs, place, requested, set, state_input,
+    with_law,
 };
 use super::{mslip_contact, mslip_element};
 use crate::constant_load::ConstantLoad;
@@ -62,6 +63,14 @@ pub(super) unsafe fn update_one<L: Law>(
     L::check_header(state_input(state_length, state_old)?)?;
     L::check_step(law, displacement)?;
     step::<L>(law, state_length, state_old, displacement, state_new, outputs);
+    Ok(())
+}
+
+/// Writes the bound on the error of the force in a state.
+pub(super) unsafe fn state_error<L: Law>(n: usize, state: *const f64, error: *mut f64) -> Result<(), Error> {
+    let (state, error) = (state_input(n, state)?, place(error)?);
+    L::check_header(state)?;
+    set(error, || L::force_error(state));
     Ok(())
 }
 

@@ -1,6 +1,6 @@
 //! Friction contact elements: initialisation, the normal law, load histories and tractions under a normal force that varies.
 
-use super::batch::{path, update_one};
+use super::batch::{path, state_error, update_one};
 use super::mslip_element;
 use super::pointers::{self, call, each, input, item, memory, outputs, place, set, state_input, sum, with_law};
 use crate::element::{Components, Directions, Element, NormalInput, NormalPoint};
@@ -220,15 +220,7 @@ pub unsafe extern "C" fn mslip_element_state_error(
     state: *const f64,
     force_error: *mut f64,
 ) -> i32 {
-    call(|| {
-        let directions = directions_of(directions)?;
-        let (state, force_error) = (state_input(state_length, state)?, place(force_error)?);
-        with_law!(directions, L => {
-            L::check_header(state)?;
-            set(force_error, || L::force_error(state));
-            Ok(())
-        })
-    })
+    call(|| with_law!(directions_of(directions)?, L => state_error::<L>(state_length, state, force_error)))
 }
 
 /// Advances the state of an element to a displacement: \[u, w\] with one tangential direction, \[u, v, w\] with two, tangential

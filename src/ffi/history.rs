@@ -1,9 +1,9 @@
 //! Load histories: states, and Masing's rule with return-point memory.
 
 use crate::constant_load::{ConstantLoad, Law, masing, state};
-use crate::ffi::batch::{path, update_one};
+use crate::ffi::batch::{path, state_error, update_one};
 use crate::ffi::mslip_contact;
-use crate::ffi::pointers::{self, call, each, input, memory, outputs, place, set, state_input};
+use crate::ffi::pointers::{self, call, each, input, memory, outputs, set, state_input};
 use crate::limits::check_positions;
 use libc::size_t;
 
@@ -36,12 +36,7 @@ pub unsafe extern "C" fn mslip_state_check(state_length: size_t, state: *const f
 /// Returns MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or MSLIP_BAD_STATE.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_state_error(state_length: size_t, state: *const f64, force_error: *mut f64) -> i32 {
-    call(|| {
-        let (state, force_error) = (state_input(state_length, state)?, place(force_error)?);
-        ConstantLoad::check_header(state)?;
-        set(force_error, || ConstantLoad::force_error(state));
-        Ok(())
-    })
+    call(|| state_error::<ConstantLoad>(state_length, state, force_error))
 }
 
 /// Advances the contact state to a displacement \[m\]: force \[N\], tangent stiffness \[N/m\], and energy dissipated in this step \[J\]
