@@ -318,9 +318,10 @@ fn invalid_states() {
                 found(3, 1e-6 * load, "less than the last knot");
             }
             _ => {
-                [5, 6, 7, 11, 12, 13, 14, 24, 36, 48].into_iter().for_each(|i| _ = found(i, -1.0, "a negative size"));
-                [84, 96, 396, 408].into_iter().for_each(|i| _ = found(i, 1e10, "a turn, or a spring that is too far"));
-                [396, 408].into_iter().for_each(|i| _ = found(i, 10.0, "a spring beyond its limit"));
+                [5, 6, 7, 11, 12, 13, 14, 36, 48, 60].into_iter().for_each(|i| _ = found(i, -1.0, "a negative size"));
+                found(24, 1e50, "a derivative that overflows");
+                [96, 108, 408, 420].into_iter().for_each(|i| _ = found(i, 1e10, "a turn, or a spring that is too far"));
+                [408, 420].into_iter().for_each(|i| _ = found(i, 10.0, "a spring beyond its limit"));
             }
         }
         let length = state.bytes / 8;
