@@ -314,19 +314,12 @@ impl Element {
         self.smallest.get(quantity as usize).copied().unwrap_or(0.0)
     }
 
-    /// The normal force at approaches \[m\] that [`Element::check_approach`] accepts; 0 for an approach <= 0, an open contact.
-    #[inline(always)]
-    pub(crate) fn normal_forces<const L: usize>(&self, approach: &[f64; L]) -> [NormalPoint; L] {
-        let (table, load) = (self.by_approach().then_some(&self.of_input), [Quantity::Load, Quantity::Approach]);
-        let tabulated = table.and_then(|table| table.at::<true, L>(approach));
-        let (value, slope) = tabulated.unwrap_or_else(|| self.one_by_one(table, load, *approach));
-        from_fn(|k| NormalPoint { value: value[k], slope: if approach[k] > 0.0 { slope[k] } else { 0.0 } })
-    }
-
     /// The normal force at an approach \[m\] that [`Element::check_approach`] accepts; 0 for an approach <= 0, an open contact.
+    #[inline(always)]
     pub fn normal_force_at(&self, approach: f64) -> NormalPoint {
-        let [point] = self.normal_forces(&[approach]);
-        point
+        let table = self.by_approach().then_some(&self.of_input);
+        let (value, slope) = self.one(table, [Quantity::Load, Quantity::Approach], approach);
+        NormalPoint { value, slope: if approach > 0.0 { slope } else { 0.0 } }
     }
 
     /// The approach under a normal force \[N\] that [`Element::check_normal_force`] accepts. Its derivative at 0 is infinite for a

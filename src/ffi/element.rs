@@ -151,7 +151,7 @@ pub unsafe extern "C" fn mslip_element_displacement(
     })
 }
 
-/// The normal law, or its inverse, four values at a time.
+/// The normal law, or its inverse.
 unsafe fn normal_law<const INVERSE: bool>(
     element: *const mslip_element,
     n: usize,
@@ -162,17 +162,11 @@ unsafe fn normal_law<const INVERSE: bool>(
         let (element, given, results) = (pointers::element(element)?, input(given, n)?, outputs(results, n)?);
         let check = if INVERSE { Element::check_normal_force } else { Element::check_approach };
         given.iter().try_for_each(|given| check(element, *given))?;
-        let [mut values, mut slopes, mut half_widths] = results.map(|result| result.unwrap_or_default().chunks_mut(4));
-        for block in given.chunks(4) {
-            let mut four = [block.first().copied().unwrap_or(0.0); 4];
-            four.iter_mut().zip(block).for_each(|(place, given)| *place = *given);
-            let points =
-                if INVERSE { four.map(|force| element.approach_under(force)) } else { element.normal_forces(&four) };
-            values.next().into_iter().flatten().zip(points).for_each(|(place, point)| *place = point.value);
-            slopes.next().into_iter().flatten().zip(points).for_each(|(place, point)| *place = point.slope);
-            let forces = if INVERSE { four } else { points.map(|point| point.value) };
-            let places = half_widths.next().into_iter().flatten().zip(forces);
-            places.for_each(|(place, force)| *place = element.half_width_under(force));
+        for (&given, [value, slope, half_width]) in each(given, results) {
+            let point = if INVERSE { element.approach_under(given) } else { element.normal_force_at(given) };
+            set(value, || point.value);
+            set(slope, || point.slope);
+            set(half_width, || element.half_width_under(if INVERSE { given } else { point.value }));
         }
         Ok(())
     })
