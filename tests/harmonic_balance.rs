@@ -1,8 +1,11 @@
 //! A mass on springs and a flat with a rough layer, under a static shear force, a vibration across it and a load that varies: harmonic balance
 //! converges at every frequency.
 
-use microslip::element::{Directions, Element, NormalInput};
-use microslip::parameters::{CENTRE_POINT, Layer, Material, Parameters};
+mod common;
+
+use common::two_directions::{element_of, layer_of, parameters};
+use microslip::element::Element;
+use microslip::parameters::Parameters;
 use microslip::two_directions::harmonic_force::{
     HarmonicOutput, Workspace, harmonic_force, workspace_init, workspace_length,
 };
@@ -25,25 +28,8 @@ const VIBRATING: [f64; 2] = [0.1, 0.3];
 const LOAD: [f64; 3] = [0.65, 0.25, 0.1];
 
 fn element(flat_half_width: f64, ratio: f64) -> Element {
-    let parameters = |layer| Parameters {
-        flat_half_width,
-        edge_radius: 0.05,
-        length: 0.02,
-        normal_force: 1000.0,
-        friction_coefficient: 0.4,
-        material: [Material { young_modulus: 2e11, poisson_ratio: 0.3 }; 2],
-        displacement_reference: CENTRE_POINT,
-        layer,
-        ..Parameters::default()
-    };
-    let of = |layer| Element::rounded_flat(&parameters(layer), Directions::Two, NormalInput::Force).unwrap();
-    let bare = of(Layer::none());
-    of(Layer {
-        normal_compliance: 1.0 / bare.normal_stiffness,
-        tangential_compliance: 1.0 / bare.tangential_stiffness,
-        stiffening_load: 1000.0 * ratio,
-        reference_load: 0.0,
-    })
+    let bare = parameters(flat_half_width);
+    element_of(&Parameters { layer: layer_of(&element_of(&bare), (1.0, ratio)), ..bare })
 }
 
 /// The solution of a system of equations, by elimination with pivots.

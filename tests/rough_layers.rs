@@ -3,9 +3,9 @@
 mod common;
 
 use common::Random;
-use common::two_directions::{COEFFICIENTS, Contact, Harmonic, harmonic};
+use common::two_directions::*;
 use microslip::element::{Directions, Element, NormalInput};
-use microslip::parameters::{CENTRE_POINT, EllipticParameters, Layer, Material, Parameters};
+use microslip::parameters::{EllipticParameters, Layer, Material, Parameters};
 use microslip::two_directions::Step;
 use std::f64::consts::TAU;
 
@@ -17,27 +17,14 @@ fn between(random: &mut Random, low: f64, high: f64) -> f64 {
 /// A flat of a/b from 0 to 0.999 or an ellipse under 1000 N, and its layer: compliances of 0.01 to 100 times those of the contact, N_c of
 /// 1 N to 1e6 N, one in four without.
 fn element(random: &mut Random, poisson_ratio: f64) -> Element {
-    let material = [Material { young_modulus: 2e11, poisson_ratio }; 2];
-    let (normal_force, friction_coefficient) = (1000.0, 0.5);
+    let (material, friction_coefficient) = ([Material { poisson_ratio, ..STEEL }; 2], 0.5);
     let build = |flat_half_width: f64, ratio: f64, layer: Layer| {
         if ratio > 0.0 {
-            let [semi_axis_x, semi_axis_y] = [1e-3, ratio * 1e-3];
-            let parameters =
-                EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, material, layer };
+            let own = elliptic_parameters(1e-3, ratio * 1e-3);
+            let parameters = EllipticParameters { friction_coefficient, material, layer, ..own };
             return Element::elliptic(&parameters, Directions::Two, NormalInput::Force).unwrap();
         }
-        let parameters = Parameters {
-            flat_half_width,
-            edge_radius: 0.05,
-            length: 0.02,
-            normal_force,
-            friction_coefficient,
-            material,
-            layer,
-            displacement_reference: CENTRE_POINT,
-            reserved: 0,
-        };
-        Element::rounded_flat(&parameters, Directions::Two, NormalInput::Force).unwrap()
+        element_of(&Parameters { friction_coefficient, material, layer, ..parameters(flat_half_width) })
     };
     let cylinder = build(0.0, 0.0, Layer::none()).half_width;
     let flat = if random.next() < 0.25 { 0.0 } else { cylinder * between(random, 1e-2, 10.0) };

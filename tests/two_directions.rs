@@ -4,42 +4,13 @@
 mod common;
 
 use common::Random;
-use common::two_directions::{COEFFICIENTS, Contact, Harmonic, ROW, SAMPLES, harmonic};
+use common::two_directions::*;
 use microslip::element::{Directions, Element, NormalInput};
 use microslip::one_direction::{self, OneDirection};
-use microslip::parameters::{CENTRE_POINT, EllipticParameters, Layer, Material, Parameters, RIGID_STRIP};
+use microslip::parameters::{EllipticParameters, Layer, Material, Parameters, RIGID_STRIP};
 use microslip::two_directions::{Law, Step, TwoDirections};
 use std::array::from_fn;
 use std::f64::consts::{FRAC_PI_2, TAU};
-
-const STEEL: Material = Material { young_modulus: 2e11, poisson_ratio: 0.3 };
-
-/// Compliances over those of the contact without it, and N_c over the normal force of the parameters.
-type Share = (f64, f64);
-
-/// A layer in units of an element without one.
-fn layer_of(element: &Element, (share, ratio): Share) -> Layer {
-    Layer {
-        normal_compliance: share / element.normal_stiffness,
-        tangential_compliance: share / element.tangential_stiffness,
-        stiffening_load: ratio * element.normal_force,
-        reference_load: 0.0,
-    }
-}
-
-fn parameters(flat_half_width: f64) -> Parameters {
-    Parameters {
-        flat_half_width,
-        edge_radius: 0.05,
-        length: 0.02,
-        normal_force: 1000.0,
-        friction_coefficient: 0.4,
-        material: [STEEL; 2],
-        displacement_reference: CENTRE_POINT,
-        layer: Layer::none(),
-        reserved: 0,
-    }
-}
 
 fn flat(flat_half_width: f64, input: NormalInput, directions: Directions) -> Element {
     flat_with(flat_half_width, Layer::none(), input, directions)
@@ -55,23 +26,11 @@ fn ellipse(ratio: f64) -> Element {
 }
 
 fn ellipse_of(semi_axis_x: f64, semi_axis_y: f64, directions: Directions, input: NormalInput) -> Element {
-    ellipse_with([semi_axis_x, semi_axis_y], Layer::none(), directions, input)
+    Element::elliptic(&elliptic_parameters(semi_axis_x, semi_axis_y), directions, input).unwrap()
 }
 
-fn ellipse_with(
-    [semi_axis_x, semi_axis_y]: [f64; 2],
-    layer: Layer,
-    directions: Directions,
-    input: NormalInput,
-) -> Element {
-    let parameters = EllipticParameters {
-        semi_axis_x,
-        semi_axis_y,
-        normal_force: 1000.0,
-        friction_coefficient: 0.4,
-        material: [STEEL; 2],
-        layer,
-    };
+fn ellipse_with(semi_axis_y: f64, layer: Layer, directions: Directions, input: NormalInput) -> Element {
+    let parameters = EllipticParameters { layer, ..elliptic_parameters(1e-3, semi_axis_y) };
     Element::elliptic(&parameters, directions, input).unwrap()
 }
 
@@ -93,7 +52,7 @@ fn layered(directions: Directions, input: NormalInput) -> Vec<Element> {
         flat_with(half_width, layer_of(&flat(half_width, input, directions), share), input, directions)
     });
     let ellipse = ellipse_of(1e-3, 3e-3, directions, input);
-    let ellipse = ellipse_with([1e-3, 3e-3], layer_of(&ellipse, (1.0, 0.3)), directions, input);
+    let ellipse = ellipse_with(3e-3, layer_of(&ellipse, (1.0, 0.3)), directions, input);
     flats.into_iter().chain([ellipse]).collect()
 }
 
@@ -236,7 +195,7 @@ fn a_linear_layer_is_a_spring_in_series() {
             let layer = layer_of(contact, (share, 0.0));
             let both = match HALF_WIDTHS.get(k) {
                 Some(half_width) => flat_with(*half_width, layer, NormalInput::Force, Directions::Two),
-                None => ellipse_with([1e-3, [1e-3, 3e-3][k - 3]], layer, Directions::Two, NormalInput::Force),
+                None => ellipse_with([1e-3, 3e-3][k - 3], layer, Directions::Two, NormalInput::Force),
             };
             let (mut both, mut contact) = (Contact::new(&both), Contact::new(contact));
             let (unit, slip_force) = (unit(both.element), slip_force(both.element));
@@ -354,12 +313,9 @@ fn mirror_images_and_other_units_give_the_same_bits() {
     let material = [Material { young_modulus: STEEL.young_modulus * newton / metre / metre, ..STEEL }; 2];
     for input in [NormalInput::Force, NormalInput::Approach] {
         let parameters = EllipticParameters {
-            semi_axis_x: 1e-3 * metre,
-            semi_axis_y: 3e-3 * metre,
             normal_force: 1000.0 * newton,
-            friction_coefficient: 0.4,
             material,
-            ..EllipticParameters::default()
+            ..elliptic_parameters(1e-3 * metre, 3e-3 * metre)
         };
         let (element, scaled) = (
             ellipse_of(1e-3, 3e-3, Directions::Two, input),
@@ -408,8 +364,7 @@ fn steps_satisfy_coulomb_and_states_restart() {
 #[test]
 fn springs_of_another_element_relax() {
     let own = parameters(1e-4);
-    let of = |own: Parameters| Element::rounded_flat(&own, Directions::Two, NormalInput::Force).unwrap();
-    let first = of(own);
+    let first = element_of(&own);
     let (mut contact, place) = (Contact::new(&first), [0.6 * unit(&first), 0.2 * unit(&first), first.normal_force]);
     contact.to(place);
     for other in [
@@ -418,7 +373,7 @@ fn springs_of_another_element_relax() {
         Parameters { displacement_reference: RIGID_STRIP, ..own },
         Parameters { layer: layer_of(&first, (1.0, 0.3)), ..own },
     ] {
-        let element = &of(other);
+        let element = &element_of(&other);
         let mut relaxed = Contact { element, state: contact.state.clone() };
         assert_eq!(relaxed.to(place).force, [0.0, 0.0, own.normal_force]);
         let mut new = Contact::new(element);
@@ -664,10 +619,7 @@ fn jacobians_of_many_random_motions_are_derivatives() {
 
 /// Flats of a/b from 0 to 0.999 with layers 0.01 to 100 times as compliant as the contact, and N_c from 1e-3 to 1e3 times the normal force.
 fn rough_flats(input: NormalInput) -> Vec<Element> {
-    let of = |flat_half_width, layer| {
-        let parameters = Parameters { layer, ..parameters(flat_half_width) };
-        Element::rounded_flat(&parameters, Directions::Two, input).unwrap()
-    };
+    let of = |flat_half_width, layer| flat_with(flat_half_width, layer, input, Directions::Two);
     let shares = [0.01, 1.0, 100.0].map(|share| [1e-3, 0.03, 1.0, 1e3].map(|ratio| (share, ratio)));
     let bare = HALF_WIDTHS.into_iter().chain([4e-3]).map(|half_width| (half_width, of(half_width, Layer::none())));
     let with =

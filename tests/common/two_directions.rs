@@ -1,10 +1,46 @@
 //! An element with two tangential directions and its state, and the harmonic force of a motion with one harmonic.
 
-use microslip::element::Element;
+use microslip::element::{Directions, Element, NormalInput};
+use microslip::parameters::{CENTRE_POINT, EllipticParameters, Layer, Material, Parameters};
 use microslip::two_directions::harmonic_force::{
     HarmonicOutput, Workspace, harmonic_force, workspace_init, workspace_length,
 };
 use microslip::two_directions::{Law, Step, TwoDirections};
+
+pub const STEEL: Material = Material { young_modulus: 2e11, poisson_ratio: 0.3 };
+
+pub fn parameters(flat_half_width: f64) -> Parameters {
+    Parameters {
+        flat_half_width,
+        edge_radius: 0.05,
+        length: 0.02,
+        normal_force: 1000.0,
+        friction_coefficient: 0.4,
+        material: [STEEL; 2],
+        displacement_reference: CENTRE_POINT,
+        ..Parameters::default()
+    }
+}
+
+pub fn elliptic_parameters(semi_axis_x: f64, semi_axis_y: f64) -> EllipticParameters {
+    let Parameters { normal_force, friction_coefficient, material, layer, .. } = parameters(0.0);
+    EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, material, layer }
+}
+
+/// The element of two directions by its normal force.
+pub fn element_of(parameters: &Parameters) -> Element {
+    Element::rounded_flat(parameters, Directions::Two, NormalInput::Force).unwrap()
+}
+
+/// A layer in units of an element without one: compliances over those of the contact, and N_c over its normal force.
+pub fn layer_of(element: &Element, (share, ratio): (f64, f64)) -> Layer {
+    Layer {
+        normal_compliance: share / element.normal_stiffness,
+        tangential_compliance: share / element.tangential_stiffness,
+        stiffening_load: ratio * element.normal_force,
+        reference_load: 0.0,
+    }
+}
 
 #[derive(Clone)]
 pub struct Contact<'a> {
