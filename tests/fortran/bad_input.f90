@@ -14,7 +14,7 @@ program bad_input
 
   type :: procedure_info
     character(len=32) :: name
-    character(len=5) :: outputs          ! Four outputs and the new state: shapes as in `set_up`, upper case if required.
+    character(len=5) :: outputs          ! Four outputs, o: optional, r: required; the new state, s: one, b: of a batch.
     character :: memory = ' '            ! s: state, w: workspace, t: table.
     logical :: batch = .false., element = .false.
   end type procedure_info
@@ -56,30 +56,16 @@ program bad_input
 
 contains
 
-  pure function flat_parameters(i) result(flat)
-    ! The contacts of a batch differ by their loads.
-    integer, intent(in) :: i
-    type(mslip_parameters) :: flat
-
-    flat = mslip_parameters(flat_half_width=5.0e-4_wp, edge_radius=3.0e-3_wp, length=2.0e-2_wp, normal_force=790.0_wp + 10*i, &
-      friction_coefficient=0.5_wp, material=[mslip_material(1.14e11_wp, 0.32_wp), mslip_material(2.0e11_wp, 0.29_wp)], &
-      displacement_reference=MSLIP_CENTRE_POINT)
-  end function flat_parameters
-
   subroutine set_up()
     ! Valid arguments of procedure p, and unset outputs of the required shapes.
     integer(mslip_int) :: ok
     integer :: i, items
 
     items = merge(n, 1, procedures(p)%batch)
-    if (allocated(contacts)) deallocate (contacts)
-    allocate (contacts(items))
+    contacts = [(mslip_contact(), i = 1, items)]
+    elements = [(mslip_element(), i = 1, items)]
     do i = 1, items
       call mslip_contact_init(flat_parameters(i), contacts(i), ok)
-    end do
-    if (allocated(elements)) deallocate (elements)
-    allocate (elements(items))
-    do i = 1, items
       call mslip_element_init(flat_parameters(i), directions, MSLIP_INPUT_APPROACH, elements(i), ok)
     end do
     vector = [spread(1.0e-7_wp, 1, int(directions)), 2.0e-7_wp]
@@ -87,8 +73,7 @@ contains
     scalar = 1.0e-7_wp
     x = [1.0e-7_wp, 2.0e-7_wp, 3.0e-7_wp]
     u = spread([0.0_wp, 3.0e-7_wp, 1.0e-7_wp, 0.0_wp, 2.0e-8_wp], 2, items)
-    if (allocated(index)) deallocate (index)
-    if (allocated(active)) deallocate (active)
+    if (allocated(index)) deallocate (index, active)
     if (procedures(p)%batch) then
       index = [2_mslip_int, 1_mslip_int, 3_mslip_int]
       active = spread(1_mslip_int, 1, n)
@@ -115,27 +100,10 @@ contains
     call check_status('set up', ok, MSLIP_OK)
     do i = 1, size(out)
       out(i) = output()
-      select case (procedures(p)%outputs(i:i))
-      case ('s', 'S'); out(i)%s = untouched
-      case ('v', 'V'); out(i)%v = spread(untouched, 1, n)
-      case ('c'); out(i)%v = spread(untouched, 1, m)
-      case ('N'); out(i)%v = spread(untouched, 1, size(state))
-      case ('f'); out(i)%m = reshape([real(wp) ::], [m, n], pad=[untouched])
-      case ('q'); out(i)%m = reshape([real(wp) ::], [int(MSLIP_PARAMETER_COUNT), n], pad=[untouched])
-      case ('r'); out(i)%m = reshape([real(wp) ::], [m, int(MSLIP_PARAMETER_COUNT)], pad=[untouched])
-      case ('j'); out(i)%m = reshape([real(wp) ::], [m, m], pad=[untouched])
-      case ('B'); out(i)%m = reshape([real(wp) ::], shape(states), pad=[untouched])
-      case ('k'); out(i)%t = reshape([real(wp) ::], [m, m, n], pad=[untouched])
-      case ('p'); out(i)%v = spread(untouched, 1, components)
-      case ('t'); out(i)%m = reshape([real(wp) ::], [components, components], pad=[untouched])
-      case ('a'); out(i)%m = reshape([real(wp) ::], [components, n], pad=[untouched])
-      case ('b'); out(i)%t = reshape([real(wp) ::], [components, components, n], pad=[untouched])
-      case ('d'); out(i)%v = spread(untouched, 1, me)
-      case ('e'); out(i)%m = reshape([real(wp) ::], [me, me], pad=[untouched])
-      case ('g'); out(i)%m = reshape([real(wp) ::], [me, n], pad=[untouched])
-      case ('h'); out(i)%t = reshape([real(wp) ::], [me, me, n], pad=[untouched])
-      end select
     end do
+    call set_outputs()
+    if (procedures(p)%outputs(5:5) == 's') out(5)%v = spread(untouched, 1, size(state))
+    if (procedures(p)%outputs(5:5) == 'b') out(5)%m = reshape([real(wp) ::], shape(states), pad=[untouched])
   end subroutine set_up
 
   include 'calls.f90'
@@ -185,12 +153,6 @@ contains
       .and. all(transfer([state, states], [0_c_int64_t]) == transfer(before, [0_c_int64_t])))
   end subroutine rejected
 
-  logical function is_optional(i)
-    integer, intent(in) :: i
-
-    is_optional = scan(procedures(p)%outputs(i:i), 'svcjfkptabdeghqr') > 0
-  end function is_optional
-
   subroutine test_subsets()
     type(output) :: all_outputs(size(out))
     real(wp), allocatable :: advanced(:)
@@ -216,7 +178,7 @@ contains
     do subset = 0, 15
       call set_up()
       do i = 1, 4
-        if (is_optional(i) .and. .not. btest(subset, i - 1)) out(i) = output()
+        if (procedures(p)%outputs(i:i) == 'o' .and. .not. btest(subset, i - 1)) out(i) = output()
       end do
       call perform()
       call check_status(trim(procedures(p)%name)//': a subset of the outputs', status, MSLIP_OK)
@@ -299,8 +261,8 @@ contains
     states = states(:3, :)
     workspace = workspace(:size(workspace) - 1)
     table = table(:size(table) - 1)
-    if (procedures(p)%outputs(5:5) == 'N') out(5)%v = out(5)%v(:3)
-    if (procedures(p)%outputs(5:5) == 'B') out(5)%m = out(5)%m(:3, :)
+    if (procedures(p)%outputs(5:5) == 's') out(5)%v = out(5)%v(:3)
+    if (procedures(p)%outputs(5:5) == 'b') out(5)%m = out(5)%m(:3, :)
     if (procedures(p)%memory == 's') call rejected('a truncated state', MSLIP_STATE_TOO_SHORT)
     if (procedures(p)%memory == 'w') call rejected('a truncated workspace', MSLIP_WORKSPACE_TOO_SHORT)
     if (procedures(p)%memory == 't') call rejected('a truncated table', MSLIP_TABLE_TOO_SHORT)
@@ -367,7 +329,7 @@ contains
       if (procedures(p)%memory == 'w') call rejected('the workspace of one direction', MSLIP_BAD_COEFFICIENTS)
       state = state_of_one
       states(:, n) = state_of_one(:size(states, 1))
-      if (procedures(p)%outputs(5:5) == 'N') out(5)%v = spread(untouched, 1, size(state))
+      if (procedures(p)%outputs(5:5) == 's') out(5)%v = spread(untouched, 1, size(state))
       if (procedures(p)%memory == 's') call rejected('the state of one direction', MSLIP_BAD_DIRECTIONS)
     end do
   end subroutine test_two_directions

@@ -137,3 +137,71 @@
       address(out(3)), address(out(4)))
     end select
   end subroutine perform_in_c
+
+  subroutine set_outputs()
+    select case (p)
+    case (1); out(1)%v = spread(untouched, 1, n); out(2)%v = spread(untouched, 1, n)
+    case (2); out(1)%v = spread(untouched, 1, n); out(2)%v = spread(untouched, 1, n)
+    case (3); out(1)%v = spread(untouched, 1, n); out(2)%v = spread(untouched, 1, n); out(3)%v = spread(untouched, &
+      1, n)
+    case (4); out(1)%s = untouched; out(2)%s = untouched; out(3)%s = untouched
+    case (5); out(1)%v = spread(untouched, 1, n); out(2)%v = spread(untouched, 1, n); out(3)%v = spread(untouched, &
+      1, n)
+    case (6); out(1)%s = untouched; out(2)%s = untouched; out(3)%s = untouched
+    case (7); out(1)%v = spread(untouched, 1, n); out(2)%m = reshape([real(wp) ::], [int(MSLIP_PARAMETER_COUNT), n], &
+      pad=[untouched])
+    case (8); out(1)%s = untouched; out(2)%s = untouched; out(3)%s = untouched
+    case (9); out(1)%s = untouched; out(2)%s = untouched; out(3)%s = untouched
+    case (10); out(1)%v = spread(untouched, 1, n); out(2)%v = spread(untouched, 1, n); out(3)%v = spread(untouched, &
+      1, n)
+    case (11); out(1)%v = spread(untouched, 1, n); out(2)%v = spread(untouched, 1, n); out(3)%v = spread(untouched, &
+      1, n)
+    case (12); out(1)%v = spread(untouched, 1, n); out(2)%v = spread(untouched, 1, n)
+    case (13); out(1)%v = spread(untouched, 1, n); out(2)%v = spread(untouched, 1, n)
+    case (14); out(1)%v = spread(untouched, 1, n)
+    case (15); out(1)%s = untouched
+    case (16); out(1)%v = spread(untouched, 1, n); out(2)%v = spread(untouched, 1, n); out(3)%v = spread(untouched, &
+      1, n); out(4)%v = spread(untouched, 1, n)
+    case (17); out(1)%s = untouched; out(2)%s = untouched; out(3)%s = untouched; out(4)%s = untouched
+    case (18); out(1)%v = spread(untouched, 1, n); out(2)%v = spread(untouched, 1, n); out(3)%v = spread(untouched, &
+      1, n); out(4)%v = spread(untouched, 1, n)
+    case (19); out(1)%s = untouched; out(2)%s = untouched; out(3)%s = untouched; out(4)%s = untouched
+    case (20); out(1)%s = untouched; out(2)%s = untouched
+    case (21); out(1)%v = spread(untouched, 1, n); out(2)%v = spread(untouched, 1, n); out(3)%s = untouched
+    case (22); out(1)%v = spread(untouched, 1, m); out(2)%m = reshape([real(wp) ::], [m, m], pad=[untouched]); &
+      out(3)%s = untouched
+    case (23); out(1)%v = spread(untouched, 1, m); out(2)%m = reshape([real(wp) ::], [m, &
+      int(MSLIP_PARAMETER_COUNT)], pad=[untouched])
+    case (24); out(1)%v = spread(untouched, 1, n); out(2)%v = spread(untouched, 1, n); out(3)%v = spread(untouched, &
+      1, n); out(4)%v = spread(untouched, 1, n)
+    case (25); out(1)%v = spread(untouched, 1, n); out(2)%v = spread(untouched, 1, n); out(3)%v = spread(untouched, &
+      1, n)
+    case (26); out(1)%v = spread(untouched, 1, n); out(2)%v = spread(untouched, 1, n); out(3)%v = spread(untouched, &
+      1, n)
+    case (27); out(1)%m = reshape([real(wp) ::], [m, n], pad=[untouched]); out(2)%t = reshape([real(wp) ::], [m, m, &
+      n], pad=[untouched]); out(3)%v = spread(untouched, 1, n)
+    case (28); out(1)%v = spread(untouched, 1, n); out(2)%v = spread(untouched, 1, n); out(3)%v = spread(untouched, &
+      1, n)
+    case (29); out(1)%s = untouched; out(2)%s = untouched; out(3)%s = untouched
+    case (30); out(1)%v = spread(untouched, 1, n); out(2)%v = spread(untouched, 1, n); out(3)%v = spread(untouched, &
+      1, n)
+    case (31); out(1)%s = untouched; out(2)%s = untouched; out(3)%s = untouched
+    case (32); out(1)%v = spread(untouched, 1, components); out(2)%m = reshape([real(wp) ::], [components, &
+      components], pad=[untouched]); out(3)%s = untouched
+    case (33); out(1)%v = spread(untouched, 1, components); out(2)%m = reshape([real(wp) ::], [components, &
+      components], pad=[untouched]); out(3)%s = untouched
+    case (34); out(1)%m = reshape([real(wp) ::], [components, n], pad=[untouched]); out(2)%t = reshape([real(wp) &
+      ::], [components, components, n], pad=[untouched]); out(3)%v = spread(untouched, 1, n)
+    case (35); out(1)%m = reshape([real(wp) ::], [components, n], pad=[untouched]); out(2)%t = reshape([real(wp) &
+      ::], [components, components, n], pad=[untouched]); out(3)%v = spread(untouched, 1, n)
+    case (36); out(1)%v = spread(untouched, 1, n); out(2)%v = spread(untouched, 1, n)
+    case (37); out(1)%v = spread(untouched, 1, me); out(2)%m = reshape([real(wp) ::], [me, me], pad=[untouched]); &
+      out(3)%s = untouched; out(4)%s = untouched
+    case (38); out(1)%m = reshape([real(wp) ::], [components, n], pad=[untouched]); out(2)%t = reshape([real(wp) &
+      ::], [components, components, n], pad=[untouched]); out(3)%v = spread(untouched, 1, n)
+    case (39); out(1)%m = reshape([real(wp) ::], [components, n], pad=[untouched]); out(2)%t = reshape([real(wp) &
+      ::], [components, components, n], pad=[untouched]); out(3)%v = spread(untouched, 1, n)
+    case (40); out(1)%m = reshape([real(wp) ::], [me, n], pad=[untouched]); out(2)%t = reshape([real(wp) ::], [me, &
+      me, n], pad=[untouched]); out(3)%v = spread(untouched, 1, n); out(4)%v = spread(untouched, 1, n)
+    end select
+  end subroutine set_outputs

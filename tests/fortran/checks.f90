@@ -1,9 +1,9 @@
 module checks
-  ! Checks that are counted: a failure is printed with its values and does not stop the program.
-  use microslip, only: mslip_int, mslip_real, mslip_status_text
+  ! Checks that are counted: a failure is printed with its values and does not stop the program. Parameters for tests.
+  use microslip, only: MSLIP_CENTRE_POINT, mslip_int, mslip_material, mslip_parameters, mslip_real, mslip_status_text
   implicit none
   private
-  public :: wp, untouched, check, check_status, check_close, check_same, report
+  public :: wp, untouched, flat_parameters, check, check_status, check_close, check_same, report
 
   integer, parameter :: wp = mslip_real
   ! The value of outputs before a call, to check that a rejected call does not modify them.
@@ -12,6 +12,16 @@ module checks
   integer :: passed = 0, failed = 0
 
 contains
+
+  pure function flat_parameters(i) result(flat)
+    ! The contacts of a batch differ by their loads; the first has 800 N.
+    integer, intent(in) :: i
+    type(mslip_parameters) :: flat
+
+    flat = mslip_parameters(flat_half_width=5.0e-4_wp, edge_radius=3.0e-3_wp, length=2.0e-2_wp, normal_force=790.0_wp + 10*i, &
+      friction_coefficient=0.5_wp, material=[mslip_material(1.14e11_wp, 0.32_wp), mslip_material(2.0e11_wp, 0.29_wp)], &
+      displacement_reference=MSLIP_CENTRE_POINT)
+  end function flat_parameters
 
   subroutine check(name, condition)
     character(len=*), intent(in) :: name

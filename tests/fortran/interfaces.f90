@@ -267,43 +267,43 @@
   end interface
 
   type(procedure_info), parameter :: procedures(40) = [ &
-    procedure_info('tractions', 'vv', ' '), &
-    procedure_info('slip', 'vv', ' '), &
-    procedure_info('monotonic_displacement', 'vvv', ' '), &
-    procedure_info('monotonic_displacement, one', 'sss', ' '), &
-    procedure_info('monotonic_force', 'vvv', ' '), &
-    procedure_info('monotonic_force, one', 'sss', ' '), &
-    procedure_info('monotonic_sensitivity', 'vq', ' '), &
-    procedure_info('masing_update', 'sss N', 's'), &
-    procedure_info('masing_advance', 'sss', 's'), &
-    procedure_info('masing_path', 'vvv N', 's'), &
-    procedure_info('masing_path_advance', 'vvv', 's'), &
-    procedure_info('masing_tractions', 'vv', 's'), &
-    procedure_info('hysteresis_loop', 'VV', ' '), &
-    procedure_info('dissipated_energy', 'V', ' '), &
-    procedure_info('dissipated_energy, one', 'S', ' '), &
-    procedure_info('complex_stiffness', 'vvvv', ' '), &
-    procedure_info('complex_stiffness, one', 'ssss', ' '), &
-    procedure_info('complex_stiffness_tabulated', 'vvvv', 't'), &
-    procedure_info('complex_stiffness_tabulated, one', 'ssss', 't'), &
-    procedure_info('jenkins_equivalent', 'SS', ' '), &
-    procedure_info('iwan_equivalent', 'VVs', ' '), &
-    procedure_info('harmonic_force', 'cjs', 'w'), &
-    procedure_info('harmonic_sensitivity', 'cr', 'w'), &
-    procedure_info('batch_complex_stiffness', 'vvvv', ' ', batch=.true.), &
-    procedure_info('batch_masing_update', 'vvv B', 's', batch=.true.), &
-    procedure_info('batch_masing_advance', 'vvv', 's', batch=.true.), &
-    procedure_info('batch_harmonic_force', 'fkv', 'w', batch=.true.), &
-    procedure_info('normal_force', 'vvv', ' ', element=.true.), &
-    procedure_info('normal_force, one', 'sss', ' ', element=.true.), &
-    procedure_info('normal_approach', 'vvv', ' ', element=.true.), &
-    procedure_info('normal_approach, one', 'sss', ' ', element=.true.), &
-    procedure_info('element_update', 'pts N', 's', element=.true.), &
-    procedure_info('element_advance', 'pts', 's', element=.true.), &
-    procedure_info('element_path', 'abv N', 's', element=.true.), &
-    procedure_info('element_path_advance', 'abv', 's', element=.true.), &
-    procedure_info('element_tractions', 'vv', 's', element=.true.), &
-    procedure_info('element_harmonic_force', 'dess', 'w', element=.true.), &
-    procedure_info('batch_element_update', 'abv B', 's', batch=.true., element=.true.), &
-    procedure_info('batch_element_advance', 'abv', 's', batch=.true., element=.true.), &
-    procedure_info('batch_element_harmonic_force', 'ghvv', 'w', batch=.true., element=.true.)]
+    procedure_info('tractions', 'oo', ' '), &
+    procedure_info('slip', 'oo', ' '), &
+    procedure_info('monotonic_displacement', 'ooo', ' '), &
+    procedure_info('monotonic_displacement, one', 'ooo', ' '), &
+    procedure_info('monotonic_force', 'ooo', ' '), &
+    procedure_info('monotonic_force, one', 'ooo', ' '), &
+    procedure_info('monotonic_sensitivity', 'oo', ' '), &
+    procedure_info('masing_update', 'ooo s', 's'), &
+    procedure_info('masing_advance', 'ooo', 's'), &
+    procedure_info('masing_path', 'ooo s', 's'), &
+    procedure_info('masing_path_advance', 'ooo', 's'), &
+    procedure_info('masing_tractions', 'oo', 's'), &
+    procedure_info('hysteresis_loop', 'rr', ' '), &
+    procedure_info('dissipated_energy', 'r', ' '), &
+    procedure_info('dissipated_energy, one', 'r', ' '), &
+    procedure_info('complex_stiffness', 'oooo', ' '), &
+    procedure_info('complex_stiffness, one', 'oooo', ' '), &
+    procedure_info('complex_stiffness_tabulated', 'oooo', 't'), &
+    procedure_info('complex_stiffness_tabulated, one', 'oooo', 't'), &
+    procedure_info('jenkins_equivalent', 'rr', ' '), &
+    procedure_info('iwan_equivalent', 'rro', ' '), &
+    procedure_info('harmonic_force', 'ooo', 'w'), &
+    procedure_info('harmonic_sensitivity', 'oo', 'w'), &
+    procedure_info('batch_complex_stiffness', 'oooo', ' ', batch=.true.), &
+    procedure_info('batch_masing_update', 'ooo b', 's', batch=.true.), &
+    procedure_info('batch_masing_advance', 'ooo', 's', batch=.true.), &
+    procedure_info('batch_harmonic_force', 'ooo', 'w', batch=.true.), &
+    procedure_info('normal_force', 'ooo', ' ', element=.true.), &
+    procedure_info('normal_force, one', 'ooo', ' ', element=.true.), &
+    procedure_info('normal_approach', 'ooo', ' ', element=.true.), &
+    procedure_info('normal_approach, one', 'ooo', ' ', element=.true.), &
+    procedure_info('element_update', 'ooo s', 's', element=.true.), &
+    procedure_info('element_advance', 'ooo', 's', element=.true.), &
+    procedure_info('element_path', 'ooo s', 's', element=.true.), &
+    procedure_info('element_path_advance', 'ooo', 's', element=.true.), &
+    procedure_info('element_tractions', 'oo', 's', element=.true.), &
+    procedure_info('element_harmonic_force', 'oooo', 'w', element=.true.), &
+    procedure_info('batch_element_update', 'ooo b', 's', batch=.true., element=.true.), &
+    procedure_info('batch_element_advance', 'ooo', 's', batch=.true., element=.true.), &
+    procedure_info('batch_element_harmonic_force', 'oooo', 'w', batch=.true., element=.true.)]

@@ -23,33 +23,15 @@ program test_microslip
 
 contains
 
-  function cylinder_parameters() result(p)
-    type(mslip_parameters) :: p
-
-    p = mslip_parameters(flat_half_width=0.0_wp, edge_radius=5.0e-3_wp, length=3.67e-2_wp, normal_force=2268.49_wp, &
-      friction_coefficient=0.647_wp, material=[mslip_material(1.14e11_wp, 0.29_wp), mslip_material(1.14e11_wp, 0.29_wp)], &
-      displacement_reference=MSLIP_CENTRE_POINT)
-  end function cylinder_parameters
-
-  function flat_parameters() result(p)
-    type(mslip_parameters) :: p
-
-    call mslip_parameters_default(p)
-    p%flat_half_width = 5.0e-4_wp
-    p%edge_radius = 3.0e-3_wp
-    p%length = 2.0e-2_wp
-    p%normal_force = 800.0_wp
-    p%friction_coefficient = 0.5_wp
-    p%displacement_reference = MSLIP_CENTRE_POINT
-    p%material(1) = mslip_material(young_modulus=1.14e11_wp, poisson_ratio=0.32_wp)
-    p%material(2) = mslip_material(young_modulus=2.0e11_wp, poisson_ratio=0.29_wp)
-  end function flat_parameters
-
   subroutine initialise()
     type(mslip_parameters) :: p
     integer(mslip_int) :: status
 
-    p = cylinder_parameters()
+    p = mslip_parameters(flat_half_width=0.0_wp, edge_radius=5.0e-3_wp, length=3.67e-2_wp, normal_force=2268.49_wp, &
+      friction_coefficient=0.647_wp, material=spread(mslip_material(1.14e11_wp, 0.29_wp), 1, 2), &
+      displacement_reference=MSLIP_CENTRE_POINT)
+    call mslip_contact_init(p, cylinder, status)
+    call check_status('initialise the cylinder', status, MSLIP_OK)
     call check('no warning', mslip_parameters_warning(p, 1_mslip_int) == '' .and. mslip_parameters_warning(p, 0_mslip_int) == '')
     p%friction_coefficient = 45
     p%length = 1.0e-3_wp*p%length
@@ -58,13 +40,12 @@ contains
       mslip_parameters_warning(p, 3_mslip_int) == '')
     call check('warning of an ellipse', index(mslip_elliptic_parameters_warning(mslip_elliptic_parameters(1.0_wp, 1e-3_wp, 1.0_wp, &
       0.5_wp, spread(mslip_material(2.0e11_wp, 0.3_wp), 1, 2)), 1_mslip_int), 'semi_axis_x is implausible') == 1)
-    call mslip_contact_init(cylinder_parameters(), cylinder, status)
-    call check_status('initialise the cylinder', status, MSLIP_OK)
-    call mslip_contact_init(flat_parameters(), flat, status)
+    call mslip_contact_init(flat_parameters(1), flat, status)
     call check_status('initialise the rounded flat', status, MSLIP_OK)
-    p = flat_parameters()
-    p%normal_force = 0.0_wp
+    call mslip_parameters_default(p)
     call mslip_contact_init(p, open_contact, status)
+    call check_status('default parameters', status, MSLIP_BAD_FLAT_HALF_WIDTH)
+    call mslip_contact_init(flat_parameters(-79), open_contact, status)  ! no load
     call check_status('initialise the open contact', status, MSLIP_OK)
   end subroutine initialise
 
@@ -90,7 +71,7 @@ contains
     call check('a message for an unknown status', len(mslip_status_text(-5_mslip_int)) > 0)
     call check('size of a contact: no padding', storage_size(cylinder) == 64*(6 + size(cylinder%reserved)))
     call check('size of a material', storage_size(mslip_material(1.0_wp, 0.3_wp)) == 2*64)
-    call check('size of the parameters', storage_size(flat_parameters()) == 14*64)
+    call check('size of the parameters', storage_size(flat_parameters(1)) == 14*64)
   end subroutine test_library
 
   subroutine test_contacts()
