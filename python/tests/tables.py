@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 REPOSITORY = Path(__file__).resolve().parents[2]
+HEADER = (REPOSITORY / "include" / "microslip.h").read_text()
 
 # A flat of different bodies.
 FLAT = {
@@ -22,6 +23,8 @@ FLAT = {
     "poisson_ratio": 0.3,
     "displacement_reference": "centre_point",
 }
+MATERIAL = {name: FLAT[name] for name in ("normal_force", "friction_coefficient", "young_modulus", "poisson_ratio")}
+ELLIPSE = {"semi_axis_x": 1e-3, "semi_axis_y": 2e-3, **MATERIAL}
 
 
 def rows(name: str) -> list[dict[str, Any]]:

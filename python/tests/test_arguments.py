@@ -16,11 +16,7 @@ import microslip
 import numpy as np
 import pytest
 from microslip import _contact, _core, _element, _law, _memory
-from tables import FLAT, REPOSITORY
-
-HEADER = (REPOSITORY / "include" / "microslip.h").read_text()
-MATERIAL = {name: FLAT[name] for name in ("normal_force", "friction_coefficient", "young_modulus", "poisson_ratio")}
-ELLIPSE = {"semi_axis_x": 1e-3, "semi_axis_y": 2e-3, **MATERIAL}
+from tables import ELLIPSE, FLAT, HEADER, REPOSITORY
 
 contact = microslip.Contact(**FLAT)
 element = microslip.Element(**FLAT)

@@ -5,18 +5,9 @@ from __future__ import annotations
 import microslip
 import numpy as np
 import pytest
-from tables import REPOSITORY
+from tables import FLAT, REPOSITORY
 
-TRUTH = {
-    "flat_half_width": 0.1e-3,
-    "edge_radius": 20e-3,
-    "length": 20e-3,
-    "normal_force": 800.0,
-    "friction_coefficient": 0.5,
-    "young_modulus": 2e11,
-    "displacement_reference": "centre_point",
-    "poisson_ratio": 0.3,
-}
+TRUTH = FLAT | {"flat_half_width": 0.1e-3, "edge_radius": 20e-3, "young_modulus": 2e11}
 contact = microslip.Contact(**TRUTH)
 SERIES = 0.2 / contact.initial_stiffness
 
@@ -124,11 +115,7 @@ def test_constants_are_given_by_number_or_word():
 def test_measured_loops_of_three_loads_to_a_contact(tmp_path):
     """Measured loops, fit, parameter file: without an edit, to the true contact. Its layer is stiffer under a larger load."""
     random = np.random.default_rng(7)
-    layer = {
-        "tangential_compliance": 0.3 / contact.initial_stiffness,
-        "stiffening_load": 200.0,
-        "reference_load": TRUTH["normal_force"],
-    }
+    layer = {"tangential_compliance": 0.3 / contact.initial_stiffness, "stiffening_load": 200.0, "reference_load": 800.0}
     t = 2 * np.pi * np.arange(160) / 80
     measured = []
     for amplitude, load in [(0.7, 200.0), (2.0, 400.0), (1.2, 800.0)]:

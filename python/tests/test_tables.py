@@ -93,14 +93,9 @@ def test_slip(group):
 @pytest.mark.parametrize("group", groups("elliptic", "case"))
 def test_elliptic(group):
     first = group[0]
-    contact = microslip.Contact.elliptic(
-        semi_axis_x=first["semi_axis_x"],
-        semi_axis_y=first["semi_axis_y"],
-        normal_force=first["N"],
-        friction_coefficient=first["mu"],
-        young_modulus=first["E"],
-        poisson_ratio=first["nu"],
-    )
+    named = {"normal_force": "N", "friction_coefficient": "mu", "young_modulus": "E", "poisson_ratio": "nu"}
+    semi_axes = {name: first[name] for name in ("semi_axis_x", "semi_axis_y")}
+    contact = microslip.Contact.elliptic(**semi_axes, **{name: first[column] for name, column in named.items()})
     assert_allclose(contact.initial_stiffness, first["initial_stiffness"], rtol=CLOSE)
     force = column(group, "T")
     found = contact.monotonic_displacement(force)
