@@ -218,7 +218,7 @@ impl<T> Passed for *mut T {
 
 impl<T> Passed for *const T {
     fn of(slot: Slot) -> *const T {
-        slot.pointer().expect("a pointer").cast()
+        <*mut T>::of(slot)
     }
 }
 
@@ -387,8 +387,8 @@ pub fn elements() -> &'static [Law] {
             element(true, |element| unsafe { mslip_element_init_elliptic(&raw const sphere, 2, by_approach, element) }),
         ];
         if !cfg!(miri) {
-            elements
-                .push(element(false, |element| unsafe { mslip_element_init(&raw const strip, 2, by_force, element) }));
+            let init = |element| unsafe { mslip_element_init(&raw const strip, 2, by_force, element) };
+            elements.push(element(false, init));
         }
         elements
     })
@@ -508,6 +508,21 @@ impl Law {
         state
     }
 
+    /// A step to a displacement along x and y and a normal component; its status.
+    #[cfg(not(miri))]
+    pub fn step(&self, of_element: bool, state: &Memory, [u, v, w]: [f64; 3]) -> i32 {
+        let (n, s, none) = (state.bytes / 8, state.start.cast(), null_mut());
+        let laws = Memory::of_law(self, 1);
+        unsafe {
+            if of_element {
+                let step = if self.directions == 1 { [u, w, 0.0] } else { [u, v, w] };
+                mslip_element_update(laws.start.cast(), n, s, step.as_ptr(), s, none, none, none)
+            } else {
+                mslip_masing_update(laws.start.cast(), n, s, u, s, none, none, none)
+            }
+        }
+    }
+
     pub fn workspace(&self, call: &Call) -> Memory {
         let memory = Memory::new::<f64>(self.memory_length(call, "workspace"));
         self.init_workspace(call, &memory);
@@ -516,20 +531,11 @@ impl Law {
 
     pub fn init_workspace(&self, call: &Call, memory: &Memory) {
         let (n, start) = (memory.bytes / 8, memory.start.cast());
+        let Law { directions, harmonics, samples, rule, .. } = *self;
         let status = if call.is_of_element() {
-            unsafe {
-                mslip_element_workspace_init(
-                    self.directions,
-                    self.harmonics,
-                    self.samples,
-                    self.rule,
-                    PERIODS,
-                    n,
-                    start,
-                )
-            }
+            unsafe { mslip_element_workspace_init(directions, harmonics, samples, rule, PERIODS, n, start) }
         } else {
-            unsafe { mslip_harmonic_workspace_init(self.harmonics, self.samples, self.rule, n, start) }
+            unsafe { mslip_harmonic_workspace_init(harmonics, samples, rule, n, start) }
         };
         assert_eq!(status, MSLIP_OK);
     }

@@ -3,8 +3,7 @@
 
 use super::{Arguments, Before, CALLS, Call, Kind::*, Law, Memory, Slot};
 use microslip::Error;
-use microslip::ffi::*;
-use std::ptr::null_mut;
+use microslip::ffi::MSLIP_OK;
 
 /// What decides; zeros after its end.
 pub struct Bytes<'a>(&'a [u8]);
@@ -94,19 +93,10 @@ fn walk(bytes: &mut Bytes, call: &Call, law: &Law, arguments: &mut Arguments) {
     let of_element = call.is_of_element();
     let length = law.memory_length(call, "state") + bytes.byte() % 64;
     let state = law.long_state(call, length);
-    let (n, s, none, laws) = (length, state.start.cast(), null_mut(), Memory::of_law(law, 1));
     for _ in 0..bytes.byte() % 32 {
-        let [u, v, w] =
-            [law.displacement, law.displacement, law.normal].map(|scale| f64::from_bits(bytes.number(scale)));
-        let step = if law.directions == 1 { [u, w, 0.0] } else { [u, v, w] };
+        let scales = [law.displacement, law.displacement, law.normal];
         // Invalid values leave the state.
-        _ = unsafe {
-            if of_element {
-                mslip_element_update(laws.start.cast(), n, s, step.as_ptr(), s, none, none, none)
-            } else {
-                mslip_masing_update(laws.start.cast(), n, s, u, s, none, none, none)
-            }
-        };
+        law.step(of_element, &state, scales.map(|scale| f64::from_bits(bytes.number(scale))));
     }
     let place = |kind| call.place(kind).filter(|place| arguments.memory[*place].is_some());
     let ([old, new], count) = ([place(State), place(NewState)], call.arguments.iter().position(|a| a.kind == Length));

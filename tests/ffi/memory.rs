@@ -20,6 +20,10 @@ fn pseudorandom(seed: u64, length: usize) -> Vec<u8> {
     (0..length).map(|_| next()).collect()
 }
 
+fn words(bytes: &[u8]) -> Vec<u64> {
+    bytes.as_chunks().0.iter().map(|word| u64::from_le_bytes(*word)).collect()
+}
+
 /// Uniform in -1 to 1.
 fn numbers(seed: u64, length: usize) -> Vec<f64> {
     let bytes = pseudorandom(seed, 2 * length);
@@ -50,9 +54,7 @@ fn changed_contacts_and_elements() {
             words[bit / 64] ^= 1 << (bit % 64);
         }
         for (_, other) in laws().filter(|(_, other)| other.bytes.len() == law.bytes.len() && other.bytes != law.bytes) {
-            let other = Memory::of(&other.bytes);
-            let other: Vec<u64> =
-                other.values::<u8>().chunks(8).map(|word| u64::from_le_bytes(word.try_into().unwrap())).collect();
+            let other = self::words(&other.bytes);
             for k in 0..=valid.len() {
                 let mixed = [&valid[..k], &other[k..]].concat();
                 let is_valid = mixed == valid || mixed == other;
@@ -130,27 +132,11 @@ fn tags_are_checked() {
                 _ => {}
             }
             for seed in 0..20 {
-                let random = pseudorandom(seed, 8 * words.len());
-                expect(&random.chunks(8).map(|word| u64::from_le_bytes(word.try_into().unwrap())).collect::<Vec<_>>());
+                expect(&self::words(&pseudorandom(seed, 8 * words.len())));
             }
             arguments.memory_mut(place).values_mut().copy_from_slice(&words);
         }
     });
-}
-
-/// A step with a contact or an element.
-fn step(law: &Law, of_element: bool, state: &mut Memory, [u, v, w]: [f64; 3]) {
-    let (n, s, none) = (state.bytes / 8, state.start.cast(), null_mut());
-    let laws = Memory::of_law(law, 1);
-    let status = unsafe {
-        if of_element {
-            let step = if law.directions == 1 { [u, w, 0.0] } else { [u, v, w] };
-            mslip_element_update(laws.start.cast(), n, s, step.as_ptr(), s, none, none, none)
-        } else {
-            mslip_masing_update(laws.start.cast(), n, s, u, s, none, none, none)
-        }
-    };
-    assert_eq!(status, MSLIP_OK);
 }
 
 fn check(law: &Law, of_element: bool, state: &Memory) -> i32 {
@@ -164,18 +150,18 @@ const PIECES: usize = 5;
 /// A long state with nested reversals or with pieces, and the length that is in use.
 fn filled_state(law: &Law, of_element: bool) -> (Memory, usize) {
     if of_element {
-        let mut state =
-            law.long_state(call("mslip_element_update"), mslip_element_state_length(law.directions, 50) + 9);
+        let length = mslip_element_state_length(law.directions, 50) + 9;
+        let state = law.long_state(call("mslip_element_update"), length);
         for k in 0..PIECES {
             let u = 0.01 * law.displacement * if k % 2 == 0 { 1.0 } else { -1.0 };
-            step(law, true, &mut state, [u, 0.7 * u, law.normal * (0.1 + 0.15 * k as f64)]);
+            assert_eq!(law.step(true, &state, [u, 0.7 * u, law.normal * (0.1 + 0.15 * k as f64)]), MSLIP_OK);
         }
         (state, mslip_element_state_length(law.directions, PIECES))
     } else {
-        let mut state = law.long_state(call("mslip_masing_update"), mslip_state_length(50));
+        let state = law.long_state(call("mslip_masing_update"), mslip_state_length(50));
         for k in 0..=REVERSALS {
             let part = 0.15 * (1.0 - 0.05 * k as f64) * if k % 2 == 0 { 1.0 } else { -1.0 };
-            step(law, false, &mut state, [part * law.displacement, 0.0, 0.0]);
+            assert_eq!(law.step(false, &state, [part * law.displacement, 0.0, 0.0]), MSLIP_OK);
         }
         (state, mslip_state_length(REVERSALS))
     }
@@ -197,7 +183,7 @@ fn states_of_histories_are_valid() {
     for (of_element, law) in laws().map(|(check, law)| (check.is_of_element(), law)) {
         let function = call(if of_element { "mslip_element_update" } else { "mslip_masing_update" });
         for extra in [0, 17, 500] {
-            let mut state = law.long_state(function, law.memory_length(function, "state") + extra);
+            let state = law.long_state(function, law.memory_length(function, "state") + extra);
             assert_eq!(check(law, of_element, &state), MSLIP_OK);
             for (i, motion) in numbers(7, 9000).chunks(3).enumerate() {
                 let part = if i % 100 < 50 { 0.05 } else { 1.5 };
@@ -207,12 +193,8 @@ fn states_of_histories_are_valid() {
                 let displacement = if law.displacement > 0.0 { law.displacement } else { 1e-7 };
                 let by_force = law.normal_input == MSLIP_INPUT_NORMAL_FORCE;
                 let normal = law.normal * if by_force { motion[2].max(0.0) } else { 0.5 * motion[2] + 0.4 };
-                step(
-                    law,
-                    of_element,
-                    &mut state,
-                    [part * displacement * decaying, part * displacement * motion[1], normal],
-                );
+                let to = [part * displacement * decaying, part * displacement * motion[1], normal];
+                assert_eq!(law.step(of_element, &state, to), MSLIP_OK);
                 assert_eq!(check(law, of_element, &state), MSLIP_OK, "step {i}: {:?}", state.values::<f64>());
             }
         }
@@ -449,12 +431,8 @@ fn batches_are_single_items() {
                 all.memory(batch.place(Index).expect("an index")).values::<i32>().iter().map(|i| *i as usize).collect();
             for (place, argument) in batch.arguments.iter().enumerate() {
                 if matches!(argument.kind, Contact | Element | State | Input) {
-                    let own = |i: usize| {
-                        part(
-                            items[if matches!(argument.kind, Contact | Element) { i } else { index[i] }].memory(place),
-                            i,
-                        )
-                    };
+                    let is_law = matches!(argument.kind, Contact | Element);
+                    let own = |i: usize| part(items[if is_law { i } else { index[i] }].memory(place), i);
                     let bytes: Vec<u8> = (0..N).flat_map(own).collect();
                     all.memory_mut(place).values_mut::<u8>().copy_from_slice(&bytes);
                 }
@@ -462,37 +440,28 @@ fn batches_are_single_items() {
             // The last item is skipped, with its outputs unchanged.
             all.memory_mut(batch.place(Active).expect("flags")).values_mut().copy_from_slice(&[1, 2, 0]);
             assert_eq!(batch.make(&all.slots), MSLIP_OK, "{}", batch.name);
-            let shares = |kind: Kind| places(batch, kind).collect::<Vec<_>>();
+            let pairs = |kinds: [Kind; 2]| {
+                kinds.into_iter().flat_map(|kind| places(single, kind).zip(places(batch, kind))).collect::<Vec<_>>()
+            };
             for i in 0..N {
                 let mut one = Arguments::new(single, law(index[i]), Before::Filled);
-                let places_of = |kind: Kind| places(single, kind).collect::<Vec<_>>();
-                for kind in [State, Input] {
-                    for (to, from) in places_of(kind).into_iter().zip(shares(kind)) {
-                        one.set(to, Memory::of(&part(all.memory(from), i)));
-                    }
+                for (to, from) in pairs([State, Input]) {
+                    one.set(to, Memory::of(&part(all.memory(from), i)));
                 }
                 if let Some(value) = single.place(Value) {
                     let input = all.memory(batch.place(Input).expect("an input")).values::<f64>()[i];
                     one.slots[value] = Slot::Value(input);
                 }
                 single.place(Count).inspect(|count| one.slots[*count] = Slot::Size(1));
-                for kind in [NewState, Output] {
-                    for (to, from) in places_of(kind).into_iter().zip(shares(kind)) {
-                        one.set(to, Memory::of(&vec![FILLED; all.memory(from).bytes / N]));
-                    }
+                for (to, from) in pairs([NewState, Output]) {
+                    one.set(to, Memory::of(&vec![FILLED; all.memory(from).bytes / N]));
                 }
                 if i < N - 1 {
                     assert_eq!(single.make(&one.slots), MSLIP_OK, "{}", single.name);
                 }
-                for kind in [NewState, Output] {
-                    for (to, from) in places_of(kind).into_iter().zip(shares(kind)) {
-                        assert_eq!(
-                            part(all.memory(from), i),
-                            one.memory(to).values::<u8>(),
-                            "{}: item {i}",
-                            batch.name
-                        );
-                    }
+                for (to, from) in pairs([NewState, Output]) {
+                    let (found, expected) = (part(all.memory(from), i), one.memory(to).values::<u8>());
+                    assert_eq!(found, expected, "{}: item {i}", batch.name);
                 }
             }
         }
@@ -516,12 +485,9 @@ fn invalid_items() {
         // Fewer contacts than items, with an index or without.
         let mut arguments = Arguments::new(call, law, Before::Filled);
         let count = call.place(Laws).expect("a number of contacts");
-        for n in 0..N {
-            rejected(call, &mut arguments, count, Slot::Size(n), MSLIP_BAD_INDEX);
-        }
-        arguments.omit(index);
-        for n in 0..N {
-            rejected(call, &mut arguments, count, Slot::Size(n), MSLIP_BAD_INDEX);
+        for _ in 0..2 {
+            (0..N).for_each(|n| rejected(call, &mut arguments, count, Slot::Size(n), MSLIP_BAD_INDEX));
+            arguments.omit(index);
         }
     });
 }

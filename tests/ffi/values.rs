@@ -182,28 +182,23 @@ fn results_in_all_rounding_modes() {
         for (k, place) in places(call, Output).enumerate() {
             let name = call.arguments[place].name;
             let usual = results[..FACTORS.len() - 1].iter().map(|of| magnitude(&of[0][k])).fold(0.0, f64::max);
+            // At the onset of slip rounding decides the side of a tangent in two directions, and whether energy is dissipated.
+            let is_decided = law.directions == 2 && call.has(Element);
+            if is_decided && !matches!(name, "force" | "normal_force" | "displacement") {
+                continue;
+            }
             for (factor, of_factor) in FACTORS.into_iter().zip(&results) {
                 let expected = &of_factor[0][k];
                 // Derivatives by the amplitude have the rounding errors of a stiffness over it.
                 let amplitude =
                     if name.starts_with("dk_") { 0.1 * factor.abs() * law.displacement } else { f64::INFINITY };
                 let scale = usual.max(magnitude(expected)).max(law.force / law.displacement / amplitude);
-                // At the onset of slip rounding decides the side of a tangent in two directions, and whether energy is dissipated.
-                if law.directions == 2
-                    && call.has(Element)
-                    && !matches!(name, "force" | "normal_force" | "displacement")
-                {
-                    continue;
-                }
                 for (mode, found) in of_factor.iter().enumerate() {
                     let error = rounding_error(call, law, name) * scale;
                     for (one, other) in found[k].iter().zip(expected) {
+                        let what = format!("{} {name}, mode {mode}, factor {factor}", call.name);
                         let same = one == other || (one - other).abs() <= error;
-                        assert!(
-                            same,
-                            "{} {name}, mode {mode}, factor {factor}: {one:e}, not {other:e}, {error:e}",
-                            call.name
-                        );
+                        assert!(same, "{what}: {one:e}, not {other:e}, {error:e}");
                     }
                 }
             }
