@@ -5,7 +5,7 @@
 //! and the energy from the events on the way: ends of pieces, and the contact size overtaking the edge of the slip zone.
 
 use crate::family::{Family, Given, Size};
-use crate::harmonic::{basis, dot};
+use crate::harmonic::{basis_at_samples, dot};
 use crate::{Input, Real};
 
 /// Bits of a difference that are taken as 0: those that rounding leaves.
@@ -79,17 +79,7 @@ impl Element {
 
     /// The size of zero load.
     fn touch(&self) -> Size {
-        let zero = self.real(0.0);
-        Size {
-            w: zero.clone(),
-            half_width: zero.clone(),
-            load: zero.clone(),
-            approach: zero.clone(),
-            shift: zero.clone(),
-            potential: zero.clone(),
-            normal_compliance: zero.clone(),
-            tangential_compliance: zero,
-        }
+        Size::zero(self.family.bits)
     }
 
     pub fn size_of_input(&self, input: &Real) -> Size {
@@ -108,7 +98,7 @@ impl Element {
         if open && state.size.is_none() {
             state.origin = displacement.clone();
             (state.displacement, state.input) = (displacement.clone(), input.clone());
-            return self.without_force(zero(), zero());
+            return self.without_force(zero());
         }
         if open {
             let end = crossing();
@@ -120,7 +110,7 @@ impl Element {
                 origin: displacement.clone(),
                 pieces: vec![],
             };
-            return self.without_force(march.energy, zero());
+            return self.without_force(march.energy);
         }
         let size = if *input == state.input
             && let Some(size) = &state.size
@@ -157,18 +147,10 @@ impl Element {
         step
     }
 
-    fn without_force(&self, dissipated: Real, stick_load: Real) -> Step {
-        let zero = self.real(0.0);
-        Step {
-            kind: Kind::Open,
-            force: zero.clone(),
-            load: zero.clone(),
-            tangent: [zero.clone(), zero.clone()],
-            load_slope: zero,
-            dissipated,
-            stick_load,
-            edge: None,
-        }
+    fn without_force(&self, dissipated: Real) -> Step {
+        let [force, load, by_displacement, by_input, load_slope, stick_load] = [(); 6].map(|()| self.real(0.0));
+        let tangent = [by_displacement, by_input];
+        Step { kind: Kind::Open, force, load, tangent, load_slope, dissipated, stick_load, edge: None }
     }
 
     /// The diagram at the end of a step to a closed contact, force and tangent.
@@ -187,9 +169,7 @@ impl Element {
             load: size.load.clone(),
             tangent: [by_displacement, by_input],
             load_slope: load_slope.clone(),
-            dissipated: zero(),
-            stick_load: zero(),
-            edge: None,
+            ..self.without_force(zero())
         };
         let old = state.size.clone().unwrap_or_else(|| self.touch());
         let stiffness = 1.0 / &size.tangential_compliance;
@@ -415,8 +395,7 @@ fn cut(pieces: &mut Vec<Piece>, size: &Size) {
 /// goes through two periods from there, of which the second counts.
 pub fn harmonic_force(element: &Element, coefficients: &[Real], samples: usize) -> (Vec<Real>, Real) {
     let width = coefficients.len() / 2;
-    let angle = |i: usize| 2.0 * Real::pi(element.family.bits) * (i as f64) / samples as f64;
-    let rows: Vec<Vec<Real>> = (0..samples).map(|i| basis(width / 2, &angle(i))).collect();
+    let rows = basis_at_samples(element.family.bits, width / 2, samples);
     let path: Vec<[Real; 2]> = rows
         .iter()
         .map(|row| [&coefficients[..width], &coefficients[width..]].map(|component| dot(row, component)))

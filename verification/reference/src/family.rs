@@ -1,6 +1,6 @@
 //! The nested sizes of a contact in absolute terms: N, U, S and M = ∫ N dS of a size, and their inverses.
 
-use crate::law::{b_sum, c_sum, cerruti, compliance_of, flatness, load, mean, punch_pressure, size_of_load, w_guess};
+use crate::law::*;
 use crate::{Input, Real};
 use microslip::parameters::CENTRE_POINT;
 use microslip::{EllipticParameters, Parameters};
@@ -91,10 +91,7 @@ impl Family {
     fn ellipse(p: &EllipticParameters) -> Family {
         let bits = BITS;
         let [b, l] = [p.semi_axis_x, p.semi_axis_y].map(|axis| Real::new(bits, axis));
-        let k2 = (1.0 - (b.clone().min(&l) / b.clone().max(&l)).square()).abs();
-        let more = bits + if k2.is_zero() { 0 } else { (-2 * k2.exponent()).max(0) as u32 };
-        let (all, cosine) = cerruti(&b.at(more), &l.at(more));
-        let (all, cosine) = (all.at(bits), cosine.at(bits));
+        let (all, cosine) = cerruti(&b, &l);
         let sum = |term: &dyn Fn(&Real) -> Real| {
             p.material.iter().fold(Real::new(bits, 0.0), |sum, body| {
                 let nu = Real::new(bits, body.poisson_ratio);
@@ -255,18 +252,22 @@ impl Family {
 }
 
 impl Size {
+    fn of(
+        [w, half_width, load, approach, shift, potential, normal_compliance, tangential_compliance]: [Real; 8],
+    ) -> Size {
+        Size { w, half_width, load, approach, shift, potential, normal_compliance, tangential_compliance }
+    }
+
+    /// The size of zero load.
+    pub fn zero(bits: u32) -> Size {
+        Size::of([(); 8].map(|()| Real::new(bits, 0.0)))
+    }
+
     /// Rounded to another precision.
     fn at(&self, bits: u32) -> Size {
-        Size {
-            w: self.w.at(bits),
-            half_width: self.half_width.at(bits),
-            load: self.load.at(bits),
-            approach: self.approach.at(bits),
-            shift: self.shift.at(bits),
-            potential: self.potential.at(bits),
-            normal_compliance: self.normal_compliance.at(bits),
-            tangential_compliance: self.tangential_compliance.at(bits),
-        }
+        let Size { w, half_width, load, approach, shift, potential, normal_compliance, tangential_compliance } = self;
+        let [normal, tangential] = [normal_compliance, tangential_compliance];
+        Size::of([w, half_width, load, approach, shift, potential, normal, tangential].map(|value| value.at(bits)))
     }
 }
 
@@ -288,12 +289,7 @@ fn load_guess(a: f64, length: f64, constant: f64, reference: f64, value: f64) ->
         let w = w_guess(a, g);
         let (psi, half_width) = (w.atan2(a), (a * a + w * w).sqrt());
         let compliance = (2.0 * length / half_width).ln() + constant;
-        let beta = if psi < 0.05 {
-            psi * psi / 5.0
-        } else {
-            ((w * w + 3.0 * a * a) * psi - 3.0 * a * w) / (2.0 * (a * a + w * w) * psi - 2.0 * a * w)
-        };
-        let step = (value - g * (compliance + beta)) / compliance;
+        let step = (value - g * (compliance + beta(a, w, psi))) / compliance;
         if compliance <= 0.0 {
             g *= 0.5;
             continue;

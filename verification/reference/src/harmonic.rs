@@ -6,12 +6,17 @@ use crate::{Law, Real, Reference};
 use std::rc::Rc;
 
 /// 1, cos t, sin t, cos 2t, ...
-pub(crate) fn basis(harmonics: usize, t: &Real) -> Vec<Real> {
+fn basis(harmonics: usize, t: &Real) -> Vec<Real> {
     let waves = (1..=harmonics).flat_map(|k| {
         let (sine, cosine) = (t * k as f64).sin_cos();
         [cosine, sine]
     });
     [Real::new(t.bits(), 1.0)].into_iter().chain(waves).collect()
+}
+
+pub(crate) fn basis_at_samples(bits: u32, harmonics: usize, samples: usize) -> Vec<Vec<Real>> {
+    let angle = |i: usize| 2.0 * Real::pi(bits) * (i as f64) / samples as f64;
+    (0..samples).map(|i| basis(harmonics, &angle(i))).collect()
 }
 
 pub(crate) fn dot(one: &[Real], two: &[Real]) -> Real {
@@ -31,8 +36,7 @@ pub struct Sampled {
 /// By its definition: the second period from the unloaded state at uniformly spaced samples, each of which is passed on.
 pub fn sampled(law: &Rc<Law>, coefficients: &[Real], samples: usize, mut each: impl FnMut(&History)) -> Sampled {
     let width = coefficients.len();
-    let angle = |i: usize| 2.0 * Real::pi(law.bits) * (i as f64) / samples as f64;
-    let rows: Vec<Vec<Real>> = (0..samples).map(|i| basis(width / 2, &angle(i))).collect();
+    let rows = basis_at_samples(law.bits, width / 2, samples);
     let zero = || law.real(0.0);
     let mut history = History::new(law.clone());
     let mut sums = Sampled {

@@ -295,14 +295,11 @@ impl Law {
         let [by_load, by_friction, by_radius, _, by_modulus] = &change.factors;
         let by_size = (by_load * by_radius / by_modulus).cbrt();
         let (b, l) = (&by_size * p.semi_axis_x, &by_size * p.semi_axis_y);
-        // Differences of both elliptic integrals lose twice as many bits as k² is below 1.
-        let k2 = (1.0 - (b.clone().min(&l) / b.clone().max(&l)).square()).abs();
-        let more = bits + if k2.is_zero() { 0 } else { (-2 * k2.exponent()).max(0) as u32 };
-        let (all, cosine) = cerruti(&b.at(more), &l.at(more));
+        let (all, cosine) = cerruti(&b, &l);
         let mut compliance = Real::new(bits, 0.0);
         for body in &p.material {
             let nu = Real::new(bits, body.poisson_ratio);
-            let sum = (1.0 - &nu) * all.at(bits) + &nu * cosine.at(bits);
+            let sum = (1.0 - &nu) * &all + &nu * &cosine;
             compliance = compliance + (1.0 + &nu) / (Real::pi(bits) * body.young_modulus * by_modulus) * sum;
         }
         let slip_force = by_friction * by_load * p.friction_coefficient * p.normal_force;
@@ -502,12 +499,7 @@ impl Law {
         for _ in 0..12 {
             let w = w_guess(a, s * g_b);
             let (psi, increase) = (w.atan2(a), -0.5 * (a * a + w * w).ln());
-            let beta = if psi < 0.05 {
-                psi * psi / 5.0
-            } else {
-                ((w * w + 3.0 * a * a) * psi - 3.0 * a * w) / (2.0 * (a * a + w * w) * psi - 2.0 * a * w)
-            };
-            let step = (x_remaining - s * (full_stick + increase + beta)) / (full_stick + increase);
+            let step = (x_remaining - s * (full_stick + increase + beta(a, w, psi))) / (full_stick + increase);
             s = (s + step).max(0.25 * s);
             if step.abs() < 1e-13 * s {
                 break;
@@ -638,6 +630,14 @@ pub(crate) fn b_sum(a: &Real, w: &Real, psi: &Real) -> Real {
     (w.square() + 3.0 * a.square()) * psi - 3.0 * a * w
 }
 
+/// B/g in doubles.
+pub(crate) fn beta(a: f64, w: f64, psi: f64) -> f64 {
+    if psi < 0.05 {
+        return psi * psi / 5.0;
+    }
+    ((w * w + 3.0 * a * a) * psi - 3.0 * a * w) / (2.0 * (a * a + w * w) * psi - 2.0 * a * w)
+}
+
 /// C = ∫ g² dc/c, with ln(a/c).
 pub(crate) fn c_sum(a: &Real, w: &Real, g: &Real, ln_a_over_c: &Real) -> Real {
     let first = g.square() / 4.0;
@@ -723,14 +723,15 @@ pub(crate) fn size_of_load(a: &Real, load: &Real, share: Option<&Real>) -> (Real
 /// J = ∫ dθ/W and J_cos = ∫ cos²θ dθ/W, W² = l² cos²θ + b² sin²θ, θ from 0 to π/2, from K and E by the
 /// arithmetic-geometric mean.
 pub(crate) fn cerruti(b: &Real, l: &Real) -> (Real, Real) {
-    let bits = b.bits();
     let (small, large) = (b.clone().min(l), b.clone().max(l));
-    let half_pi = Real::pi(bits) / 2.0;
     if small == large {
-        let all = half_pi / large;
+        let all = Real::pi(b.bits()) / 2.0 / large;
         return (all.clone(), all / 2.0);
     }
-    let ratio = &small / &large;
+    // Differences of both elliptic integrals lose twice as many bits as k² is below 1.
+    let lost = (-2 * (1.0 - (&small / &large).square()).exponent()).max(0) as u32;
+    let bits = b.bits() + lost;
+    let (half_pi, ratio) = (Real::pi(bits) / 2.0, small.at(bits) / &large);
     let k2 = 1.0 - ratio.square();
     let (mut mean, mut geometric, mut power) = (Real::new(bits, 1.0), ratio, 0.5);
     let mut sum = &k2 / 2.0;
@@ -750,5 +751,5 @@ pub(crate) fn cerruti(b: &Real, l: &Real) -> (Real, Real) {
     let k = half_pi / &mean;
     let e = &k * (1.0 - sum);
     let cosine = if b < l { (&e - (1.0 - &k2) * &k) / &k2 } else { (&k - &e) / &k2 };
-    (k / &large, cosine / large)
+    ((k / &large).at(b.bits()), (cosine / large).at(b.bits()))
 }

@@ -71,56 +71,28 @@ impl Real {
     }
 }
 
+macro_rules! implement {
+    ($trait:ident, $method:ident, $left:ty, $right:ty, |$a:ident, $b:ident| $result:expr) => {
+        impl $trait<$right> for $left {
+            type Output = Real;
+            fn $method(self, $b: $right) -> Real {
+                let $a = self;
+                $result
+            }
+        }
+    };
+}
+
 macro_rules! operator {
-    ($trait:ident, $method:ident, $symbol:tt) => {
-        impl $trait<&Real> for &Real {
-            type Output = Real;
-            fn $method(self, other: &Real) -> Real {
-                Real(Float::with_val(self.bits().max(other.bits()), &self.0 $symbol &other.0))
-            }
-        }
-        impl $trait<Real> for &Real {
-            type Output = Real;
-            fn $method(self, other: Real) -> Real {
-                self $symbol &other
-            }
-        }
-        impl $trait<&Real> for Real {
-            type Output = Real;
-            fn $method(self, other: &Real) -> Real {
-                if self.bits() >= other.bits() { Real(self.0 $symbol &other.0) } else { &self $symbol other }
-            }
-        }
-        impl $trait<Real> for Real {
-            type Output = Real;
-            fn $method(self, other: Real) -> Real {
-                self $symbol &other
-            }
-        }
-        impl $trait<f64> for Real {
-            type Output = Real;
-            fn $method(self, other: f64) -> Real {
-                Real(self.0 $symbol other)
-            }
-        }
-        impl $trait<f64> for &Real {
-            type Output = Real;
-            fn $method(self, other: f64) -> Real {
-                Real(Float::with_val(self.bits(), &self.0 $symbol other))
-            }
-        }
-        impl $trait<Real> for f64 {
-            type Output = Real;
-            fn $method(self, other: Real) -> Real {
-                Real(self $symbol other.0)
-            }
-        }
-        impl $trait<&Real> for f64 {
-            type Output = Real;
-            fn $method(self, other: &Real) -> Real {
-                Real(Float::with_val(other.bits(), self $symbol &other.0))
-            }
-        }
+    ($trait:ident, $method:ident, $of:tt) => {
+        implement!($trait, $method, &Real, &Real, |a, b| Real(Float::with_val(a.bits().max(b.bits()), &a.0 $of &b.0)));
+        implement!($trait, $method, &Real, Real, |a, b| a $of &b);
+        implement!($trait, $method, Real, &Real, |a, b| if a.bits() < b.bits() { &a $of b } else { Real(a.0 $of &b.0) });
+        implement!($trait, $method, Real, Real, |a, b| a $of &b);
+        implement!($trait, $method, &Real, f64, |a, b| Real(Float::with_val(a.bits(), &a.0 $of b)));
+        implement!($trait, $method, Real, f64, |a, b| Real(a.0 $of b));
+        implement!($trait, $method, f64, &Real, |a, b| Real(Float::with_val(b.bits(), a $of &b.0)));
+        implement!($trait, $method, f64, Real, |a, b| Real(a $of b.0));
     };
 }
 
