@@ -1,5 +1,6 @@
 //! Tractions of a cylinder on a flat by a finite-element model (`tests/golden/abaqus_mindlin.csv`), loaded and unloaded.
 
+use crate::golden::{Row, table};
 use microslip::constant_load::{ConstantLoad, Law, masing, state};
 use microslip::{Contact, Material, Parameters};
 use std::f64::consts::PI;
@@ -10,21 +11,6 @@ const FRICTION: f64 = 0.6;
 const LOADED: f64 = 0.5;
 /// Spacing of the nodes over the half-width.
 const SPACING: f64 = 0.11;
-
-/// A node: loaded (1) or unloaded again (2), x over the half-width, pressure and shear over the largest pressure.
-struct Node {
-    case: f64,
-    x: f64,
-    pressure: f64,
-    shear: f64,
-}
-
-fn nodes() -> Vec<Node> {
-    let text = include_str!("../../../tests/golden/abaqus_mindlin.csv");
-    let rows = text.lines().filter(|line| !line.starts_with('#')).skip(1);
-    let numbers = |line: &str| line.split(',').map(|cell| cell.parse().expect("a number")).collect::<Vec<f64>>();
-    rows.map(numbers).map(|row| Node { case: row[0], x: row[1], pressure: row[2], shear: row[3] }).collect()
-}
 
 /// A cylinder of half-width 1 and largest pressure 1.
 fn contact() -> Contact {
@@ -64,15 +50,17 @@ fn differences(unloaded: bool) -> Differences {
         advance(top.displacement() - 2.0 * half.displacement());
         edges.push(half.stick_half_width());
     }
-    let nodes: Vec<Node> =
-        nodes().into_iter().filter(|node| (node.case == 2.0) == unloaded && node.x.abs() < 1.0).collect();
-    let x: Vec<f64> = nodes.iter().map(|node| node.x * contact.half_width).collect();
+    // Loaded (1) or unloaded again (2).
+    let is_of_case = |node: &Row| (node["case"] == 2.0) == unloaded && node["x_over_a"].abs() < 1.0;
+    let nodes: Vec<Row> = table("abaqus_mindlin").into_iter().filter(is_of_case).collect();
+    let x: Vec<f64> = nodes.iter().map(|node| node["x_over_a"] * contact.half_width).collect();
     let mut shear = vec![0.0; x.len()];
     masing::shear_tractions(&contact, &memory, &x, &mut shear).expect("a state");
     let largest = contact.pressure(0.0);
     let mut found = Differences { away: [0.0; 2], all: [0.0; 2] };
     for ((node, &x), shear) in nodes.iter().zip(&x).zip(shear) {
-        let now = [node.pressure - contact.pressure(x) / largest, (node.shear - shear / largest) / FRICTION];
+        let pressure = node["p_over_p0"] - contact.pressure(x) / largest;
+        let now = [pressure, (node["q_over_p0"] - shear / largest) / FRICTION];
         let now = now.map(|difference| 100.0 * difference.abs());
         let is_away = edges.iter().all(|edge| (x.abs() - edge).abs() > 2.0 * SPACING * contact.half_width);
         let larger = |so_far: [f64; 2]| [so_far[0].max(now[0]), so_far[1].max(now[1])];

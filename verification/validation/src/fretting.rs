@@ -8,6 +8,7 @@
 //! (`tests/golden/vanpeteghem2011_energy.csv`).
 
 use crate::drive::displacement_at;
+use crate::golden::{self, table};
 use microslip::element::{Directions, Element, NormalInput};
 use microslip::one_direction::{self as state, Law, OneDirection};
 use microslip::parameters::RIGID_STRIP;
@@ -162,21 +163,18 @@ struct Test {
 
 fn tests_of_table_3() -> Vec<Test> {
     let element = element(80e-3, 8e-3, 8523.0, FRICTION_OF_OPENING);
-    let text = include_str!("../../../tests/golden/vanpeteghem2011_energy.csv");
-    let test = |line: &str| {
-        let cells: Vec<&str> = line.split(',').collect();
-        let number = |i: usize| cells[i].parse::<f64>().expect("a number");
-        let (opens, stroke) = (cells[3] == "variable", 1e-6 * number(4));
+    let test = |row: &golden::Row| {
+        let (opens, stroke) = (row.text("normal_force") == "variable", 1e-6 * row["stroke_um"]);
         let computed = if opens {
             sliding_by(stroke, |imposed| opening_cycle(&element, imposed))
         } else {
             sliding_by(0.5 * stroke, |amplitude| cycle(&element, 1.0, amplitude, 0.0, 0.0))
         };
         assert!((computed.area / computed.dissipated - 1.0).abs() < STEP_ERROR, "area and energy differ");
-        let energies = [number(5) / number(1), computed.dissipated];
-        Test { number: cells[0].parse().expect("a number"), frequency: number(2), opens, stroke, energies }
+        let energies = [row["energy_J"] / row["cycles"], computed.dissipated];
+        Test { number: row["test"] as u32, frequency: row["frequency_Hz"], opens, stroke, energies }
     };
-    text.lines().filter(|line| !line.starts_with('#')).skip(1).map(test).collect()
+    table("vanpeteghem2011_energy").iter().map(test).collect()
 }
 
 /// The table of the page, and the checks of what it says.

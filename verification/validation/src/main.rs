@@ -9,6 +9,8 @@ mod documents;
 mod drive;
 mod finite_elements;
 mod fretting;
+#[path = "../../../tests/golden/table.rs"]
+mod golden;
 mod histories;
 mod rebound;
 mod strips;

@@ -4,6 +4,7 @@
 //! The centre moves by m x'' = -T, m w'' = -N (w the approach); the surface at the contact by m u'' = -(7/2) T, with the rotation of
 //! a solid sphere. u(t) and w(t) go to the law, a step each: a load that rises and falls.
 
+use crate::golden::{Row, table};
 use crate::table::Table;
 use microslip::element::{Directions, Element, NormalInput};
 use microslip::one_direction::{self as state, Law as _, OneDirection};
@@ -129,11 +130,9 @@ struct Reading {
 }
 
 fn readings() -> Vec<Reading> {
-    let text = include_str!("../../../tests/golden/kharaz2001_oblique_impact.csv");
-    let rows = text.lines().filter(|line| !line.starts_with('#')).skip(1);
-    let read = |line: &'static str| {
-        let [quantity, source, degrees, measured] = line.split(',').collect::<Vec<_>>()[..] else { panic!("{line}") };
-        let [degrees, measured] = [degrees, measured].map(|cell| cell.parse::<f64>().expect("a number"));
+    let read = |row: &Row| {
+        let (quantity, source) = (row.text("quantity"), row.text("source"));
+        let [degrees, measured] = [row["angle_deg"], row["value"]];
         // At less than 1 degree the angle is as large as the error of its reading; readings of spin contradict those of restitution.
         if !["e_t", "rebound_angle_deg"].contains(&quantity) || degrees < 1.0 {
             return None;
@@ -147,7 +146,7 @@ fn readings() -> Vec<Reading> {
         let computed = rebounds.each_ref().map(value);
         Some(Reading { quantity, source, degrees, measured, computed, partial: rebounds[0].partial })
     };
-    rows.filter_map(read).collect()
+    table("kharaz2001_oblique_impact").iter().filter_map(read).collect()
 }
 
 /// Root of the mean square of the differences below an angle.
@@ -166,13 +165,11 @@ fn finite_elements() -> Vec<[f64; 5]> {
     let rigid = Material { young_modulus: 208e9 * 1e6, poisson_ratio: 0.3 };
     let (friction, normal) = (0.3, 1.0);
     let impact = Impact::new(10e-3, 7850.0, [steel, rigid], friction, normal);
-    let text = include_str!("../../../tests/golden/fem_oblique_impact.csv");
-    let row = |line: &str| {
-        let cells: Vec<f64> = line.split(',').skip(1).map(|cell| cell.parse().expect("a number")).collect();
-        let of = |law| impact.rebound(law, normal, friction * cells[0]).surface / friction;
-        [cells[0], cells[1], of(LAWS[0]), of(LAWS[1]), of(LAWS[2])]
+    let values = |row: &Row| {
+        let of = |law| impact.rebound(law, normal, friction * row["psi1"]).surface / friction;
+        [row["psi1"], row["value"], of(LAWS[0]), of(LAWS[1]), of(LAWS[2])]
     };
-    text.lines().filter(|line| line.starts_with("psi2,")).map(row).collect()
+    table("fem_oblique_impact").iter().filter(|row| row.text("quantity") == "psi2").map(values).collect()
 }
 
 pub struct Comparison {

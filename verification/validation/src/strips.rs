@@ -1,6 +1,7 @@
 //! Strips of finite length: the centre point of the paper and `MSLIP_RIGID_STRIP` against boundary elements in three dimensions
 //! (`tests/golden/strip_3d.csv`), which agree with CONTACT to 0.14 % (`strip_3d_contact.csv`).
 
+use crate::golden::{Row, table};
 use microslip::parameters::{CENTRE_POINT, RIGID_STRIP};
 use microslip::{Contact, Material, Parameters};
 use std::f64::consts::PI;
@@ -55,45 +56,36 @@ fn contact(aspect_ratio: f64, a: f64, displacement_reference: i32) -> Contact {
 
 /// The rows of the true pressure, which are those that the law describes, one length after the other.
 fn errors() -> Vec<Errors> {
-    let text = include_str!("../../../tests/golden/strip_3d.csv");
-    let names: Vec<&str> = text.lines().next().expect("names").split(',').collect();
-    let cell = |line: &'static str, name: &str| -> &'static str {
-        line.split(',').nth(names.iter().position(|column| *column == name).expect("a column")).expect("a cell")
-    };
-    let value = |line: &'static str, name: &str| -> f64 { cell(line, name).parse().expect("a number") };
-    let rows: Vec<&'static str> = text
-        .lines()
-        .skip(1)
-        .filter(|line| cell(line, "variant") == "ii" && value(line, "nu") == POISSON_RATIO)
-        .collect();
+    let rows = table("strip_3d");
+    let rows = rows.iter().filter(|row| row.text("variant") == "ii" && row["nu"] == POISSON_RATIO);
     let per_cent = |law: f64, elements: f64| 100.0 * (law / elements - 1.0);
     let of_length = |aspect_ratio: f64| {
-        let rows: Vec<&'static str> = rows.iter().copied().filter(|line| value(line, "AR") == aspect_ratio).collect();
+        let rows: Vec<&Row> = rows.clone().filter(|row| row["AR"] == aspect_ratio).collect();
         assert_eq!(rows.len(), 3, "a cylinder and two flats");
         let displacement = |reference: i32| {
-            Range::of(rows.iter().flat_map(|line| {
-                let contact = contact(aspect_ratio, value(line, "a"), reference);
-                let initial = per_cent(contact.slip_force / contact.initial_stiffness, value(line, "C0_3D"));
+            Range::of(rows.iter().flat_map(|row| {
+                let contact = contact(aspect_ratio, row["a"], reference);
+                let initial = per_cent(contact.slip_force / contact.initial_stiffness, row["C0_3D"]);
                 let at = move |&(name, level): &(&str, f64)| {
                     let point = contact.curve_at_force(level * contact.slip_force).expect("a point");
-                    per_cent(point.displacement(), value(line, &format!("d3D_{name}")))
+                    per_cent(point.displacement(), row[&format!("d3D_{name}")[..]])
                 };
                 LEVELS.iter().map(at).chain([initial])
             }))
         };
-        let strip = |line| contact(aspect_ratio, value(line, "a"), RIGID_STRIP);
-        let energy = |line| {
-            let contact = strip(line);
+        let strip = |row: &Row| contact(aspect_ratio, row["a"], RIGID_STRIP);
+        let energy = |row| {
+            let contact = strip(row);
             LEVELS[1..].iter().map(move |(name, level)| {
                 let energy = contact.dissipated_energy(level * contact.slip_force).expect("an energy");
-                per_cent(energy / contact.slip_force, value(line, &format!("W3D_{name}")))
+                per_cent(energy / contact.slip_force, row[&format!("W3D_{name}")[..]])
             })
         };
         Errors {
             aspect_ratio,
             centre_point: displacement(CENTRE_POINT),
             rigid_strip: displacement(RIGID_STRIP),
-            onset: Range::of(rows.iter().map(|line| per_cent(strip(line).slip_displacement, value(line, "d3D_1")))),
+            onset: Range::of(rows.iter().map(|row| per_cent(strip(row).slip_displacement, row["d3D_1"]))),
             energy: Range::of(rows.iter().copied().flat_map(energy)),
         }
     };
@@ -102,13 +94,10 @@ fn errors() -> Vec<Errors> {
 
 /// Errors of the law in per cent against CONTACT itself: of short strips, and of slender ones.
 fn errors_by_contact() -> [Range; 2] {
-    let lines = include_str!("../../../tests/golden/strip_3d_contact.csv").lines().skip(1);
-    // AR, a, n, variant, nu, tau, delta_CONTACT.
-    let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
+    let rows = table("strip_3d_contact");
     [true, false].map(|is_short| {
-        Range::of(rows.iter().filter(|row| row[3] == "ii").filter_map(|row| {
-            let [aspect_ratio, a, nu, tau, elements] =
-                [0, 1, 4, 5, 6].map(|i| row[i].parse::<f64>().expect("a number"));
+        Range::of(rows.iter().filter(|row| row.text("variant") == "ii").filter_map(|row| {
+            let [aspect_ratio, a, nu, tau, elements] = ["AR", "a", "nu", "tau", "delta_CONTACT"].map(|name| row[name]);
             let contact = contact(aspect_ratio, a, RIGID_STRIP);
             let point = contact.curve_at_force(tau * contact.slip_force).expect("a point");
             let is_of_range = nu == POISSON_RATIO && (aspect_ratio < 5.0) == is_short;

@@ -2,6 +2,7 @@
 //! line (`tests/golden/two_directions.csv`) and at squares of a sphere's contact (`two_directions_sphere.csv`), against smaller
 //! steps, and with tables for a smaller load.
 
+use crate::golden;
 use crate::table::Table;
 use microslip::element::{Directions, Element, NormalInput};
 use microslip::two_directions::{Law, Step, TwoDirections};
@@ -59,37 +60,29 @@ struct Errors {
 
 fn paths() -> Vec<Path> {
     let mut paths: Vec<Path> = Vec::new();
-    let lines = include_str!("../../../tests/golden/two_directions.csv").lines().skip(1);
-    for line in lines.chain(include_str!("../../../tests/golden/two_directions_sphere.csv").lines().skip(1)) {
-        let cells: Vec<&'static str> = line.split(',').collect();
-        let name = cells[6];
-        let value = |column: usize| -> f64 { cells[column].parse().expect("a number") };
-        let shape = match (value(0) > 0.0, value(2) > 0.0) {
+    for row in ["two_directions", "two_directions_sphere"].into_iter().flat_map(golden::table) {
+        let name = row.text("path");
+        let shape = match (row["a"] > 0.0, row["L"] > 0.0) {
             (true, _) => "flat",
             (false, true) => "cylinder",
             (false, false) => "sphere",
         };
-        let row =
-            Row { displacement: [value(9), value(10), value(8)], force: [value(11), value(12)], dissipated: value(13) };
-        let [_, _, load] = row.displacement;
+        let (displacement, load) = (["u", "v", "N"].map(|name| row[name]), row["N"]);
+        let solved = Row { displacement, force: [row["Tx"], row["Ty"]], dissipated: row["dissipated"] };
         match paths.last_mut() {
             Some(path) if (path.shape, path.name) == (shape, name) => {
                 path.parameters.normal_force = path.parameters.normal_force.max(load);
-                path.rows.push(row);
+                path.rows.push(solved);
             }
             _ => {
-                let body = Material { young_modulus: value(3), poisson_ratio: value(4) };
+                let body = Material { young_modulus: row["E"], poisson_ratio: row["nu"] };
                 let parameters = Parameters {
-                    flat_half_width: value(0),
-                    edge_radius: value(1),
-                    length: value(2),
                     normal_force: load,
-                    friction_coefficient: value(5),
+                    friction_coefficient: row["mu"],
                     material: [body; 2],
-                    displacement_reference: microslip::parameters::CENTRE_POINT,
-                    ..Parameters::default()
+                    ..golden::geometry(&row)
                 };
-                paths.push(Path { shape, name, parameters, rows: vec![row] });
+                paths.push(Path { shape, name, parameters, rows: vec![solved] });
             }
         }
     }
@@ -378,8 +371,7 @@ impl Comparison {
             let element = element(&errors.path.parameters);
             let slip_force = element.friction_coefficient * element.normal_force;
             let slip_energy = slip_force * element.friction_coefficient * element.shift_under(element.normal_force);
-            let solved = errors.path.rows.iter().map(|row| Point { force: row.force, dissipated: row.dissipated });
-            let solved: Vec<Point> = solved.collect();
+            let solved = errors.path.solved();
             for (by, points) in [("law", &errors.law), ("boundary elements", &solved), ("two elements", &errors.two)] {
                 let component = |k: usize| points.iter().map(|point| point.force[k] / slip_force).collect();
                 let mut sum = 0.0;

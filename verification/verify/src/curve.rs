@@ -49,20 +49,16 @@ pub fn at_force(case: &Case, force: f64, range: &'static str, tally: &mut Tally)
     let place = || format!("{} T {force:e}", text(&reference.input));
     let [displacement, compliance, stick] = call::displacement(contact, force);
     let (rate, stiff) = (point.rate(), point.compliance.f64());
-    let around = |f: &dyn Fn(&Law, &Point) -> Real| {
-        Some(Vec::from([-4.0, 4.0].map(|units| {
-            let (law, point) = reference.at_force(moved(force, units));
-            f(&law, &point)
-        })))
+    let around = |f: &dyn Fn(&Law, &Point) -> Real| -> Vec<Real> {
+        let at = |units| reference.at_force(moved(force, units));
+        [-4.0, 4.0].map(at).map(|(law, point)| f(&law, &point)).into()
     };
     let exact = &law.displacement_unit * &point.x;
     let condition = (&point.tau / &point.x).f64();
     tally.check(("displacement", kind, range), displacement, &exact, condition, place);
     let of = |law: &Law, point: &Point| &point.compliance / &law.stiffness_unit;
-    let exact = of(&law, &point);
-    tally.check_between(("compliance", kind, range), compliance, &exact, &exact, (1.0 + rate) / stiff, place, || {
-        around(&of)
-    });
+    let (exact, soft) = (of(&law, &point), (1.0 + rate) / stiff);
+    tally.check_between(("compliance", kind, range), compliance, &exact, &exact, soft, place, || around(&of));
     let exact = size(&law, &point);
     tally.check_between(("stick_half_width", kind, range), stick, &exact, &exact, rate, place, || around(&size));
     let exact = law.energy_unit() * &point.energy;
@@ -107,26 +103,21 @@ pub fn at_displacement(case: &Case, displacement: f64, range: &'static str, tall
     let (law, point) = reference.at_displacement(displacement);
     let of_stiffness = |law: &Law, point: &Point| &law.stiffness_unit * point.stiffness();
     let of_size = |law: &Law, point: &Point| if point.slips() { law.real(0.0) } else { size(law, point) };
-    let around = |f: &dyn Fn(&Law, &Point) -> Real| {
+    let around = |f: &dyn Fn(&Law, &Point) -> Real| -> Vec<Real> {
         // The displacement of gross slip is rounded too.
         let units = 4.0 * (2.0 + 1.0 / law.x_slip.f64());
-        Some(Vec::from([-units, units].map(|units| {
-            let (law, point) = reference.at_displacement(moved(displacement, units));
-            f(&law, &point)
-        })))
+        let at = |units| reference.at_displacement(moved(displacement, units));
+        [-units, units].map(at).map(|(law, point)| f(&law, &point)).into()
     };
     let stiff = point.compliance.f64();
     let rate = ((&point.x + &point.tau) * &point.curvature).f64() / stiff;
     let (soft, rate) = (1.0 / stiff, if point.slips() { 0.0 } else { rate });
     tally.check(("force", kind, range), force, &(&law.slip_force * &point.tau), soft, place);
     let exact = of_stiffness(&law, &point);
-    tally.check_between(("stiffness", kind, range), stiffness, &exact, &exact, soft * (1.0 + rate), place, || {
-        around(&of_stiffness)
-    });
-    let exact = of_size(&law, &point);
-    tally.check_between(("stick_half_width_inverse", kind, range), stick, &exact, &exact, rate, place, || {
-        around(&of_size)
-    });
+    let (key, condition) = (("stiffness", *kind, range), soft * (1.0 + rate));
+    tally.check_between(key, stiffness, &exact, &exact, condition, place, || around(&of_stiffness));
+    let (key, exact) = (("stick_half_width_inverse", *kind, range), of_size(&law, &point));
+    tally.check_between(key, stick, &exact, &exact, rate, place, || around(&of_size));
 }
 
 /// At given displacements: derivatives of the force with respect to the parameters, against differences.

@@ -207,14 +207,11 @@ impl Check<'_> {
         let [exact, exact_by_input] = &step.tangent;
         let stiffness = 1.0 / &size.tangential_compliance;
         let name = key("element_stiffness");
-        tally.check_between(name, by_displacement, exact, &stiffness, condition, &place, || {
-            Some(self.around(size, |step| step.tangent[0].clone()))
-        });
+        let around = |i: usize| self.around(size, |step| step.tangent[i].clone());
+        tally.check_between(name, by_displacement, exact, &stiffness, condition, &place, || around(0));
         let name = key("element_force_by_input");
         let scale = &family.friction * &step.load_slope;
-        tally.check_between(name, by_input, exact_by_input, &scale, condition, &place, || {
-            Some(self.around(size, |step| step.tangent[1].clone()))
-        });
+        tally.check_between(name, by_input, exact_by_input, &scale, condition, &place, || around(1));
     }
 
     fn energy(&self, got: f64, step: &Step, exact: &State, tally: &mut Tally, place: impl Fn() -> String) {
@@ -233,7 +230,7 @@ impl Check<'_> {
         let scale = &step.dissipated + &rounding;
         let condition = 3.0 / normal.min(tangential);
         let key = ("element_dissipated", self.kind, self.range);
-        let around = || Some(self.around(size, |step| step.dissipated.clone()));
+        let around = || self.around(size, |step| step.dissipated.clone());
         tally.check_between(key, got, &step.dissipated, &scale, condition, place, around);
     }
 }
@@ -263,7 +260,7 @@ fn tractions_at(
         let [normal, tangential] = family.log_compliances(size);
         let soft = 1.0 / normal.min(tangential);
         let at_edge = gap(&size.half_width) * (1.0 + soft);
-        let corners = || Some([-UNITS, UNITS].map(|units| family.pressure(size, &(&spot * moved(1.0, units)))).into());
+        let corners = || [-UNITS, UNITS].map(|units| family.pressure(size, &(&spot * moved(1.0, units)))).into();
         let key = ("element_pressure", *kind, "any history");
         tally.check_between(key, pressure, &exact_pressure, &exact_pressure, at_edge, place, corners);
         // Each knot is known to the rounding of displacements and shifts, over the change of D.

@@ -64,7 +64,7 @@ pub fn updates(case: &Case, path: &[f64], tally: &mut Tally) -> (History, Vec<f6
             // The range from the reversal is a difference of two displacements.
             let units = 8.0 * (2.0 + 1.0 / law.x_slip.f64()) * (1.0 + 2.0 * farthest);
             let around = [-units, units].map(|units| law.at_x(&(&point.x * moved(1.0, units))).stiffness());
-            Some(around.map(|stiffness| &law.stiffness_unit * stiffness).into())
+            around.map(|stiffness| &law.stiffness_unit * stiffness).into()
         });
         let slip = if farthest > 1.0 { farthest * 4.0 * law.x_slip.f64() } else { 0.0 };
         let (exact, scale) = (&energy_unit * dissipated.energy, &energy_unit * (dissipated.size + slip));

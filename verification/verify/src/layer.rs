@@ -166,7 +166,7 @@ impl<'a> Layered<'a> {
         let condition = of_contact * (1.0 + exact.point.rate()) / stiff + rate;
         let value = &exact.compliance;
         tally.check_between(("layer_compliance", kind, range), compliance, value, value, condition, place, || {
-            Some(Vec::from([-4.0, 4.0].map(|units| self.at(self.law.at_force(moved(force, units))).compliance)))
+            [-4.0, 4.0].map(|units| self.at(self.law.at_force(moved(force, units))).compliance).into()
         });
         let change = 4.0 * (&exact.force * &exact.layer_compliance - &exact.layer_displacement) * &exact.force;
         let condition = (change / &exact.energy).f64();
@@ -204,7 +204,7 @@ impl<'a> Layered<'a> {
         let condition = soft + rate * (1.0 + soft);
         tally.check_between(("layer_stiffness", kind, range), stiffness, &value, &value, condition, place, || {
             let units = 4.0 * (2.0 + 1.0 / self.law.x_slip.f64());
-            Some(Vec::from([-units, units].map(|units| of(&self.at_displacement(moved(displacement, units))))))
+            [-units, units].map(|units| of(&self.at_displacement(moved(displacement, units)))).into()
         });
     }
 }

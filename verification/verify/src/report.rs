@@ -56,23 +56,10 @@ fn write(path: &Path, text: &str) {
 /// A row for each region.
 pub fn write_regions(tally: &Tally, path: &Path) {
     let mut csv = "output,contact,range,points,between,broken,worst_k,error,condition,plain_error,inputs\n".to_owned();
-    for (key, cell) in &tally.cells {
-        writeln!(
-            csv,
-            "{},\"{}\",\"{}\",{},{},{},{:.4e},{:.3e},{:.3e},{:.3e},\"{}\"",
-            key.0,
-            key.1,
-            key.2,
-            cell.points,
-            cell.between,
-            cell.broken,
-            cell.worst,
-            cell.error,
-            cell.condition,
-            cell.plain,
-            cell.inputs
-        )
-        .unwrap();
+    for ((output, contact, range), cell) in &tally.cells {
+        let Cell { points, between, broken, worst, error, condition, plain, inputs } = cell;
+        let numbers = format!("{points},{between},{broken},{worst:.4e},{error:.3e},{condition:.3e},{plain:.3e}");
+        writeln!(csv, "{output},\"{contact}\",\"{range}\",{numbers},\"{inputs}\"").unwrap();
     }
     write(path, &csv);
 }

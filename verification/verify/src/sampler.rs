@@ -199,32 +199,20 @@ pub fn text(input: &Input) -> String {
         0.0 => String::new(),
         compliance => format!(" c_t {compliance:e} N_c {:e}", layer.stiffening_load),
     };
-    let bodies = |m: &[Material; 2]| {
-        format!(
-            "E {:e} {:e} nu {:e} {:e}",
-            m[0].young_modulus, m[1].young_modulus, m[0].poisson_ratio, m[1].poisson_ratio
-        )
+    let common = |load: f64, friction: f64, [one, two]: &[Material; 2]| {
+        let ([e1, e2], [nu1, nu2]) = ([one, two].map(|m| m.young_modulus), [one, two].map(|m| m.poisson_ratio));
+        format!("N {load:e} mu {friction:e} E {e1:e} {e2:e} nu {nu1:e} {nu2:e}")
     };
     match input {
-        Input::Flat(p) => format!(
-            "a {:e} R {:e} L {:e} N {:e} mu {:e} {} reference {}{}",
-            p.flat_half_width,
-            p.edge_radius,
-            p.length,
-            p.normal_force,
-            p.friction_coefficient,
-            bodies(&p.material),
-            p.displacement_reference,
-            of_layer(&p.layer)
-        ),
-        Input::Ellipse(p) => format!(
-            "b {:e} l {:e} N {:e} mu {:e} {}{}",
-            p.semi_axis_x,
-            p.semi_axis_y,
-            p.normal_force,
-            p.friction_coefficient,
-            bodies(&p.material),
-            of_layer(&p.layer)
-        ),
+        Input::Flat(p) => {
+            let common = common(p.normal_force, p.friction_coefficient, &p.material);
+            let (reference, layer) = (p.displacement_reference, of_layer(&p.layer));
+            let [a, radius, length] = [p.flat_half_width, p.edge_radius, p.length];
+            format!("a {a:e} R {radius:e} L {length:e} {common} reference {reference}{layer}")
+        }
+        Input::Ellipse(p) => {
+            let common = common(p.normal_force, p.friction_coefficient, &p.material);
+            format!("b {:e} l {:e} {common}{}", p.semi_axis_x, p.semi_axis_y, of_layer(&p.layer))
+        }
     }
 }

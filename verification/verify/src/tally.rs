@@ -34,7 +34,7 @@ impl Tally {
 
     /// Compares a result with the exact one, relative to it.
     pub fn check(&mut self, key: Key, got: f64, exact: &Real, condition: f64, inputs: impl Fn() -> String) {
-        self.check_between(key, got, exact, exact, condition, inputs, || None);
+        self.check_scaled(key, got, exact, exact, condition, inputs);
     }
 
     /// Compares a result with the exact one, relative to a scale.
@@ -47,7 +47,7 @@ impl Tally {
         condition: f64,
         inputs: impl Fn() -> String,
     ) {
-        self.check_between(key, got, exact, scale, condition, inputs, || None);
+        self.check_between(key, got, exact, scale, condition, inputs, Vec::new);
     }
 
     /// The same; beyond the bound a result is accepted if it lies between the exact results of neighbouring inputs.
@@ -60,7 +60,7 @@ impl Tally {
         scale: &Real,
         condition: f64,
         inputs: impl Fn() -> String,
-        neighbours: impl FnOnce() -> Option<Vec<Real>>,
+        neighbours: impl FnOnce() -> Vec<Real>,
     ) {
         // Results near the subnormal range have fewer digits.
         if !exact.is_zero() && exact.exponent() < -1000 && exact.exponent() > -100_000 {
@@ -76,9 +76,9 @@ impl Tally {
         let mut ratio = if error == 0.0 { 0.0 } else { error / EPSILON / (1.0 + condition) };
         let cell = self.cells.entry(key).or_default();
         cell.points += 1;
-        if (ratio > k || condition.is_infinite() || condition > 1e12)
-            && let Some(around) = neighbours()
-        {
+        let is_beyond = ratio > k || condition.is_infinite() || condition > 1e12;
+        let around = if is_beyond { neighbours() } else { Vec::new() };
+        if !around.is_empty() {
             let low = around.iter().fold(exact.clone(), |low, one| low.min(one));
             let high = around.iter().fold(exact.clone(), |high, one| high.max(one));
             // Results of neighbours have the error that is promised here.

@@ -79,7 +79,7 @@ pub fn at_positions(case: &Case, force: f64, spots: &[(f64, &'static str)], near
                 }
             }
         }
-        Some(corners)
+        corners
     };
     let rate = point.rate();
     for (i, &(x, range)) in spots.iter().enumerate() {
@@ -90,7 +90,7 @@ pub fn at_positions(case: &Case, force: f64, spots: &[(f64, &'static str)], near
         let (from_b, from_c) = (from(&law.real(1.0)), (1.0 + rate) * from(&point.size));
         let exact = &pressure_unit * &p;
         tally.check_between(("pressure", kind, range), pressure[i], &exact, &exact, from_b, place, || {
-            Some([-UNITS, UNITS].map(|at| &pressure_unit * law.pressure(&place_of(&law, moved(x, at)), None)).into())
+            [-UNITS, UNITS].map(|at| &pressure_unit * law.pressure(&place_of(&law, moved(x, at)), None)).into()
         });
         let q = if point.slips() { p.clone() } else { &p - law.pressure(&spot, Some(&point)) };
         let exact = &shear_unit * q;
