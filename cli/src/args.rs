@@ -4,7 +4,6 @@ use crate::contact_spec::ContactArgs;
 use crate::number::{Amount, parse_amount, parse_number};
 use crate::units::DataUnits;
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use std::fmt;
 use std::path::PathBuf;
 
 /// Friction law of a contact: properties, curves, hysteresis loops and complex stiffness as CSV and as pictures.
@@ -373,18 +372,6 @@ pub enum Fixable {
     ContactCompliance,
     ParallelStiffness,
     Shape,
-}
-
-impl fmt::Display for Fixable {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Fixable::FrictionCoefficient => "friction_coefficient",
-            Fixable::SeriesCompliance => "series_compliance",
-            Fixable::ContactCompliance => "contact_compliance",
-            Fixable::ParallelStiffness => "parallel_stiffness",
-            Fixable::Shape => "shape",
-        })
-    }
 }
 
 /// The parameter of shape of a fit.

@@ -350,19 +350,16 @@ pub fn parts_of_step(rows: usize) -> u32 {
 }
 
 pub fn history(options: &History, spec: &ContactSpec) -> Result<Report> {
-    let (path, selected) = (&options.displacements, options.column.as_deref());
-    let [approach, normal_force] = [&options.approach_column, &options.normal_force_column].map(Option::as_deref);
+    let path = &options.displacements;
     let [length, force] = [Length, Force].map(|quantity| spec.units.unit(quantity));
-    let names = &["displacement", "displacement_x"];
-    let column = ColumnSpec { option: "--column", selected, names, unit: length };
-    let (selected, names) = (options.column_y.as_deref(), &["displacement_y"]);
-    let column_y = ColumnSpec { option: "--column-y", selected, names, unit: length };
+    let column = ColumnSpec::new("--column", &options.column, &["displacement", "displacement_x"], length);
+    let column_y = ColumnSpec::new("--column-y", &options.column_y, &["displacement_y"], length);
     let normal = [
-        ColumnSpec { option: "--approach-column", selected: approach, names: &["approach"], unit: length },
-        ColumnSpec { option: "--normal-force-column", selected: normal_force, names: &["normal_force"], unit: force },
+        ColumnSpec::new("--approach-column", &options.approach_column, &["approach"], length),
+        ColumnSpec::new("--normal-force-column", &options.normal_force_column, &["normal_force"], force),
     ];
     // A selected column of normal forces leaves no choice.
-    let first = usize::from(normal_force.is_some());
+    let first = usize::from(options.normal_force_column.is_some());
     let table = read_columns(path, [&column, &column_y], &normal[first..])?;
     let columns = [&column, &column_y, &normal[0], &normal[1]].map(|column| {
         column.selected.map_or(String::new(), |selected| format!(" {} {}", column.option, quoted(selected)))

@@ -128,9 +128,7 @@ impl ContactSpec {
         };
         element.map_err(|error| CliError::Input(self.given.explain(error).0))
     }
-}
 
-impl ContactSpec {
     /// The element of the contact without its layer, by the normal force.
     pub fn smooth_element(&self) -> Result<Element> {
         let given = ContactArgs {
@@ -296,33 +294,27 @@ impl ContactArgs {
             stiffening_load: self.stiffening_load.unwrap_or(0.0),
             reference_load: self.reference_load.unwrap_or(0.0),
         };
-        Ok(if self.is_elliptic() {
+        if self.is_elliptic() {
             let [semi_axis_x, semi_axis_y] = [self.semi_axis_x, self.semi_axis_y].map(number);
-            ShapeParameters::Ellipse(EllipticParameters {
-                semi_axis_x,
-                semi_axis_y,
-                normal_force,
-                friction_coefficient,
-                material,
-                layer,
-            })
-        } else {
-            ShapeParameters::Flat(Parameters {
-                flat_half_width: number(self.flat_half_width),
-                edge_radius: number(self.edge_radius),
-                length: factor * number(self.length),
-                normal_force: factor * normal_force,
-                friction_coefficient,
-                material,
-                displacement_reference: match self.displacement_reference {
-                    Some(Reference::RigidStrip) => RIGID_STRIP,
-                    Some(Reference::CentrePoint) => CENTRE_POINT,
-                    None => Parameters::default().displacement_reference,
-                },
-                layer,
-                reserved: 0,
-            })
-        })
+            let of =
+                EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, material, layer };
+            return Ok(ShapeParameters::Ellipse(of));
+        }
+        Ok(ShapeParameters::Flat(Parameters {
+            flat_half_width: number(self.flat_half_width),
+            edge_radius: number(self.edge_radius),
+            length: factor * number(self.length),
+            normal_force: factor * normal_force,
+            friction_coefficient,
+            material,
+            displacement_reference: match self.displacement_reference {
+                Some(Reference::RigidStrip) => RIGID_STRIP,
+                Some(Reference::CentrePoint) => CENTRE_POINT,
+                None => Parameters::default().displacement_reference,
+            },
+            layer,
+            ..Parameters::default()
+        }))
     }
 
     /// Tangential over normal compliance of a rough surface: (2-ν)/(2(1-ν)), the mean of both bodies by their shares of 1/E*.
@@ -339,32 +331,25 @@ impl ContactArgs {
 
     /// The contact as the start of a fit.
     pub fn fit_contact(&self) -> Result<microslip_fit::Contact> {
-        Ok(match self.shape(1.0)? {
-            ShapeParameters::Flat(parameters) => microslip_fit::Contact {
-                geometry: microslip_fit::Geometry::Flat {
-                    flat_half_width: parameters.flat_half_width,
-                    edge_radius: parameters.edge_radius,
-                    length: parameters.length,
-                    displacement_reference: match self.displacement_reference {
-                        Some(Reference::CentrePoint) => microslip_fit::DisplacementReference::CentrePoint,
-                        // It is given: missing parameters were reported.
-                        Some(Reference::RigidStrip) | None => microslip_fit::DisplacementReference::RigidStrip,
-                    },
-                },
-                normal_force: parameters.normal_force,
-                friction_coefficient: parameters.friction_coefficient,
-                material: parameters.material,
-            },
-            ShapeParameters::Ellipse(parameters) => microslip_fit::Contact {
-                geometry: microslip_fit::Geometry::Ellipse {
-                    semi_axis_x: parameters.semi_axis_x,
-                    semi_axis_y: parameters.semi_axis_y,
-                },
-                normal_force: parameters.normal_force,
-                friction_coefficient: parameters.friction_coefficient,
-                material: parameters.material,
-            },
-        })
+        let displacement_reference = match self.displacement_reference {
+            Some(Reference::CentrePoint) => microslip_fit::DisplacementReference::CentrePoint,
+            // It is given: missing parameters were reported.
+            Some(Reference::RigidStrip) | None => microslip_fit::DisplacementReference::RigidStrip,
+        };
+        let (geometry, normal_force, friction_coefficient, material) = match self.shape(1.0)? {
+            ShapeParameters::Flat(p) => {
+                let Parameters { flat_half_width, edge_radius, length, .. } = p;
+                let geometry =
+                    microslip_fit::Geometry::Flat { flat_half_width, edge_radius, length, displacement_reference };
+                (geometry, p.normal_force, p.friction_coefficient, p.material)
+            }
+            ShapeParameters::Ellipse(p) => {
+                let EllipticParameters { semi_axis_x, semi_axis_y, .. } = p;
+                let geometry = microslip_fit::Geometry::Ellipse { semi_axis_x, semi_axis_y };
+                (geometry, p.normal_force, p.friction_coefficient, p.material)
+            }
+        };
+        Ok(microslip_fit::Contact { geometry, normal_force, friction_coefficient, material })
     }
 
     /// The message of an error, with the values of the parameter that it names first, and the name of that parameter.

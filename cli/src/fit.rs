@@ -10,9 +10,8 @@ use crate::plot::{Axis, Line, Panel, Row, rounded};
 use crate::table::{ColumnSpec, Table, parse_columns};
 use crate::units::Quantity::{Energy, Force, Length, Number, Stiffness};
 use crate::units::Units;
-use microslip_fit::{
-    CauseKind, Estimate, FittedLoop, Measurement, Misfit, NormalForce, Options, ShapeParameter, Status,
-};
+use clap::ValueEnum;
+use microslip_fit::{CauseKind, Estimate, FittedLoop, Measurement, Misfit, NormalForce, Options, ShapeParameter};
 use std::path::{Path, PathBuf};
 
 /// Exit status if the law does not explain the loops.
@@ -59,26 +58,10 @@ pub fn fit(options: &Fit, spec: &ContactSpec) -> Result<Report> {
 /// The measurement of a file, in the units of the contact.
 fn measurement(options: &Fit, spec: &ContactSpec, index: usize, path: &Path) -> Result<Measurement> {
     let [length, force] = options.data_units.unwrap_or(spec.units.of_data()).to(spec.units);
-    let column = ColumnSpec {
-        option: "--column",
-        selected: options.column.as_deref(),
-        names: &["displacement"],
-        unit: length.0,
-    };
-    let forces = ColumnSpec {
-        option: "--force-column",
-        selected: options.force_column.as_deref(),
-        names: &["force"],
-        unit: force.0,
-    };
-    let normal = [ColumnSpec {
-        option: "--normal-force-column",
-        selected: options.normal_force_column.as_deref(),
-        names: &["normal_force"],
-        unit: force.0,
-    }];
-    let time =
-        ColumnSpec { option: "--time-column", selected: options.time_column.as_deref(), names: &["time"], unit: "s" };
+    let column = ColumnSpec::new("--column", &options.column, &["displacement"], length.0);
+    let forces = ColumnSpec::new("--force-column", &options.force_column, &["force"], force.0);
+    let normal = [ColumnSpec::new("--normal-force-column", &options.normal_force_column, &["normal_force"], force.0)];
+    let time = ColumnSpec::new("--time-column", &options.time_column, &["time"], "s");
     let normal = if options.loads.is_empty() { &normal[..] } else { &[] };
     let text = read_text(path, TABLE_SIZE)?;
     let columns = |second, others| {
@@ -147,7 +130,8 @@ fn repeat(options: &Fit) -> String {
     }
     for (parameter, value) in &options.fix {
         let value = value.map_or(String::new(), |value| format!("={}", format_number(value)));
-        text += &format!(" --fix {parameter}{value}");
+        let name = parameter.to_possible_value().map_or(String::new(), |value| value.get_name().to_owned());
+        text += &format!(" --fix {name}{value}");
     }
     if options.shape == ShapeOption::EdgeRadius {
         text += " --shape edge_radius";
@@ -158,17 +142,10 @@ fn repeat(options: &Fit) -> String {
 fn table(found: &microslip_fit::Report, units: Units) -> Table {
     let [force, stiffness] = [Force, Stiffness].map(|quantity| units.unit(quantity));
     let compliance = format!("{}/N", units.unit(Length));
-    let status = |status| match status {
-        Status::Fixed => "fixed",
-        Status::Determined => "determined",
-        Status::Bounded => "bounded",
-        Status::LowerBound => "lower_bound",
-        Status::NotDetermined => "not_determined",
-    };
     let estimate = |(name, at, unit): (&str, &Estimate, &str)| {
         let [value, lower] = [at.value, at.lower].map(format_number);
         let upper = at.upper.map_or(String::new(), format_number);
-        format!("{name},{value},{lower},{upper},{unit},{}", status(at.status))
+        format!("{name},{value},{lower},{upper},{unit},{}", at.status.name())
     };
     let shape = found.shape.iter().map(|shape| ("flat_half_width_over_half_width", shape, "-"));
     let estimates = [

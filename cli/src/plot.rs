@@ -324,7 +324,6 @@ fn prefixed(size: f64, quantity: Quantity) -> (i32, String) {
 struct Scale {
     axis: Axis,
     label: String,
-    logarithmic: bool,
     in_si: f64,
     /// Power of ten of the unit of the label.
     power: i32,
@@ -347,16 +346,7 @@ impl Scale {
             (low, high) = (1.0, 1.0);
         }
         let (power, label) = axis.label(low.abs().max(high.abs()));
-        let mut scale = Scale {
-            axis,
-            label,
-            logarithmic: axis.logarithmic,
-            in_si,
-            power,
-            range: 0.0..1.0,
-            ticks: Vec::new(),
-            decimals: 0,
-        };
+        let mut scale = Scale { axis, label, in_si, power, range: 0.0..1.0, ticks: Vec::new(), decimals: 0 };
         let (low, high) = (scale.place(low / in_si), scale.place(high / in_si));
         if axis.logarithmic {
             scale.set_powers(low, high, most)
@@ -424,7 +414,7 @@ impl Scale {
 
     fn place(&self, value: f64) -> f64 {
         let value = value * self.in_si;
-        if self.logarithmic { value.log10() - f64::from(self.power) } else { value / 10f64.powi(self.power) }
+        if self.axis.logarithmic { value.log10() - f64::from(self.power) } else { value / 10f64.powi(self.power) }
     }
 
     /// Fraction of the range up to a place.
@@ -433,7 +423,7 @@ impl Scale {
     }
 
     fn tick_label(&self, place: f64) -> String {
-        if self.logarithmic {
+        if self.axis.logarithmic {
             format_number(10f64.powi(place.round() as i32))
         } else {
             format!("{:.*}", self.decimals, place + 0.0) // without the sign of -0

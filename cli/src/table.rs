@@ -182,7 +182,16 @@ fn name_of(cell: &str) -> &str {
     cell.split('[').next().unwrap_or_default().trim()
 }
 
-impl ColumnSpec<'_> {
+impl<'a> ColumnSpec<'a> {
+    pub fn new(
+        option: &'static str,
+        selected: &'a Option<String>,
+        names: &'a [&'static str],
+        unit: &'a str,
+    ) -> ColumnSpec<'a> {
+        ColumnSpec { option, selected: selected.as_deref(), names, unit }
+    }
+
     /// Whether the column is selected, or its default name is in the header.
     fn is_in(&self, first: &[&str]) -> bool {
         self.selected.is_some() || (is_header(first) && first.iter().any(|cell| self.names.contains(&name_of(cell))))

@@ -49,6 +49,11 @@ impl Units {
     pub fn in_si(self, quantity: Quantity) -> f64 {
         self.unit_and_factor(quantity).1
     }
+
+    /// The same units of measured data.
+    pub fn of_data(self) -> DataUnits {
+        DataUnits { length: LENGTHS[usize::from(self == Units::Mm)], force: FORCES[0] }
+    }
 }
 
 /// Units of measured displacements and forces.
@@ -84,12 +89,5 @@ impl DataUnits {
 impl std::fmt::Display for DataUnits {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "{},{}", self.length.0, self.force.0)
-    }
-}
-
-impl Units {
-    /// The same units of measured data.
-    pub fn of_data(self) -> DataUnits {
-        DataUnits { length: LENGTHS[usize::from(self == Units::Mm)], force: FORCES[0] }
     }
 }

@@ -176,12 +176,17 @@ pub struct FittedLoop {
     pub slider_force: Vec<f64>,
 }
 
-impl CauseKind {
-    /// Its name in JSON.
-    pub fn name(self) -> String {
-        serde_json::to_value(self).ok().and_then(|name| name.as_str().map(str::to_owned)).unwrap_or_default()
-    }
+macro_rules! names {
+    ($($kind:ty)*) => {
+        $(impl $kind {
+            /// Its name in JSON.
+            pub fn name(self) -> String {
+                serde_json::to_value(self).ok().and_then(|name| name.as_str().map(str::to_owned)).unwrap_or_default()
+            }
+        })*
+    };
 }
+names!(Status CauseKind);
 
 impl Misfit {
     /// Of measured and computed forces at the samples of each loop.
