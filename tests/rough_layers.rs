@@ -158,7 +158,7 @@ fn jumps(random: &mut Random, elements: usize, by_load: f64) -> f64 {
 }
 
 /// Where the middle of a step begins to slip while its end sticks, where a contact that sticks exceeds Coulomb's bound, and where Newton's
-/// method needs sweeps, once and twice, too: with these seeds, all are met. From one load to the next the force jumps where the size inside
+/// method needs sweeps: with these seeds, all are met. From one load to the next the force jumps where the size inside
 /// the edge passes a node: by the part of the load between both sizes.
 #[test]
 fn the_force_does_not_jump() {
