@@ -158,11 +158,11 @@ fn jumps(random: &mut Random, elements: usize, by_load: f64) -> f64 {
 }
 
 /// Where the middle of a step begins to slip while its end sticks, where a contact that sticks exceeds Coulomb's bound, and where Newton's
-/// method needs sweeps: with these seeds, all are met. From one load to the next the force jumps where the size inside
-/// the edge passes a node: by the part of the load between both sizes.
+/// method needs sweeps: with these seeds, all are met. From one load to the next the force jumps where the size inside the edge passes a node:
+/// by the part of the load between both sizes.
 #[test]
 fn the_force_does_not_jump() {
-    for (seed, elements) in [(15, 8), (23, 48), (309, 1), (222, 4)] {
+    for (seed, elements) in [(15, 8), (23, 48), (1096, 8)] {
         for (by_load, bound) in [(0.0, 1e-6), (-0.03, 2e-5)] {
             let size = jumps(&mut Random(seed), elements, by_load);
             assert!(size <= bound, "{seed} {by_load}: {size:e}");
