@@ -55,7 +55,6 @@ const CLOSED: f64 = 0.1;
 /// The largest swing of the normal force about its mean that the law for a constant one admits: its effect is included to first
 /// order, so that an error of its square, a percent of the force, remains.
 const LARGEST_SWING: f64 = 0.1;
-
 /// Least ratio of the relative areas of a loop of gross slip and of a loop without, which a lag of some samples makes negative.
 const OPEN: f64 = 4.0;
 
@@ -72,16 +71,15 @@ pub(crate) fn loops(original: &Record) -> Result<Vec<Loop>, Error> {
     let mut reversals = reversals(&smoothed(&record.displacement), least(record));
     let rotated;
     if reversals.len() < 3 {
-        let is_closed = |values: &[f64]| (values[count - 1] - values[0]).abs() <= CLOSED * range(values);
+        let end = reversals.first().map_or(count, |first| repeats(&record.displacement, *first, record.noise[0]));
+        let is_closed = |values: &[f64]| (values[end - 1] - values[0]).abs() <= CLOSED * range(values);
         if reversals.is_empty() || !is_closed(&record.displacement) || !is_closed(&record.force) {
-            return fail(
-                "less than one cycle of displacement: at least from one reversal to the next but one is needed",
-            );
+            return fail("less than one cycle: record from one reversal to the next but one, or a closed loop");
         }
-        let highest = (0..count).max_by(|i, j| record.displacement[*i].total_cmp(&record.displacement[*j]));
-        rotated = record.rotated(highest.unwrap_or_default());
+        let highest = (0..end).max_by(|i, j| record.displacement[*i].total_cmp(&record.displacement[*j]));
+        rotated = record.rotated(highest.unwrap_or_default(), end);
         record = &rotated;
-        reversals = [vec![0], self::reversals(&smoothed(&record.displacement), least(record)), vec![count]].concat();
+        reversals = [vec![0], self::reversals(&smoothed(&record.displacement), least(record)), vec![end]].concat();
     }
     let branch = (reversals[reversals.len() - 1] - reversals[0]) / (reversals.len() - 1);
     if branch >= 2 * SAMPLES {
@@ -103,9 +101,7 @@ pub(crate) fn loops(original: &Record) -> Result<Vec<Loop>, Error> {
         first = last;
     }
     if loops.is_empty() {
-        return fail(
-            "the amplitude changes by more than 5 % from each reversal to the next: there are no closed loops",
-        );
+        return fail("the amplitude changes by more than 5 % from each reversal to the next: no loop is closed");
     }
     let swing = loops.iter().map(Loop::swing).fold(0.0, f64::max);
     if swing > LARGEST_SWING {
@@ -137,7 +133,18 @@ fn reversals(displacement: &[f64], least: f64) -> Vec<usize> {
     found
 }
 
-fn mean(values: impl Iterator<Item = f64> + Clone) -> f64 {
+/// The sample from which on a record, whose first reversal is given, repeats itself; the number of samples if there is none.
+fn repeats(displacement: &[f64], first: usize, noise: f64) -> usize {
+    let (values, count) = (smoothed(displacement), displacement.len());
+    let above = |i: &usize| (values[*i] - values[0]) * (values[0] - values[first]).signum();
+    let top = |from: usize, to: usize| (from..to).max_by(|i, j| above(i).total_cmp(&above(j))).unwrap_or(first);
+    // The record may start just before a reversal.
+    let before = above(&top(0, first)) > 6.0 * noise;
+    let from = if before { first } else { top(first, count) + 1 };
+    (from..count).find(|i| if before { above(i) >= 0.0 } else { above(i) <= 0.0 }).unwrap_or(count)
+}
+
+pub(crate) fn mean(values: impl Iterator<Item = f64> + Clone) -> f64 {
     let count = values.clone().count();
     values.sum::<f64>() / count.max(1) as f64
 }

@@ -61,9 +61,8 @@ impl Record {
             if range(values) == 0.0 {
                 return fail(format!("{column} is constant"));
             }
-            let (mut steps, largest) =
-                (values.windows(2).map(|pair| (pair[1] - pair[0]).abs()), LARGEST_STEP * range(values));
-            if let Some(row) = steps.position(|step| step > largest) {
+            let largest = LARGEST_STEP * range(values);
+            if let Some(row) = values.windows(2).position(|pair| (pair[1] - pair[0]).abs() > largest) {
                 return fail(format!(
                     "{column} jumps by more than a quarter of its range after sample {}: samples are missing, or a cycle has \
                      fewer than 12",
@@ -115,9 +114,9 @@ impl Record {
         Record { noise, interval, step, ..record }
     }
 
-    /// The same record from another sample on, which is repeated at the end, if it ends where it starts.
-    pub fn rotated(&self, start: usize) -> Record {
-        self.map(|values| [&values[start..], &values[..=start]].concat())
+    /// The samples before `end` from another one on, which is repeated at the end, if they end where they start.
+    pub fn rotated(&self, start: usize, end: usize) -> Record {
+        self.map(|values| [&values[start..end], &values[..=start]].concat())
     }
 }
 
@@ -164,8 +163,7 @@ fn saturation(values: &[f64]) -> Option<f64> {
     let [low, high] = ends(values);
     let least = (CLIPPED * values.len() as f64).max(5.0) as usize;
     // Noise separates four equal values of a digitiser, but not of a saturated sensor.
-    let clipped =
-        [low, high].map(|end| values.windows(4).filter(|near| near.iter().all(|value| *value == end)).count());
+    let clipped = [low, high].map(|end| values.windows(4).filter(|near| near.iter().all(|at| *at == end)).count());
     let equal_elsewhere = count(&|one, other| one == other && one != low && one != high);
     // Rounding to steps has 0.29 of a step as its standard deviation.
     let least_noise = (1e-5 * (high - low)).max(0.5 * resolution(values));

@@ -52,13 +52,14 @@ pub fn fit(contact: &Contact, measurements: &[Measurement], options: &Options) -
     let compliances = compliances.collect::<Result<Vec<_>, Error>>()?;
     let given = [options.friction_coefficient, options.series_compliance, options.contact_compliance];
     let [friction, series, contact_factor] = start_values(&loops, &compliances, given);
-    let warnings = plausibility::check(&loops, &compliances, friction, series + contact_factor * mean(&compliances))?;
+    let compliance = series + contact_factor * cycles::mean(compliances.iter().copied());
+    let warnings = plausibility::check(&loops, &compliances, friction, compliance)?;
 
     let limit = [1e-3 * friction, 1e3 * friction];
     let spring = options.parallel_stiffness.unwrap_or(0.0);
-    let least = 1e-6 * (series + contact_factor * mean(&compliances));
     let positive = [0.0, f64::MAX];
-    let limits = [limit, [least, f64::MAX], positive, range.unwrap_or_default(), [0.0, MOST_STIFFENING], positive];
+    let limits =
+        [limit, [1e-6 * compliance, f64::MAX], positive, range.unwrap_or_default(), [0.0, MOST_STIFFENING], positive];
     let in_range = |shape: f64| range.map_or(shape, |[low, high]| shape.clamp(low, high));
     let start = [friction, series, contact_factor, shape.map_or(0.0, in_range), 0.0, spring];
     let start = Fit::new(&family, &loops, start, limits, range.is_some())?;
@@ -73,11 +74,8 @@ pub fn fit(contact: &Contact, measurements: &[Measurement], options: &Options) -
     let [friction, series, contact_compliance, shape_estimate, series_stiffening, parallel_stiffness] =
         solution.estimates;
     let geometry = if range.is_some() { family.geometry(shape_estimate.value) } else { contact.geometry };
-    let shape = shape.map(|given| match range {
-        Some(_) => shape_estimate,
-        None => Estimate { value: given, lower: given, upper: Some(given), status: Status::Fixed },
-    });
-    let forces_of_loops = forces.iter().zip(&slider_forces);
+    let fixed = |value| Estimate { value, lower: value, upper: Some(value), status: Status::Fixed };
+    let shape = shape.map(|given| if range.is_some() { shape_estimate } else { fixed(given) });
     let fitted = |(one, (law, slider)): (&cycles::Loop, (&Vec<_>, &Vec<_>))| FittedLoop::new(one, law, slider);
     Ok(Report {
         friction_coefficient: friction,
@@ -94,12 +92,8 @@ pub fn fit(contact: &Contact, measurements: &[Measurement], options: &Options) -
         profile: solution.profile,
         warnings,
         contact_toml: report::contact_toml(contact, &geometry, &solution.fit.parameters),
-        loops: loops.iter().zip(forces_of_loops).map(fitted).collect(),
+        loops: loops.iter().zip(forces.iter().zip(&slider_forces)).map(fitted).collect(),
     })
-}
-
-fn mean(values: &[f64]) -> f64 {
-    values.iter().sum::<f64>() / values.len().max(1) as f64
 }
 
 /// Input of [`fit_json`].

@@ -69,14 +69,8 @@ impl Drawn {
     }
 
     fn loops(&mut self, amplitudes: &[f64]) -> Vec<Measurement> {
-        let rig = Rig {
-            series_compliance: self.series_compliance,
-            samples: SAMPLES,
-            cycles: 3,
-            offset: 0.0,
-            drift: 0.0,
-            ..RIG
-        };
+        let series_compliance = self.series_compliance;
+        let rig = Rig { series_compliance, samples: SAMPLES, cycles: 3, offset: 0.0, drift: 0.0, ..RIG };
         let contact = self.contact.clone();
         let of = |amplitude: &f64| measured(&contact, &Rig { amplitude: *amplitude, ..rig }, &mut self.random);
         amplitudes.iter().map(of).collect()
@@ -219,10 +213,8 @@ fn causes_are_named_and_nothing_wrong_is_determined() {
             let expected = if is_law { Some(0) } else { (size == sizes[2]).then_some(all) };
             assert!(expected.is_none_or(|expected| refused == expected), "{name} {size}: {refused}");
             assert!((is_small && !is_law) || is_rare(all - first, all, 0.1), "{name} {size}: {first}");
-            assert!(
-                is_rare(named_and_wrong, all, if is_small || is_law { JOINT } else { 0.1 }),
-                "{name} {size}: {wrong}"
-            );
+            let part = if is_small || is_law { JOINT } else { 0.1 };
+            assert!(is_rare(named_and_wrong, all, part), "{name} {size}: {wrong}");
             [refused, first, wrong]
         });
         let column = |i: usize| counts.map(|counts| counts[i].to_string()).join(", ");
