@@ -213,7 +213,7 @@ impl<'a> ColumnSpec<'a> {
             let expected = self.unit;
             return match first[index].split_once('[').map(|(_, unit)| unit.trim_end_matches(']').trim()) {
                 Some(unit) if unit != expected => {
-                    Err(format!("column {name} is in {unit}, not in {expected} (see --units or --data-units)"))
+                    Err(format!("column {name} is in {unit}, not in {expected} (see --units, or --data-units of fit)"))
                 }
                 _ => Ok(index),
             };

@@ -779,7 +779,7 @@ fn errors_in_files_name_file_and_line() {
         (b"t,u\n0,1\n", "--column w", "line 1: no column w; the columns are t, u"),
         (b"u,u [m]\n0,1\n", "--column u", "line 1: several columns are named u: --column must"),
         (b"0,.1\n", "--column 3", "line 1: no column 3; the columns are 1 to 2"),
-        (b"displacement [mm]\n1\n", "", "line 1: column displacement is in mm, not in m (see --units or --data-units)"),
+        (b"u [mm]\n1\n", "--column u", "line 1: column u is in mm, not in m (see --units, or --data-units of fit)"),
         (b"", "", "the table has no displacements"),
         (b"u\n1\n2 # \xb5m\n", "", "line 3: invalid UTF-8"),
         (b"t,u\n0,1\n0,x\n", "--column u", "line 3, column u: \"x\": not a number"),
