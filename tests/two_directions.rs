@@ -112,6 +112,15 @@ fn tangents_are_derivatives() {
             at = next;
             contact.to(at);
             TwoDirections::state_check(&contact.state).unwrap();
+            // At rest nothing slips, whatever did before, unless the force is at its bound.
+            let (rest, mut stuck) = (contact.trial(at), Contact::new(element));
+            stuck.to([0.0, 0.0, at[2]]);
+            let stuck = stuck.trial([0.0, 0.0, at[2]]).tangent;
+            let bound = (1.0 - 1e-12) * element.friction_coefficient * rest.force[2];
+            for i in [0, 1, 3, 4] {
+                let error = (rest.tangent[i] - stuck[i]).abs() / element.tangential_stiffness;
+                assert!(error < 1e-3 || rest.force[0].hypot(rest.force[1]) >= bound, "{k} {i}: {error:e}");
+            }
         }
     }
 }

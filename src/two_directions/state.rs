@@ -286,8 +286,8 @@ impl Memory<'_> {
             *self.turned = slip.turned;
             let Normal { load: normal_force, load_slope, .. } = normal;
             self.write(&Header { displacement: to, normal_force, load_slope, force, ..*header }, contact);
-            force = bounded(force, contact.now.load);
         }
+        force = bounded(force, contact.now.load);
         let mut result = Step { force: [unit * force[0], unit * force[1], normal.load], ..Step::NONE };
         if requested.tangent {
             let units = [unit * path.per_distance, unit / element.input_scale()];

@@ -10,7 +10,8 @@ use super::scalar::{Dual, Linear, Over, Real, both};
 use super::slip::{SLIPPED, Slip, Slips};
 use super::tables::{Both, DualRows, FINE, INSIDE, Matrix, N, Row, Rows, SHIFT, Tables, starts};
 use super::trial::{
-    Derivatives, FINE_SPRING, LEAST, Motion, Springs, Values, leave, limits_before, moved, returned, slid, some_leave,
+    Derivatives, FINE_SPRING, LEAST, Motion, ROUNDING, Springs, Values, leave, limits_before, moved, returned, slid,
+    some_leave,
 };
 use crate::shape::TINY;
 use crate::simd::dispatch;
@@ -171,11 +172,12 @@ fn finish<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
     force
 }
 
-/// A force within Coulomb's bound.
+/// A force within Coulomb's bound: its derivatives are those of the bound if it is beyond by more than rounding.
 #[inline(always)]
 pub(crate) fn bounded<X: Real>(force: Both<X>, bound: X) -> Both<X> {
     let square = force[0] * force[0] + force[1] * force[1];
-    if square.value() > bound.value() * bound.value() {
+    let largest = if X::DERIVED { ROUNDING } else { 1.0 } * bound.value() * bound.value();
+    if square.value() > largest {
         let scale = square.at_least(TINY).sqrt().inverse() * bound;
         return both!(|k| force[k] * scale);
     }

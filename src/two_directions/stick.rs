@@ -4,7 +4,7 @@ use super::contact::Contact;
 use super::matrix::largest;
 use super::scalar::{Dual, Linear, Over, both};
 use super::tables::{Both, DualRows, END, FINE, INSIDE, N, Rows, SHIFT, THINNEST};
-use super::trial::{FINE_SPRING, Values, direction, returned};
+use super::trial::{FINE_SPRING, ROUNDING, Values, direction, returned};
 use crate::simd::dispatch;
 
 /// Moves the springs and their force if no point slips, unless a fine spring would slip or the force exceeds its bound; the displacement of the
@@ -30,7 +30,7 @@ pub(crate) fn stick(
                 let limit = both!(|k| c.now.shift[k] - nodes[k][j]);
                 let v = both!(|k| springs[first + k * rows + row][j] + by[k]);
                 let (across, along, bound) = (v[0] * limit[1], v[1] * limit[0], limit[0] * limit[1]);
-                let excess = across * across + along * along - bound * bound;
+                let excess = across * across + along * along - ROUNDING * (bound * bound);
                 parts[row][j] = if nodes[0][j] < inside { 1.0 } else { 0.0 };
                 let excess = parts[row][j] * excess;
                 most[j] = if excess > most[j] { excess } else { most[j] };
@@ -40,7 +40,7 @@ pub(crate) fn stick(
         let limit = both!(|k| c.limit_inside(k));
         let ends = returned(edge, &limit, direction(edge, limit));
         let moved = both!(|k| force[k] + by[k] * c.total(k) + c.fine_inside(k) * (ends[k] - edge[k]));
-        if largest(&most) > 0.0 || moved[0] * moved[0] + moved[1] * moved[1] > c.now.load * c.now.load {
+        if largest(&most) > 0.0 || moved[0] * moved[0] + moved[1] * moved[1] > ROUNDING * c.now.load * c.now.load {
             return None;
         }
         *force = moved;

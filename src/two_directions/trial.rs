@@ -71,6 +71,9 @@ pub(crate) fn moved<A: Real, X: Over<A>>(limit: A, rise: A, by: X) -> X {
     if limit.value() < rise.value() { by.times(limit * rise.at_least(LEAST).inverse()) } else { by }
 }
 
+/// The largest square of a state over its limit that sticks: one that has slipped may round.
+pub(crate) const ROUNDING: f64 = 1.0 + 1e-12;
+
 /// The direction of v/limit of a spring, and 1/(x y |v/limit|) with the limits x and y, negative if it sticks.
 #[inline(always)]
 pub(crate) fn direction(v: Both<f64>, [x, y]: Both<f64>) -> [f64; 3] {
@@ -78,7 +81,11 @@ pub(crate) fn direction(v: Both<f64>, [x, y]: Both<f64>) -> [f64; 3] {
     let square = across * across + along * along;
     // A sum: of a maximum, the compiler would divide by what is less.
     let per_length = 1.0 / (square + TINY).sqrt();
-    [across * per_length, along * per_length, if square > bound * bound { per_length } else { -per_length }]
+    [
+        across * per_length,
+        along * per_length,
+        if square > ROUNDING * (bound * bound) { per_length } else { -per_length },
+    ]
 }
 
 /// A spring on its own, returned to its limit if it slips: by values `limit e`; e turns by `e × d(v/limit)` over the length of v/limit.
@@ -161,9 +168,6 @@ pub(crate) fn leave<A: Real, X: Over<A>>(
         }
     }
 }
-
-/// The largest |r|² of a trial state that sticks: a state that has slipped may round.
-pub(crate) const ROUNDING: f64 = 1.0 + 1e-12;
 
 /// The state in which all springs stick. Under a constant load r changes by the motion of the last shell; of springs it would have the
 /// rounding errors of their differences.
