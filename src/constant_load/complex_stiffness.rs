@@ -23,9 +23,8 @@
 use crate::constant_load::contact::{BLOCKS_IN_SLIP, Contact};
 use crate::error::Error;
 use crate::limits::MAX_DISPLACEMENT;
-use crate::numerics::const_math::tabulate;
 use crate::numerics::fp_class::in_0_to;
-use crate::numerics::polynomial::{Rows, rows};
+use crate::numerics::polynomial::Rows;
 use crate::numerics::quadrature::{gauss_legendre, gauss_rule};
 use crate::simd::{dispatch, plus};
 use core::f64::consts::PI;
@@ -46,11 +45,11 @@ pub struct ComplexStiffness {
     pub dissipated: f64,
 }
 
-/// Nodes of Gauss's rule within 1e-3 below gross slip, where 40 have an error of 1e-15 of F and 1e-12 of dF/dξ, and beyond it up to
-/// `e = -0.05`, from where the contact has weights: 1e-15 and 1e-13. The last number is that for all amplitudes of a curve without an
+/// Gauss's rule within 1e-3 below gross slip, where 40 nodes have an error of 1e-15 of F and 1e-12 of dF/dξ, and beyond it up to
+/// `e = -0.05`, from where the contact has weights: 1e-15 and 1e-13. The last rule is that for all amplitudes of a curve without an
 /// interpolant, too: it has a knee, or is nearly singular.
-const NODES_BELOW: usize = 48;
-const NODES_BEYOND: usize = 96;
+static RULE_BELOW: [[[f64; 4]; 2]; 12] = gauss_legendre();
+static RULE_BEYOND: [[[f64; 4]; 2]; 24] = gauss_legendre();
 const IN_SLIP: f64 = -0.05;
 
 /// Smallest scale of the rule: the cube root of the rounding of ξ.
@@ -58,27 +57,18 @@ const SMALLEST_SCALE: f64 = 1e-5;
 
 /// In gross slip, with `q = y²` and `y = 1 - ζ²`: blocks of ρ, x, and the weights of an integral over ρ.
 static RULE_IN_SLIP: [[[f64; 4]; 3]; BLOCKS_IN_SLIP] = {
-    let [nodes, weights] = gauss_legendre::<{ 4 * BLOCKS_IN_SLIP }>();
+    let rule = gauss_legendre::<BLOCKS_IN_SLIP>();
     let (mut blocks, mut i) = ([[[0.0; 4]; 3]; _], 0);
-    while i < nodes.len() {
-        let (zeta, square) = (nodes[i], nodes[i] * nodes[i]);
-        let y = 1.0 - square;
+    while i < 4 * rule.len() {
+        let [zeta, weight] = [rule[i / 4][0][i % 4], rule[i / 4][1][i % 4]];
+        let (square, y) = (zeta * zeta, 1.0 - zeta * zeta);
         blocks[i / 4][0][i % 4] = (y * y * y) * (y * y * y);
         blocks[i / 4][1][i % 4] = square * (2.0 - square) * (1.0 + y * y + (y * y) * (y * y));
-        blocks[i / 4][2][i % 4] = weights[i] * (12.0 * zeta * (y * y * y) * (y * y));
+        blocks[i / 4][2][i % 4] = weight * (12.0 * zeta * (y * y * y) * (y * y));
         i += 1;
     }
     blocks
 };
-
-/// Blocks of four nodes and weights of Gauss's rules.
-static RULE_BELOW: [[[f64; 4]; 2]; NODES_BELOW / 4] = blocks(&gauss_legendre::<NODES_BELOW>());
-static RULE_BEYOND: [[[f64; 4]; 2]; NODES_BEYOND / 4] = blocks(&gauss_legendre::<NODES_BEYOND>());
-
-const fn blocks<const N: usize, const M: usize>([nodes, weights]: &[[f64; N]; 2]) -> [[[f64; 4]; 2]; M] {
-    let [nodes, weights]: [Rows<M>; 2] = [rows(nodes), rows(weights)];
-    tabulate!(M, |i| [nodes[i], weights[i]])
-}
 
 /// `sinh²(4a)` and its derivative with respect to `sinh²(a)`, from this one.
 #[inline(always)]

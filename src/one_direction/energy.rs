@@ -11,7 +11,7 @@
 //! because H, the integral of K_t(c) - K_t(s) from S_c to S_b, is K_t(c) times the remainder R.
 
 use crate::element::{Curvature, Element};
-use crate::numerics::quadrature::{MAX_GAUSS_BLOCKS, gauss_rule};
+use crate::numerics::quadrature::{MAX_GAUSS_BLOCKS, gauss_legendre, gauss_rule};
 use crate::one_direction::diagram::Knot;
 use crate::simd::dispatch;
 
@@ -258,10 +258,10 @@ fn rules_near_the_largest_size() -> [[Block; MAX_GAUSS_BLOCKS]; 2] {
 type Block = [[f64; 4]; 2];
 
 /// Gauss's rule with the most nodes.
-static LONGEST_RULE: [Block; MAX_GAUSS_BLOCKS] = *gauss_rule(MAX_GAUSS_BLOCKS).first_chunk().unwrap();
+static LONGEST_RULE: [Block; MAX_GAUSS_BLOCKS] = gauss_legendre();
 
 /// Gauss's rule with four nodes.
-const PATH_RULE: [Block; 1] = *gauss_rule(1).first_chunk().unwrap();
+const PATH_RULE: [Block; 1] = gauss_legendre();
 
 /// The same for `∫ y f(y) dy`.
 const ZONE_RULE: [Block; 1] = [[
@@ -271,7 +271,7 @@ const ZONE_RULE: [Block; 1] = [[
 
 /// The rule of eight nodes for the same.
 const WIDE_ZONE_RULE: [Block; 2] = {
-    let [one, two] = *gauss_rule(2).first_chunk().unwrap();
+    let [one, two] = gauss_legendre();
     [with_y(one), with_y(two)]
 };
 
