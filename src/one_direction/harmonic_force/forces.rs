@@ -2,7 +2,7 @@
 
 use crate::element::Element;
 use crate::fourier::at;
-use crate::one_direction::harmonic_force::runs::{Kind, Place, Run};
+use crate::one_direction::harmonic_force::runs::{Place, Run};
 use crate::one_direction::harmonic_force::samples::Samples;
 use crate::simd::dispatch;
 
@@ -60,10 +60,10 @@ impl Forces<'_> {
                 let forces = self.force.get_mut(range.clone()).unwrap_or(&mut []);
                 let mu = run.sign * friction_coefficient;
                 match run.kind {
-                    Kind::OPEN | Kind::GROSS_SLIP => {
+                    Run::OPEN | Run::GROSS_SLIP => {
                         forces.iter_mut().zip(loads).for_each(|(force, load)| *force = mu * load);
                     }
-                    Kind::STUCK => {
+                    Run::STUCK => {
                         let slopes = self.slope.get_mut(range.clone()).unwrap_or(&mut []);
                         stick(samples, run, mu, slopes, inner, forces);
                     }

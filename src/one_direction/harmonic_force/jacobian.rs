@@ -20,35 +20,17 @@ use crate::element::Element;
 use crate::fourier::at;
 use crate::fourier::rows::{OuterProducts, RowStrips, Rows, Strip, Terms, add_scaled, row_blocks, scaled, with_strips};
 use crate::fourier::workspace::{Blocks, record};
-use crate::one_direction::harmonic_force::runs::{Kind, Run, closing};
+use crate::one_direction::harmonic_force::runs::{Run, closing};
 use crate::one_direction::harmonic_force::samples::{Part, Samples};
 use crate::one_direction::step::Crossing;
 use crate::simd::dispatch;
 
 record! {
-    /// How a piece was made.
-    #[derive(PartialEq)]
-    struct Made {
-        code: u64,
-    }
-}
-
-impl Made {
-    /// The part with D = 0.
-    const NEVER: Made = Made { code: 0 };
-    /// By slip, forwards or backwards.
-    const FORWARDS: Made = Made { code: 1 };
-    const BACKWARDS: Made = Made { code: 2 };
-    /// By sticking, between two samples.
-    const BY_STICKING: Made = Made { code: 3 };
-    /// By sticking, since the contact closed after the sample before.
-    const SINCE_CLOSING: Made = Made { code: 4 };
-}
-
-record! {
     /// A piece of the diagram, and its weights for the later samples.
+    #[derive(Default)]
     pub(super) struct Piece {
-        made: Made,
+        /// [`Piece::NEVER`] and so on: how it was made.
+        made: u64,
         /// The sample that made it.
         sample: u64,
         /// Weights of the constant part and of the linear part for samples from `since` on, counted along the path.
@@ -65,6 +47,7 @@ record! {
 
 record! {
     /// A run that cuts a piece: its samples, counted along the path, and the first of its packed boundaries.
+    #[derive(Default)]
     struct Cut {
         step: u64,
         count: u64,
@@ -72,29 +55,26 @@ record! {
     }
 }
 
-const NO_CUT: Cut = Cut { step: 0, count: 0, packed: 0 };
-
 impl Piece {
+    /// The part with D = 0.
+    const NEVER: u64 = 0;
+    /// By slip, forwards or backwards.
+    const FORWARDS: u64 = 1;
+    const BACKWARDS: u64 = 2;
+    /// By sticking, between two samples.
+    const BY_STICKING: u64 = 3;
+    /// By sticking, since the contact closed after the sample before.
+    const SINCE_CLOSING: u64 = 4;
+
     fn is_stuck(&self) -> bool {
-        self.made.code >= Made::BY_STICKING.code
+        self.made >= Piece::BY_STICKING
     }
 }
 
-/// Inner end of a stuck piece.
-#[derive(Debug, Clone, Copy)]
-struct InnerEnd {
-    shift: f64,
-    load: f64,
-    stiffness: f64,
-}
-
-impl InnerEnd {
-    /// Weights of the constant and of the linear part if the outer end has the given S, N and f.
-    #[inline(always)]
-    fn weights_to(&self, inverse_width: f64, [shift, load, stiffness]: [f64; 3]) -> [f64; 2] {
-        let linear = (shift - self.shift) * stiffness - (load - self.load);
-        [stiffness - self.stiffness, linear * inverse_width]
-    }
+/// Weights of the constant and of the linear part of a stuck piece, with S, N and f at its inner and at its outer end.
+#[inline(always)]
+fn weights_of_stuck(inverse_width: f64, [s_i, n_i, f_i]: [f64; 3], [shift, load, stiffness]: [f64; 3]) -> [f64; 2] {
+    [stiffness - f_i, ((shift - s_i) * stiffness - (load - n_i)) * inverse_width]
 }
 
 /// Tables and memory.
@@ -133,13 +113,11 @@ impl Context<'_> {
         if sample >= self.samples.count { sample - self.samples.count } else { sample }
     }
 
-    /// The inner end of the stuck piece that a sample made: 0 if the sample before is open.
+    /// S, N and f of the whole contact at a sample: 0 if it is open.
     #[inline(always)]
-    fn inner_end(&self, sample: usize) -> InnerEnd {
-        let samples = self.samples;
-        let before = samples.before(sample);
-        let (shift, load) = (at(samples.shift, before), at(samples.load, before));
-        InnerEnd { shift, load, stiffness: at(samples.stiffness, before) }
+    fn contact_at(&self, sample: usize) -> [f64; 3] {
+        let Samples { shift, load, stiffness, .. } = self.samples;
+        [at(shift, sample), at(load, sample), at(stiffness, sample)]
     }
 }
 
@@ -159,11 +137,11 @@ impl Sensitivity<'_> {
         let by_input = by_input.get_mut(run.samples()).unwrap_or(&mut []);
         let mu = run.sign * element.friction_coefficient;
         match run.kind {
-            Kind::OPEN | Kind::GROSS_SLIP => {
+            Run::OPEN | Run::GROSS_SLIP => {
                 by_u.fill(0.0);
                 by_input.iter_mut().zip(run.of(samples.load_slope)).for_each(|(weight, slope)| *weight = mu * slope);
             }
-            Kind::STUCK => {
+            Run::STUCK => {
                 by_input.fill(0.0);
                 by_u.iter_mut().zip(run.of(samples.stiffness)).for_each(|(weight, stiffness)| *weight = *stiffness);
             }
@@ -214,18 +192,17 @@ impl Stack<'_> {
         let Context { samples, part, .. } = *context;
         let range = run.samples();
         let closes = part.opens && samples.is_open(samples.before(range.start));
-        let mut made = if closes { Made::SINCE_CLOSING } else { Made::BY_STICKING };
-        let mut inner = context.inner_end(range.start);
+        let mut made = if closes { Piece::SINCE_CLOSING } else { Piece::BY_STICKING };
+        let mut inner = context.contact_at(samples.before(range.start));
         for (since, sample) in (now..).zip(range) {
-            let [shift, load, stiffness] =
-                [at(samples.shift, sample), at(samples.load, sample), at(samples.stiffness, sample)];
+            let outer = context.contact_at(sample);
             // S rises, or rounding made two values equal.
-            let parameter = 1.0 / (shift - inner.shift).max(1e-300);
-            let weights = inner.weights_to(parameter, [shift, load, stiffness]);
+            let parameter = 1.0 / (outer[0] - inner[0]).max(1e-300);
+            let weights = weights_of_stuck(parameter, inner, outer);
             let (sample, since) = (sample as u64, since as u64);
-            self.push(&Piece { made, sample, weights, since, parameter, cut: NO_CUT, stored: 0 });
-            inner = InnerEnd { shift, load, stiffness };
-            made = Made::BY_STICKING;
+            self.push(&Piece { made, sample, weights, since, parameter, ..Piece::default() });
+            inner = outer;
+            made = Piece::BY_STICKING;
         }
     }
 }
@@ -245,33 +222,31 @@ impl<const N: usize> Gathering<'_, N> {
     fn gather(&mut self, runs: &[Run]) {
         let samples = self.context.samples;
         let mut now = 0;
-        for run in runs.iter().chain([&Run::EMPTY]) {
+        for run in runs.iter().chain([&Run::default()]) {
             let range = run.samples();
             let (count, last) = (range.len(), range.end.saturating_sub(1));
             let kept = match run.kind {
-                Kind::SLIP => run.kept(),
-                Kind::STUCK => run.kept().saturating_sub(1),
+                Run::SLIP => run.kept(),
+                Run::STUCK => run.kept().saturating_sub(1),
                 _ => 0,
             };
-            self.remove_beyond(kept, run.kind == Kind::SLIP, now);
+            self.remove_beyond(kept, run.kind == Run::SLIP, now);
             let line = Piece {
-                made: if run.sign > 0.0 { Made::FORWARDS } else { Made::BACKWARDS },
+                made: if run.sign > 0.0 { Piece::FORWARDS } else { Piece::BACKWARDS },
                 sample: last as u64,
                 weights: [at(samples.stiffness, last), 0.0],
                 since: (now + count) as u64,
-                parameter: 0.0,
-                cut: NO_CUT,
-                stored: 0,
+                ..Piece::default()
             };
             match run.kind {
-                Kind::OPEN => {}
-                Kind::GROSS_SLIP => self.stack.push(&line),
-                Kind::STUCK => self.stack.stick(self.context, run, now),
+                Run::OPEN => {}
+                Run::GROSS_SLIP => self.stack.push(&line),
+                Run::STUCK => self.stack.stick(self.context, run, now),
                 _ => {
                     let packed = run.cuts();
                     let stack = &mut self.stack;
                     if stack.depth < run.kept() {
-                        stack.push(&Piece { made: Made::NEVER, ..line });
+                        stack.push(&Piece { made: Piece::NEVER, ..line });
                     }
                     if let Some(piece) = stack.depth.checked_sub(1).and_then(|top| stack.pieces.get_mut(top)) {
                         piece.cut = Cut { step: now as u64, count: count as u64, packed: packed.start as u64 };
@@ -318,9 +293,9 @@ impl<const N: usize> Gathering<'_, N> {
             [cut_shifts, cut_loads, cut_stiffnesses].map(|values| values.get(packed.clone()).unwrap_or(&[]));
         let [constant, linear] = &mut sums;
         if piece.is_stuck() {
-            let inner = self.context.inner_end(piece.sample as usize);
+            let inner = self.context.contact_at(self.context.samples.before(piece.sample as usize));
             for (((row, &shift), &load), &stiffness) in rows.iter().zip(shifts).zip(loads).zip(stiffnesses) {
-                piece.weights = inner.weights_to(piece.parameter, [shift, load, stiffness]);
+                piece.weights = weights_of_stuck(piece.parameter, inner, [shift, load, stiffness]);
                 add_scaled(constant, piece.weights[0], row);
                 add_scaled(linear, piece.weights[1], row);
             }
@@ -345,13 +320,13 @@ impl<const N: usize> Gathering<'_, N> {
                 return;
             }
             let has_sums = piece.stored > 0 || was_cut || now > piece.since as usize;
-            if piece.made != Made::NEVER && has_sums {
+            if piece.made != Piece::NEVER && has_sums {
                 let sums = self.sums(index, &mut piece, now);
                 if removes {
                     self.distribute(&piece, &sums);
                 } else if let Some(place) = self.stored.get_mut(index) {
                     *place = sums;
-                    (piece.stored, piece.since, piece.cut) = (1, now as u64, NO_CUT);
+                    (piece.stored, piece.since, piece.cut) = (1, now as u64, Cut::default());
                 }
             }
             if removes {
@@ -375,9 +350,9 @@ impl<const N: usize> Gathering<'_, N> {
         let own = (sample, linear, [-1.0, slope * shift_slope]);
         // One call in a loop: the function is long, and inlined.
         let (parts, count) = if !piece.is_stuck() {
-            let mu = element.friction_coefficient * if made == Made::FORWARDS { 1.0 } else { -1.0 };
+            let mu = element.friction_coefficient * if made == Piece::FORWARDS { 1.0 } else { -1.0 };
             ([(sample, constant, [-1.0, mu * shift_slope]), own, own], 1)
-        } else if made == Made::BY_STICKING {
+        } else if made == Piece::BY_STICKING {
             let inner = (before, &difference, [1.0, -slope * at(samples.shift_slope, before)]);
             ([own, inner, own], 2)
         } else {

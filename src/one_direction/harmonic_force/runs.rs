@@ -13,26 +13,9 @@ use crate::one_direction::step::Crossing;
 use core::ops::Range;
 
 record! {
-    /// What the samples of a run do.
-    #[derive(PartialEq, Eq)]
-    pub(super) struct Kind {
-        code: u64,
-    }
-}
-
-impl Kind {
-    pub const OPEN: Kind = Kind { code: 0 };
-    /// Everything sticks: each sample adds a piece to the diagram.
-    pub const STUCK: Kind = Kind { code: 1 };
-    /// A slip zone grows along one piece of the diagram.
-    pub const SLIP: Kind = Kind { code: 2 };
-    pub const GROSS_SLIP: Kind = Kind { code: 3 };
-}
-
-record! {
     /// End of a piece of the diagram: 0 for the centre of the contact; otherwise twice the number of samples up to one, and one more
     /// for the whole contact than for the boundary of the slip zone.
-    #[derive(PartialEq)]
+    #[derive(PartialEq, Default)]
     pub(super) struct Place {
         code: u64,
     }
@@ -64,8 +47,10 @@ impl Place {
 
 record! {
     /// Consecutive samples that change the diagram in the same way.
+    #[derive(Default)]
     pub(super) struct Run {
-        pub kind: Kind,
+        /// [`Run::OPEN`] and so on: what the samples do.
+        pub kind: u64,
         first: u64,
         count: u64,
         /// Number of knots that stay, and the last of these.
@@ -73,7 +58,7 @@ record! {
         pub inner: Place,
         /// Slip: index of the first packed boundary.
         packed: u64,
-        /// Slip: +1 or -1.
+        /// Slip: +1 or -1. Stuck: 1.
         pub sign: f64,
         /// Slip: D/mu of the piece that is cut. Stuck from the centre: displacement of the centre.
         pub parameter: f64,
@@ -81,16 +66,12 @@ record! {
 }
 
 impl Run {
-    pub const EMPTY: Run = Run {
-        kind: Kind::OPEN,
-        first: 0,
-        count: 0,
-        kept: 0,
-        inner: Place::CENTRE,
-        packed: 0,
-        sign: 1.0,
-        parameter: 0.0,
-    };
+    pub const OPEN: u64 = 0;
+    /// Everything sticks: each sample adds a piece to the diagram.
+    pub const STUCK: u64 = 1;
+    /// A slip zone grows along one piece of the diagram.
+    pub const SLIP: u64 = 2;
+    pub const GROSS_SLIP: u64 = 3;
 
     pub fn samples(&self) -> Range<usize> {
         self.first as usize..(self.first + self.count) as usize
@@ -183,7 +164,7 @@ impl Walk<'_> {
         {
             let mut run = if part.opens && input <= 0.0 {
                 let closes = inputs.iter().skip(next).position(|input| *input > 0.0);
-                Run { count: closes.unwrap_or(end - next) as u64, ..Run::EMPTY }
+                Run { count: closes.unwrap_or(end - next) as u64, ..Run::default() }
             } else {
                 if part.opens && samples.is_open(samples.before(next)) {
                     self.restart(closing(samples, element, next).displacement);
@@ -198,7 +179,7 @@ impl Walk<'_> {
             };
             (run.first, run.packed) = (next as u64, self.cut_count as u64);
             next += run.count as usize;
-            self.cut_count += if run.kind == Kind::SLIP { run.count as usize } else { 0 };
+            self.cut_count += if run.kind == Run::SLIP { run.count as usize } else { 0 };
             if let Some(place) = self.runs.get_mut(self.run_count) {
                 *place = run;
                 self.run_count += 1;
@@ -234,12 +215,13 @@ impl Walk<'_> {
             sample += 1;
         }
         Run {
-            kind: Kind::STUCK,
+            kind: Run::STUCK,
             count: (self.depth - kept) as u64,
             kept: kept as u64,
             inner: inner.place,
+            sign: 1.0,
             parameter: inner.xi,
-            ..Run::EMPTY
+            ..Run::default()
         }
     }
 
@@ -257,7 +239,7 @@ impl Walk<'_> {
         let last = first + later(moving).zip(later(inputs)).take_while(continues).count();
         self.push(Knot::centre(at(moving, last)));
         self.push(Knot { xi: at(xi, last), eta: at(eta, last), place: Place::end(last) });
-        Run { kind: Kind::GROSS_SLIP, count: (last + 1 - first) as u64, sign, ..Run::EMPTY }
+        Run { kind: Run::GROSS_SLIP, count: (last + 1 - first) as u64, sign, ..Run::default() }
     }
 
     /// Samples whose slip zone grows in one direction, along the piece above the last knot that stays.
@@ -295,13 +277,13 @@ impl Walk<'_> {
         self.push(Knot { xi: cut[0], eta: cut[1], place: Place::cut(sample - 1) });
         self.push(Knot { xi: end[0], eta: end[1], place: Place::end(sample - 1) });
         Run {
-            kind: Kind::SLIP,
+            kind: Run::SLIP,
             count: (sample - first) as u64,
             kept: kept as u64,
             inner: inner.place,
             sign,
             parameter: slope(falling, rising),
-            ..Run::EMPTY
+            ..Run::default()
         }
     }
 }
