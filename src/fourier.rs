@@ -46,6 +46,19 @@ pub(crate) fn at(values: &[f64], index: usize) -> f64 {
     values.get(index).copied().unwrap_or(0.0)
 }
 
+/// The largest of a function of some values, without those beyond the last block of four.
+#[inline(always)]
+pub(crate) fn largest_of(values: &[f64], of: fn(f64) -> f64) -> f64 {
+    let mut lanes = [f64::MIN; 4];
+    for block in values.as_chunks::<4>().0 {
+        for k in 0..4 {
+            let value = of(block[k]);
+            lanes[k] = if value > lanes[k] { value } else { lanes[k] };
+        }
+    }
+    lanes.into_iter().fold(f64::MIN, f64::max)
+}
+
 /// `2π order sample/samples`; the number of periods is reduced to its fraction before the multiplication by π.
 pub(crate) fn angle(order: usize, sample: usize, samples: usize) -> f64 {
     let fraction = (order * sample % samples.max(1)) as f64 / samples.max(1) as f64;

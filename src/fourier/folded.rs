@@ -141,21 +141,13 @@ impl<'a> FoldedFourier<'a> {
     /// keeps (+1) or changes (-1) its sign.
     pub fn sum_half_wave(&mut self, first: usize, half_wave: Option<f64>, values: &mut [f64], sums: &mut [f64]) {
         let (samples, half) = (self.samples, self.samples / 2);
-        // The evaluated half starts in either half of the period.
-        let (starts_in_one, turn) = if first < half { (true, first) } else { (false, first - half) };
         if let Some(sign) = half_wave
             && let Some((one, two)) = values.get_mut(..samples).and_then(|period| period.split_at_mut_checked(half))
-            && let Some((one_before, one)) = one.split_at_mut_checked(turn)
-            && let Some((two_before, two)) = two.split_at_mut_checked(turn)
         {
-            let evaluated_first = if starts_in_one {
-                [(one, two), (two_before, one_before)]
-            } else {
-                [(two, one), (one_before, two_before)]
-            };
-            for (evaluated, other) in evaluated_first {
-                other.iter_mut().zip(evaluated).for_each(|(other, value)| *other = sign * *value);
-            }
+            // The evaluated half starts in either half of the period.
+            let (one, two, turn) = if first < half { (one, two, first) } else { (two, one, first - half) };
+            two.iter_mut().zip(one.iter()).skip(turn).for_each(|(two, one)| *two = sign * one);
+            one.iter_mut().zip(two.iter()).take(turn).for_each(|(one, two)| *one = sign * two);
         }
         self.sum(values, sums);
     }

@@ -78,16 +78,8 @@ impl<'a> Assembly<'a> {
                 let Some((constant, rows)) = column.split_first_mut() else { continue };
                 *constant = from(order + harmonics).first().copied().unwrap_or(0.0);
                 let (sums, differences) = (from(harmonics + 1 + order), from(harmonics + 1 - order.min(harmonics)));
-                let (blocks, rest) = rows.as_chunks_mut::<4>();
-                let (sums, differences) = (sums.as_chunks::<4>().0, differences.as_chunks::<4>().0);
-                // The pairs extend beyond H: whole blocks are left for the last rows.
-                if let ([row, next], Some(sum), Some(difference)) =
-                    (rest, sums.get(blocks.len()), differences.get(blocks.len()))
-                {
-                    (*row, *next) = (sum[0] + sign * difference[0], sum[1] + sign * difference[1]);
-                }
-                for ((row, sum), difference) in blocks.iter_mut().zip(sums).zip(differences) {
-                    *row = plus(*sum, sign, *difference);
+                for ((row, sum), difference) in rows.iter_mut().zip(sums).zip(differences) {
+                    *row = sum + sign * difference;
                 }
             }
         });
@@ -136,11 +128,7 @@ impl<'a> Assembly<'a> {
             let constant = column.first().copied().unwrap_or(0.0);
             let (blocks, rest) = column.as_chunks_mut::<4>();
             if let Some(last) = product.get(blocks.len()) {
-                for k in 0..3 {
-                    if let Some(value) = rest.get_mut(k) {
-                        *value += factors[k] * last[k];
-                    }
-                }
+                rest.iter_mut().zip(last).zip(factors).for_each(|((value, last), factor)| *value += factor * last);
             }
             for (block, product) in blocks.iter_mut().zip(product) {
                 let ([a, b, c, d], [e, f, g, h]) = (*block, *product);

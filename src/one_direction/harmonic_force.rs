@@ -21,10 +21,10 @@ pub use crate::fourier::HarmonicOutput;
 use crate::element::Element;
 use crate::error::Error;
 use crate::fourier::folded::{FoldedFourier, sample_length};
-use crate::fourier::normalise;
 use crate::fourier::rows::{OuterProducts, Rows, row_blocks};
 use crate::fourier::sampled_jacobian::Assembly;
 use crate::fourier::workspace::{Layout, Parts, Size};
+use crate::fourier::{largest_of, normalise};
 use crate::limits::check_coefficients;
 use crate::tag::Kind;
 use forces::Forces;
@@ -227,7 +227,7 @@ impl Workspace<'_> {
         let (mut least, mut largest) = (mean, mean);
         if !motion.constant {
             fourier.synthesise(input, samples.input);
-            [least, largest] = samples.range_of_input();
+            [least, largest] = [-largest_of(samples.input, |input| -input), largest_of(samples.input, |input| input)];
         }
         if least < -rounding {
             return Err(Error::BadNormalForce);

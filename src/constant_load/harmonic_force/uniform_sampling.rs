@@ -15,8 +15,8 @@ use crate::error::Error;
 use crate::fourier::folded::FoldedFourier;
 use crate::fourier::rows::{OuterProducts, Rows, row_blocks};
 use crate::fourier::sampled_jacobian::Assembly;
-use crate::fourier::workspace::{Layout, Parts, Size};
-use crate::fourier::{at, normalise};
+use crate::fourier::workspace::{Layout, Parts, Size, padded};
+use crate::fourier::{at, largest_of, normalise};
 use crate::parameters::{PARAMETERS, Sensitivity};
 use crate::simd::dispatch;
 use crate::tag::Kind;
@@ -153,14 +153,7 @@ fn sample(count: usize, fourier: &FoldedFourier, displacement: &[f64], samples: 
         let half_wave = count.is_multiple_of(2) && only_odd_orders;
         let length = if half_wave { count / 2 } else { count };
         // The first of these samples with the largest magnitude, which no sample exceeds.
-        let larger = |one: f64, two: f64| if two > one { two } else { one };
-        let mut lanes = [0.0; 4];
-        for block in samples.as_chunks::<4>().0.iter().take(length.div_ceil(4)) {
-            for k in 0..4 {
-                lanes[k] = larger(lanes[k], block[k].abs());
-            }
-        }
-        let largest = lanes.into_iter().fold(0.0, larger);
+        let largest = largest_of(samples.get(..padded(length)).unwrap_or(&[]), f64::abs);
         let farthest = samples.iter().position(|value| value.abs() == largest).unwrap_or(0);
         Part { farthest, length, half_wave }
     })

@@ -2,7 +2,7 @@
 
 use super::MotionKind;
 use crate::element::{Element, Normal};
-use crate::fourier::at;
+use crate::fourier::{at, largest_of};
 use crate::simd::dispatch;
 
 /// Arrays over the samples of a period, continued periodically to whole blocks of four.
@@ -60,18 +60,6 @@ impl Samples<'_> {
         self.stiffness.fill(normal.load_slope / normal.shift_slope);
     }
 
-    /// The least and the largest input.
-    pub fn range_of_input(&self) -> [f64; 2] {
-        let (mut least, mut largest) = ([f64::MAX; 4], [f64::MIN; 4]);
-        for block in self.input.as_chunks::<4>().0 {
-            for k in 0..4 {
-                least[k] = if block[k] < least[k] { block[k] } else { least[k] };
-                largest[k] = if block[k] > largest[k] { block[k] } else { largest[k] };
-            }
-        }
-        [least.into_iter().fold(f64::MAX, f64::min), largest.into_iter().fold(f64::MIN, f64::max)]
-    }
-
     /// The normal states of all samples, with derivatives if requested.
     #[inline(always)]
     pub fn press<const SLOPES: bool>(&mut self, element: &Element) {
@@ -115,7 +103,6 @@ impl Samples<'_> {
     pub fn enter_steady_state(&mut self, element: &Element, motion: MotionKind) -> Part {
         dispatch!({
             let mu = element.friction_coefficient;
-            let (mut largest, mut smallest) = ([f64::MIN; 4], [f64::MAX; 4]);
             let blocks = self
                 .displacement
                 .as_chunks::<4>()
@@ -129,13 +116,10 @@ impl Samples<'_> {
                 for k in 0..4 {
                     let limit = mu * shift[k];
                     (x[k], y[k]) = (displacement[k] - limit, displacement[k] + limit);
-                    largest[k] = if x[k] > largest[k] { x[k] } else { largest[k] };
-                    smallest[k] = if y[k] < smallest[k] { y[k] } else { smallest[k] };
                 }
                 (*xi, *eta) = (x, y);
             }
-            let largest = largest.into_iter().fold(f64::MIN, f64::max);
-            let smallest = smallest.into_iter().fold(f64::MAX, f64::min);
+            let (largest, smallest) = (largest_of(self.xi, |xi| xi), -largest_of(self.eta, |eta| -eta));
             let first = |values: &[f64], value: f64| values.iter().position(|v| *v == value).unwrap_or(0);
             let opens = !element.is_closed(motion.least_input);
             let start = if opens {
