@@ -443,7 +443,12 @@ fn combinations() {
                 (1, 1e300, MSLIP_CENTRE_POINT, MSLIP_OUT_OF_RANGE),
                 (2, 1e-300, MSLIP_CENTRE_POINT, MSLIP_OUT_OF_RANGE),
                 (0, 1e200, MSLIP_CENTRE_POINT, MSLIP_OUT_OF_RANGE),
+                // The energy of a cycle, which elements do not have, would not be a normal number.
+                (3, 1e-115, MSLIP_CENTRE_POINT, MSLIP_OUT_OF_RANGE),
             ] {
+                if field == 3 && call.name != "mslip_contact_init" {
+                    continue;
+                }
                 let valid = arguments.exchange(0, field, value);
                 arguments.memory_mut(0).values_mut::<i32>()[words - 2] = reference;
                 rejected_as(call, &arguments, status, "a combination");
