@@ -202,39 +202,25 @@ impl<'a> OuterProducts<'a> {
         let (strips, of_each) = (self.strips::<N>(), self.of_each.max(1));
         let terms = |strip: usize| strip * self.capacity..strip * self.capacity + self.count;
         for (strip, columns) in products.as_chunks_mut::<N>().0.chunks_mut((4 * N * strips).max(1)).enumerate() {
-            columns.fill([[0.0; 4]; N]);
             let phi = phi_rows.get(terms(strip)).unwrap_or(&[]);
             for row_strip in 0..strips {
                 let terms = terms(row_strip);
                 let y_rows = y_rows.get(of_each * terms.start..of_each * terms.end).unwrap_or(&[]);
-                for block in 0..phi.len().div_ceil(IN_CACHE) {
-                    let (y_rows, phi) = (in_cache(y_rows, block, of_each), in_cache(phi, block, 1));
-                    for pair in 0..2 * N {
-                        let (mut one, mut two) = ([[0.0; 4]; N], [[0.0; 4]; N]);
-                        for (y, phi) in y_rows.chunks_exact(of_each).zip(phi) {
-                            let Some(row) = y.get(index) else { break };
-                            let phi = phi.as_flattened();
-                            add_scaled(&mut one, phi[2 * pair], row);
-                            add_scaled(&mut two, phi[2 * pair + 1], row);
-                        }
-                        for (column, sums) in [(2 * pair, one), (2 * pair + 1, two)] {
-                            if let Some(place) = columns.get_mut(column * strips + row_strip) {
-                                add_scaled(place, 1.0, &sums);
-                            }
+                for pair in 0..2 * N {
+                    let (mut one, mut two) = ([[0.0; 4]; N], [[0.0; 4]; N]);
+                    for (y, phi) in y_rows.chunks_exact(of_each).zip(phi) {
+                        let Some(row) = y.get(index) else { break };
+                        let phi = phi.as_flattened();
+                        add_scaled(&mut one, phi[2 * pair], row);
+                        add_scaled(&mut two, phi[2 * pair + 1], row);
+                    }
+                    for (column, sums) in [(2 * pair, one), (2 * pair + 1, two)] {
+                        if let Some(place) = columns.get_mut(column * strips + row_strip) {
+                            *place = sums;
                         }
                     }
                 }
             }
         }
     }
-}
-
-/// Terms whose rows stay in the first cache.
-const IN_CACHE: usize = 32;
-
-/// The values of a block of [`IN_CACHE`] terms, or what is left of them.
-#[inline(always)]
-fn in_cache<T>(values: &[T], block: usize, of_each: usize) -> &[T] {
-    let rest = values.get(block * of_each * IN_CACHE..).unwrap_or(&[]);
-    rest.get(..of_each * IN_CACHE).unwrap_or(rest)
 }

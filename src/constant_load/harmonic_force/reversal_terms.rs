@@ -128,27 +128,7 @@ impl<const N: usize> Stack<'_, N> {
         let (before_end, after_end) =
             weights.split_at_checked(rows.len().saturating_sub(from)).unwrap_or((weights, &[]));
         for (rows, weights) in [(rows.get(from..).unwrap_or(&[]), before_end), (rows, after_end)] {
-            subtract_weighted(y, rows, weights);
+            rows.iter().zip(weights).for_each(|(row, weight)| add_scaled(y, -weight, row));
         }
     }
-}
-
-/// Subtracts rows times weights, four rows at a time to shorten the chain of dependent operations.
-#[inline(always)]
-fn subtract_weighted<const N: usize>(target: &mut Strip<N>, rows: &[Strip<N>], weights: &[f64]) {
-    let ((weight_blocks, last_weights), row_blocks) = (weights.as_chunks::<4>(), rows.as_chunks::<4>().0);
-    let mut sums = *target;
-    for ([a, b, c, d], weights) in row_blocks.iter().zip(weight_blocks) {
-        for block in 0..N {
-            for k in 0..4 {
-                let one = weights[0] * a[block][k] + weights[1] * b[block][k];
-                let two = weights[2] * c[block][k] + weights[3] * d[block][k];
-                sums[block][k] -= one + two;
-            }
-        }
-    }
-    for (row, weight) in rows.get(4 * weight_blocks.len()..).unwrap_or(&[]).iter().zip(last_weights) {
-        add_scaled(&mut sums, -weight, row);
-    }
-    *target = sums;
 }

@@ -230,11 +230,5 @@ fn count_on_branch(samples: &[f64], branch: &Branch) -> usize {
         continues & is_inside
     };
     let later = samples.get(1..).unwrap_or(&[]);
-    let blocks = samples.as_chunks::<4>().0.iter().zip(later.as_chunks::<4>().0);
-    let continue_all = |([a, b, c, d], [e, f, g, h]): &(&[f64; 4], &[f64; 4])| {
-        continues(a, e) & continues(b, f) & continues(c, g) & continues(d, h)
-    };
-    let whole = 4 * blocks.take_while(continue_all).count();
-    let rest = samples.iter().zip(later).skip(whole);
-    1 + whole + rest.take_while(|(last, next)| continues(last, next)).count()
+    1 + samples.iter().zip(later).take_while(|(last, next)| continues(last, next)).count()
 }
