@@ -1,7 +1,7 @@
 //! The Jacobian of a force at uniformly spaced samples: Fourier sums of weights, `Σ w φ ⊗ φ`, and outer products `Σ Y_j ⊗ φ_j`.
 //!
-//! A product of two harmonics is composed of the sum and the difference of their orders. With the pairs `Z_k = Σ w (cos kt, sin kt)` and
-//! `W_k = Σ w (sin kt, -cos kt)` for all orders k of either sign, the rows of the pair p of `Σ w φ ⊗ φ` are
+//! A product of two harmonics is composed of the sum and the difference of their orders. With the pairs `Z_k = Σ w (cos kt, sin kt)` for
+//! all orders k of either sign, and `W_k = Σ w (sin kt, -cos kt)` of the same sums, the rows of the pair p of `Σ w φ ⊗ φ` are
 //!
 //! ```text
 //! column cos qt:  (Z_{p+q} + Z_{p-q})/2        column sin qt:  (W_{p+q} - W_{p-q})/2
@@ -19,8 +19,8 @@ pub(crate) struct Assembly<'a> {
     weight: f64,
     /// Fourier sums of the weights up to the order 2H.
     pub sums: &'a mut [f64],
-    /// Z and W of the orders from -H to 2H, times the weight.
-    pairs: [&'a mut [f64]; 2],
+    /// Z of the orders from -H to 2H, times the weight.
+    pairs: &'a mut [[f64; 2]],
     /// Columns of the outer products.
     products: &'a mut Blocks,
 }
@@ -28,8 +28,7 @@ pub(crate) struct Assembly<'a> {
 impl<'a> Assembly<'a> {
     pub fn take(parts: &mut Parts<'a>, harmonics: usize, weight: f64) -> Result<Assembly<'a>, Error> {
         let sums = parts.take(4 * harmonics + 1)?;
-        let mut pairs = || parts.take(2 * (3 * harmonics + 2));
-        let pairs = [pairs()?, pairs()?];
+        let pairs = parts.take(2 * (3 * harmonics + 1))?.as_chunks_mut().0;
         let products = parts.take_blocks(row_blocks(harmonics) * (2 * harmonics + 2))?;
         Ok(Assembly { harmonics, weight, sums, pairs, products })
     }
@@ -45,18 +44,15 @@ impl<'a> Assembly<'a> {
     fn extend(&mut self) {
         let Assembly { harmonics, weight, .. } = *self;
         let Some((constant, sums)) = self.sums.split_first() else { return };
-        let [z, w] = &mut self.pairs;
-        let (z, w) = (z.as_chunks_mut::<2>().0, w.as_chunks_mut::<2>().0);
-        let (z_negative, z) = z.split_at_mut_checked(harmonics).unwrap_or((&mut [], &mut []));
-        let (w_negative, w) = w.split_at_mut_checked(harmonics).unwrap_or((&mut [], &mut []));
-        let (Some((z_0, z)), Some((w_0, w))) = (z.split_first_mut(), w.split_first_mut()) else { return };
-        (*z_0, *w_0) = ([weight * constant, 0.0], [0.0, -weight * constant]);
+        let (negative, pairs) = self.pairs.split_at_mut_checked(harmonics).unwrap_or((&mut [], &mut []));
+        let Some((pair_0, positive)) = pairs.split_first_mut() else { return };
+        *pair_0 = [weight * constant, 0.0];
         let sums = sums.as_chunks::<2>().0;
-        for ((z, w), [cosine, sine]) in z.iter_mut().zip(w).zip(sums) {
-            (*z, *w) = ([weight * cosine, weight * sine], [weight * sine, -weight * cosine]);
+        for (pair, [cosine, sine]) in positive.iter_mut().zip(sums) {
+            *pair = [weight * cosine, weight * sine];
         }
-        for ((z, w), [cosine, sine]) in z_negative.iter_mut().rev().zip(w_negative.iter_mut().rev()).zip(sums) {
-            (*z, *w) = ([weight * cosine, -weight * sine], [-weight * sine, -weight * cosine]);
+        for (pair, [cosine, sine]) in negative.iter_mut().rev().zip(sums) {
+            *pair = [weight * cosine, -weight * sine];
         }
     }
 
@@ -72,14 +68,13 @@ impl<'a> Assembly<'a> {
             let harmonics = self.harmonics;
             for (index, column) in columns.enumerate() {
                 let (order, is_sine) = (index.div_ceil(2), index % 2 == 0 && index > 0);
-                let [z, w] = &self.pairs;
-                let (pairs, sign) = if is_sine { (w, -1.0) } else { (z, 1.0) };
-                let from = |order: usize| pairs.get(2 * order..).unwrap_or(&[]);
+                let from = |order: usize| self.pairs.get(order..).unwrap_or(&[]);
                 let Some((constant, rows)) = column.split_first_mut() else { continue };
-                *constant = from(order + harmonics).first().copied().unwrap_or(0.0);
+                let [cosine, sine] = from(order + harmonics).first().copied().unwrap_or_default();
+                *constant = if is_sine { sine } else { cosine };
                 let (sums, differences) = (from(harmonics + 1 + order), from(harmonics + 1 - order.min(harmonics)));
-                for ((row, sum), difference) in rows.iter_mut().zip(sums).zip(differences) {
-                    *row = sum + sign * difference;
+                for ((row, [c, s]), [d, t]) in rows.as_chunks_mut::<2>().0.iter_mut().zip(sums).zip(differences) {
+                    *row = if is_sine { [s - t, d - c] } else { [c + d, s + t] };
                 }
             }
         });
