@@ -185,19 +185,14 @@ impl Law for ConstantLoad {
             return Err(Error::BadState);
         }
         // Each lies between the two before it; the oldest and its mirror point enclose all others.
-        let mut bounds = None;
-        for displacement in reversals.iter().map(|[displacement, ..]| *displacement).chain([now.displacement]) {
-            bounds = match bounds {
-                None if reversals.is_empty() => None,
-                None => Some((2.0 * offset - displacement, displacement)),
-                Some((before, last)) => {
-                    let (low, high) = if before < last { (before, last) } else { (last, before) };
-                    if displacement < low || displacement > high {
-                        return Err(Error::BadState);
-                    }
-                    Some((last, displacement))
+        if let Some(([oldest, ..], later)) = reversals.split_first() {
+            let (mut before, mut last) = (2.0 * offset - oldest, *oldest);
+            for displacement in later.iter().map(|[displacement, ..]| *displacement).chain([now.displacement]) {
+                if displacement < before.min(last) || displacement > before.max(last) {
+                    return Err(Error::BadState);
                 }
-            };
+                (before, last) = (last, displacement);
+            }
         }
         Ok(())
     }

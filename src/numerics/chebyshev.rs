@@ -127,7 +127,14 @@ impl<const N: usize> Interpolant<N> {
     /// The integral over z whose mean over the points of [`Interpolant::osculating`] is zero. The twentieth coefficient is
     /// dropped: its integral would exceed the degree.
     pub fn integral(&self) -> Interpolant<TERMS> {
-        integral(&self.0)
+        let mut padded = [0.0; TERMS + 1];
+        padded.iter_mut().zip(&self.0).take(TERMS - 1).for_each(|(target, coefficient)| *target = *coefficient);
+        padded[0] *= 2.0;
+        let mut integral = [0.0; TERMS];
+        for n in 1..TERMS {
+            integral[n] = PER_TWICE[n - 1] * (padded[n - 1] - padded[n + 1]);
+        }
+        Interpolant(integral)
     }
 
     /// Coefficients of the powers of z.
@@ -169,20 +176,6 @@ fn add_triangle(powers: &mut [f64], factors: &[f64], table: &[f64], width: usize
     for ((factor, row), terms) in factors.iter().zip(table.chunks_exact(width.max(1))).zip(1..) {
         powers.iter_mut().zip(row).take(terms).for_each(|(power, value)| *power += factor * value);
     }
-}
-
-#[inline(never)]
-fn integral(terms: &[f64]) -> Interpolant<TERMS> {
-    let mut padded = [0.0; TERMS + 1];
-    padded.iter_mut().zip(terms).take(TERMS - 1).for_each(|(target, coefficient)| *target = *coefficient);
-    padded[0] *= 2.0;
-    let mut integral = [0.0; TERMS];
-    for n in 1..TERMS {
-        integral[n] = PER_TWICE[n - 1] * (padded[n - 1] - padded[n + 1]);
-    }
-    // T_N is -1 at all those points.
-    integral[0] = integral.get(terms.len()).copied().unwrap_or(0.0);
-    Interpolant(integral)
 }
 
 /// Powers of z of a Chebyshev series, without the terms at its end that are rounding errors or exceed the rows: their derivatives would

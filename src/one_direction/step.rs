@@ -78,23 +78,18 @@ fn opening_or_closing(
     let (was_closed, closed) = (from.normal.load > 0.0, element.is_closed(input));
     let normal = if closed { element.normal(input) } else { Normal::OPEN };
     let to = Header { displacement, input, normal, error: 0.0 };
-    let start = if was_closed { from.input } else { from.input.min(0.0) };
-    let end = if closed { input } else { input.min(0.0) };
-    let crossing = if was_closed == closed {
-        Crossing { displacement: from.displacement, fraction: 0.0, rest: 1.0, slope: 0.0 }
-    } else {
-        Crossing::between(element, [from.displacement, start], [displacement, end])
-    };
     let mut step = Step { force: [0.0, normal.load], tangent: [0.0, 0.0, 0.0, normal.load_slope], dissipated: 0.0 };
     if !closed || !friction {
         if with_energy && was_closed && friction {
-            let path =
-                Path { shift: [from.normal.shift, 0.0], displacement: crossing.displacement - from.displacement };
+            let end = Crossing::between(element, [from.displacement, from.input], [displacement, input.min(0.0)]);
+            let path = Path { shift: [from.normal.shift, 0.0], displacement: end.displacement - from.displacement };
             step.dissipated = energy::dissipated(element, diagram.knots(), &path);
         }
         diagram.replace(0, [Knot::centre(displacement)]);
         return (step, to);
     }
+    let start = [from.displacement, from.input.min(0.0)];
+    let crossing = Crossing::between(element, start, [displacement, input]);
     let centre = Knot::centre(crossing.displacement);
     let mut touching = Touching { knots: [centre.into()], sticks: false, diagram };
     if with_energy {
