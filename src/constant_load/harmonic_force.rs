@@ -176,7 +176,7 @@ pub fn harmonic_sensitivity(
 }
 
 /// Quantities requested at each point of the curve.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 struct Requested {
     force: bool,
     stiffness: bool,

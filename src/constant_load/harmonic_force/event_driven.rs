@@ -124,7 +124,8 @@ pub(super) fn harmonic_force(
     let HarmonicOutput { force, jacobian, dissipated, .. } = output;
     let law = SteadyState::new(contact, reversals, dissipated.is_some());
     let requested = Requested { force: force.is_some(), stiffness: jacobian.is_some() };
-    let mut period = Period::new(law, displacement, requested, None);
+    let mut period =
+        Period { law, requested, motion: Motion::new(displacement), now: Response::default(), sensitivity: None };
     let half_wave_symmetric = period.integrate(buffers);
     if let (Some(dissipated), Some(energy)) = (dissipated, period.law.dissipated()) {
         *dissipated = if half_wave_symmetric { 2.0 * energy } else { energy };
@@ -151,8 +152,8 @@ pub(super) fn harmonic_sensitivity(
     let Workspace { reversals, buffers } = workspace;
     sensitivity.fill(0.0);
     let law = SteadyState::new(contact, reversals, false);
-    let requested = Requested { force: false, stiffness: false };
-    let mut period = Period::new(law, displacement, requested, Some(&mut *sensitivity));
+    let (requested, motion, now) = (Requested::default(), Motion::new(displacement), Response::default());
+    let mut period = Period { law, requested, motion, now, sensitivity: Some(&mut *sensitivity) };
     let half_wave_symmetric = period.integrate(buffers);
     for column in sensitivity.chunks_exact_mut(buffers.coefficients()) {
         complete(column, half_wave_symmetric);
@@ -206,17 +207,7 @@ struct Period<'m, 'c, 's> {
     sensitivity: Option<&'m mut [f64]>,
 }
 
-impl<'m, 'c, 's> Period<'m, 'c, 's> {
-    fn new(
-        law: SteadyState<'c, 's>,
-        displacement: &'m [f64],
-        requested: Requested,
-        sensitivity: Option<&'m mut [f64]>,
-    ) -> Self {
-        let (motion, now) = (Motion::new(displacement), Response { force: 0.0, stiffness: 0.0 });
-        Period { law, requested, motion, now, sensitivity }
-    }
-
+impl Period<'_, '_, '_> {
     /// Integrates a period, or half of it if it is half-wave symmetric, from the farthest reversal. Returns which it is.
     fn integrate(&mut self, buffers: &mut Buffers) -> bool {
         let (count, half_wave_symmetric) = self.motion.find_reversals(&mut buffers.grid, buffers.instants);

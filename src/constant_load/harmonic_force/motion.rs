@@ -63,10 +63,8 @@ impl<'a> Motion<'a> {
         let Grid { points, fourier, coefficients, rate } = grid;
         let Some((constant, pairs)) = coefficients.split_first_mut() else { return (0, false) };
         *constant = 0.0;
-        let mut k = 1.0;
-        for (pair, &[a, b]) in pairs.as_chunks_mut::<2>().0.iter_mut().zip(self.pairs) {
+        for ((pair, [a, b]), k) in pairs.as_chunks_mut::<2>().0.iter_mut().zip(self.pairs).zip((1..).map(f64::from)) {
             *pair = [k * b, -k * a];
-            k += 1.0;
         }
         fourier.synthesise(coefficients, rate);
         let half = *points / 2;
@@ -174,14 +172,13 @@ pub(super) fn fill_phi(row: &mut [f64], t: f64) {
 #[inline(always)]
 pub(super) fn fill_integrals(row: &mut [f64], from: f64, to: f64) {
     let ((sine0, cosine0), (sine1, cosine1)) = (from.sin_cos(), to.sin_cos());
-    let (mut c0, mut s0, mut c1, mut s1, mut k) = (cosine0, sine0, cosine1, sine1, 1.0);
+    let (mut c0, mut s0, mut c1, mut s1) = (cosine0, sine0, cosine1, sine1);
     let Some((constant, pairs)) = row.split_first_mut() else { return };
     *constant = to - from;
-    for pair in pairs.as_chunks_mut::<2>().0 {
+    for (pair, k) in pairs.as_chunks_mut::<2>().0.iter_mut().zip((1..).map(f64::from)) {
         *pair = [(s1 - s0) / k, (c0 - c1) / k];
         (c0, s0) = (c0 * cosine0 - s0 * sine0, s0 * cosine0 + c0 * sine0);
         (c1, s1) = (c1 * cosine1 - s1 * sine1, s1 * cosine1 + c1 * sine1);
-        k += 1.0;
     }
 }
 

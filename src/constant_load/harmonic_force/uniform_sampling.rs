@@ -195,9 +195,7 @@ impl Path<'_> {
                 used += 1;
             }
             from.displacement = at(displacement, next + count - 1);
-            if count > 1 {
-                law.account_for(entered, from.displacement);
-            }
+            law.account_for(entered, from.displacement);
             if requested.force
                 && let (Some(force), Some(stiffness)) = (force.get_mut(next..), stiffness.get_mut(next..))
             {
