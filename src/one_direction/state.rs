@@ -36,26 +36,13 @@ impl Header {
     }
 }
 
-/// A state whose header was checked: the tangential displacement, the normal force, and the knots.
-pub(crate) struct View<'a> {
-    pub displacement: f64,
-    pub load: f64,
-    pub knots: &'a [[f64; PER_KNOT]],
-}
-
-pub(crate) fn view(state: &[f64]) -> View<'_> {
-    let (header, knots) = parts(state);
-    let Header { displacement, normal, .. } = Header::read(header);
-    View { displacement, load: normal.load, knots }
-}
-
 /// Header and knots in use of a state whose header was checked.
 #[inline(always)]
-fn parts(state: &[f64]) -> (&[f64; HEADER], &[[f64; PER_KNOT]]) {
+pub(crate) fn read(state: &[f64]) -> (Header, &[[f64; PER_KNOT]]) {
     let (header, knots) = state.split_first_chunk().unwrap_or((&[0.0; HEADER], &[]));
     let used = Kind::ElementState.count(header[0]).unwrap_or(0);
     let knots = knots.as_chunks().0;
-    (header, knots.get(..used).unwrap_or(knots))
+    (Header::read(header), knots.get(..used).unwrap_or(knots))
 }
 
 impl Law for OneDirection {
@@ -88,11 +75,9 @@ impl Law for OneDirection {
 
     fn state_check(state: &[f64]) -> Result<(), Error> {
         OneDirection::check_header(state)?;
-        let (header, knots) = parts(state);
-        let Header { displacement, normal, error, .. } = Header::read(header);
+        let (Header { displacement, normal, error, .. }, knots) = read(state);
         let Normal { load, shift, load_slope, shift_slope } = normal;
-        let finite =
-            header.iter().all(|value| is_finite(*value)) && knots.as_flattened().iter().all(|value| is_finite(*value));
+        let finite = state.iter().take(HEADER + PER_KNOT * knots.len()).all(|value| is_finite(*value));
         if !finite || error < 0.0 || [load, shift, load_slope, shift_slope].iter().any(|value| *value < 0.0) {
             return Err(Error::BadState);
         }
@@ -124,7 +109,7 @@ impl Law for OneDirection {
 
     #[inline(always)]
     fn copy_used(from: &[f64], to: &mut [f64]) {
-        let used = HEADER + PER_KNOT * parts(from).1.len();
+        let used = HEADER + PER_KNOT * read(from).1.len();
         if let (Some(from), Some(to)) = (from.get(..used), to.get_mut(..used)) {
             to.copy_from_slice(from);
         }
@@ -132,8 +117,8 @@ impl Law for OneDirection {
 
     #[inline(always)]
     fn trial(element: &Element, state: &[f64], displacement: [f64; 2], requested: Requested) -> Step {
-        let (header, mut knots) = parts(state);
-        step(element, &Header::read(header), &mut knots, displacement, requested.energy).0
+        let (header, mut knots) = read(state);
+        step(element, &header, &mut knots, displacement, requested.energy).0
     }
 
     #[inline(never)]
@@ -168,7 +153,7 @@ fn copy(element: &Element, from: &[f64], to: &mut [f64]) {
         return;
     };
     let mut polygon = Polygon::new(element.friction_coefficient, target, 0);
-    parts(from).1.iter().for_each(|knot| polygon.push((*knot).into()));
+    read(from).1.iter().for_each(|knot| polygon.push((*knot).into()));
     *header = *source;
     header[0] = Kind::ElementState.tag(polygon.used);
     header[ERROR] += polygon.error;
