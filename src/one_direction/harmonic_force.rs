@@ -90,7 +90,8 @@ impl<'a> Layout<'a> for Workspace<'a> {
             parts.take_arrays(sample_length(count))?;
         let forces =
             Forces { force, cut_load, cut_stiffness, slope, last_cut: parts.take_records(sample_length(count))? };
-        let path = PeriodicPath { knots: parts.take_blocks(capacity)?, runs: parts.take_records(capacity)?, cut_shift };
+        let (knots, runs) = (parts.take_blocks(capacity)?, parts.take_records(capacity)?);
+        let path = PeriodicPath { knots, depth: 0, runs, run_count: 0, cut_shift, cut_count: 0 };
         let pieces = parts.take_records(capacity)?;
         let stored = parts.take_blocks(2 * row_blocks(harmonics) * capacity)?;
         let outer = OuterProducts::take(parts, harmonics, count, 2)?;

@@ -110,26 +110,19 @@ impl Knot {
     const CORE: Knot = Knot { xi: -1e200, eta: 1e200, place: Place::CENTRE };
 }
 
-/// Memory of the diagram and the runs along a periodic path.
+/// A walk along samples: the stack of knots, and the runs and packed boundaries so far.
 #[derive(Debug)]
 pub(super) struct PeriodicPath<'a> {
     pub knots: &'a mut [[f64; 4]],
+    pub depth: usize,
     pub runs: &'a mut [Run],
+    pub run_count: usize,
     /// S at the boundaries of the slip zones.
     pub cut_shift: &'a mut [f64],
+    pub cut_count: usize,
 }
 
-/// A walk along samples: the stack of knots, and the runs and packed boundaries so far.
-struct Walk<'a> {
-    knots: &'a mut [[f64; 4]],
-    depth: usize,
-    runs: &'a mut [Run],
-    run_count: usize,
-    cut_shift: &'a mut [f64],
-    cut_count: usize,
-}
-
-impl Walk<'_> {
+impl PeriodicPath<'_> {
     /// Starts anew from the displacement of the centre.
     fn restart(&mut self, displacement: f64) {
         self.depth = 0;
@@ -292,25 +285,23 @@ impl Walk<'_> {
 const SMALLEST: f64 = 1e-150;
 
 impl PeriodicPath<'_> {
-    /// A walk from the diagram before the first sample of a part.
-    fn walk(&mut self, part: &Part) -> Walk<'_> {
-        let PeriodicPath { knots, runs, cut_shift } = self;
-        let mut walk = Walk { knots, depth: 0, runs, run_count: 0, cut_shift, cut_count: 0 };
-        walk.restart(0.0);
+    /// Starts from the diagram before the first sample of a part.
+    fn begin(&mut self, part: &Part) {
+        (self.run_count, self.cut_count) = (0, 0);
+        self.restart(0.0);
         if !part.opens {
-            walk.push(Knot::CORE);
+            self.push(Knot::CORE);
         }
-        walk
     }
 
     /// Finds the runs along a part of the period, and the packed boundaries in blocks of four.
     #[inline(never)]
     pub fn evaluate(&mut self, element: &Element, samples: &Samples, part: &Part) -> (&[Run], &[[f64; 4]]) {
-        let mut walk = self.walk(part);
+        self.begin(part);
         for range in ranges(part, samples.count) {
-            walk.advance(element, samples, part, range);
+            self.advance(element, samples, part, range);
         }
-        let (runs, cuts) = (walk.run_count, walk.cut_count);
+        let (runs, cuts) = (self.run_count, self.cut_count);
         // Fills the last block of four.
         let last = cuts.checked_sub(1).map_or(0.0, |last| at(self.cut_shift, last));
         self.cut_shift.iter_mut().skip(cuts).take(3).for_each(|place| *place = last);
@@ -321,7 +312,7 @@ impl PeriodicPath<'_> {
     /// Energy \[J\] dissipated in the steps along a part of the period.
     #[inline(never)]
     pub fn dissipated(&mut self, element: &Element, samples: &Samples, part: &Part) -> f64 {
-        let mut walk = self.walk(part);
+        self.begin(part);
         let mut energy = 0.0;
         // The step to the first sample (or to its counterpart half a period later) is the last.
         let steps = ranges(&Part { length: part.length + 1, ..*part }, samples.count).into_iter().flatten();
@@ -333,15 +324,15 @@ impl PeriodicPath<'_> {
                 let shift = [before, sample].map(|sample| at(samples.shift, sample));
                 if was_open {
                     start = closing(samples, element, sample).displacement;
-                    walk.restart(start);
+                    self.restart(start);
                 } else if is_open {
                     end = closing(samples, element, sample).displacement;
                 }
-                let knots = walk.knots.get(..walk.depth).unwrap_or(&[]);
+                let knots = self.knots.get(..self.depth).unwrap_or(&[]);
                 energy += energy::dissipated(element, knots, &Path { shift, displacement: end - start });
             }
-            (walk.run_count, walk.cut_count) = (0, 0);
-            walk.advance(element, samples, part, sample..sample + 1);
+            (self.run_count, self.cut_count) = (0, 0);
+            self.advance(element, samples, part, sample..sample + 1);
         }
         energy
     }
