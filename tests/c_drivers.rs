@@ -101,16 +101,17 @@ fn fortran() {
     let options = ["", "-fdefault-real-8 -fdefault-integer-8", "-fno-automatic"];
     let jobs = options.iter().enumerate().flat_map(|(i, options)| {
         let fortran = &fortran;
-        [("f2008", "bad_input"), ("f2018", "test_microslip")].map(|(standard, name)| {
+        // The test of invalid input calls the C functions of the module, too.
+        let programs = [("-std=f2008 -cpp -Dprivate=public", "bad_input"), ("-std=f2018", "test_microslip")];
+        programs.map(|(standard, name)| {
             move || {
                 let program = format!("{name}_{i}");
                 let modules = BUILD.join(program.clone() + "_modules");
                 std::fs::create_dir_all(&modules).unwrap();
                 let sources = ["checks", name].map(|name| ROOT.join(format!("tests/fortran/{name}.f90")));
                 let mut compiler = Command::new(fortran);
-                compiler.args(options.split_whitespace()).arg("-J").arg(modules);
+                compiler.args(options.split_whitespace()).args(standard.split_whitespace()).arg("-J").arg(modules);
                 compiler.args(["-Wall", "-Wextra", "-pedantic", "-Werror", "-ffpe-trap=invalid,zero,overflow"]);
-                compiler.arg(format!("-std={standard}"));
                 let sources = [&[LIBRARY[0].join("microslip.f90")][..], &sources].concat();
                 drive(compiler, &sources, &program)
             }

@@ -19,7 +19,7 @@ program bad_input
     logical :: batch = .false., element = .false.
   end type procedure_info
 
-  include 'interfaces.f90'
+  include 'procedures.f90'
 
   ! One component is allocated; if none is, the argument is absent.
   type :: output
@@ -35,12 +35,12 @@ program bad_input
   real(wp) :: scalar, nan
   integer(mslip_int) :: status
   integer(mslip_int) :: directions  ! Of the elements.
-  integer :: p, components, me      ! Components of a displacement of an element, and their coefficients.
+  integer :: p, parts, me           ! Components of a displacement of an element, and their coefficients.
 
   nan = ieee_value(1.0_wp, ieee_quiet_nan)
   do directions = 2, 1, -1
-    components = int(directions) + 1
-    me = components*m
+    parts = int(directions) + 1
+    me = parts*m
     do p = 1, size(procedures)
       if (directions == 2 .and. (.not. procedures(p)%element .or. procedures(p)%name == 'element_tractions')) cycle
       call test_subsets()
@@ -89,7 +89,7 @@ contains
       state = spread(0.0_wp, 1, int(mslip_element_state_length(directions, pieces)))
       call mslip_element_state_init(directions, state, ok)
       call mslip_element_path_advance(elements(1), state, reshape([spread(1.0e-8_wp, 1, int(directions)), 1.0e-7_wp, &
-        spread(0.0_wp, 1, int(directions)), 2.0e-7_wp], [components, 2]), ok)
+        spread(0.0_wp, 1, int(directions)), 2.0e-7_wp], [parts, 2]), ok)
       call check_status('set up: state', ok, MSLIP_OK)
       u = spread([reshape([real(wp) ::], [int(directions)*m], pad=[0.0_wp, 3.0e-7_wp, 1.0e-7_wp, 0.0_wp, 2.0e-8_wp]), &
         2.0e-7_wp, 5.0e-8_wp, 0.0_wp, 0.0_wp, 1.0e-8_wp], 2, items)
@@ -219,10 +219,10 @@ contains
     if (procedures(p)%element .and. procedures(p)%memory == 's' .and. procedures(p)%name /= 'element_tractions') then
       call set_up()
       vector = [vector, 0.0_wp]
-      vectors = reshape([vectors], [components + 1, n], pad=[0.0_wp])
+      vectors = reshape([vectors], [parts + 1, n], pad=[0.0_wp])
       call rejected('components', MSLIP_BAD_ARRAY_SIZE)
-      vector = vector(:components - 1)
-      vectors = vectors(:components - 1, :)
+      vector = vector(:parts - 1)
+      vectors = vectors(:parts - 1, :)
       call rejected('components', MSLIP_BAD_ARRAY_SIZE)
     end if
     if (.not. procedures(p)%batch) return
@@ -235,7 +235,7 @@ contains
     call set_up()
     x = [x, 0.0_wp]
     u = reshape([u], shape(u) + [0, 1], pad=[0.0_wp])
-    vectors = reshape([vectors], [components, n + 1], pad=[0.0_wp])
+    vectors = reshape([vectors], [parts, n + 1], pad=[0.0_wp])
     call rejected('size of the input', MSLIP_BAD_ARRAY_SIZE)
     call set_up()
     states = reshape([states], [size(states, 1), n + 1], pad=[0.0_wp])

@@ -186,21 +186,21 @@
     case (30); out(1)%v = spread(untouched, 1, n); out(2)%v = spread(untouched, 1, n); out(3)%v = spread(untouched, &
       1, n)
     case (31); out(1)%s = untouched; out(2)%s = untouched; out(3)%s = untouched
-    case (32); out(1)%v = spread(untouched, 1, components); out(2)%m = reshape([real(wp) ::], [components, &
-      components], pad=[untouched]); out(3)%s = untouched
-    case (33); out(1)%v = spread(untouched, 1, components); out(2)%m = reshape([real(wp) ::], [components, &
-      components], pad=[untouched]); out(3)%s = untouched
-    case (34); out(1)%m = reshape([real(wp) ::], [components, n], pad=[untouched]); out(2)%t = reshape([real(wp) &
-      ::], [components, components, n], pad=[untouched]); out(3)%v = spread(untouched, 1, n)
-    case (35); out(1)%m = reshape([real(wp) ::], [components, n], pad=[untouched]); out(2)%t = reshape([real(wp) &
-      ::], [components, components, n], pad=[untouched]); out(3)%v = spread(untouched, 1, n)
+    case (32); out(1)%v = spread(untouched, 1, parts); out(2)%m = reshape([real(wp) ::], [parts, parts], &
+      pad=[untouched]); out(3)%s = untouched
+    case (33); out(1)%v = spread(untouched, 1, parts); out(2)%m = reshape([real(wp) ::], [parts, parts], &
+      pad=[untouched]); out(3)%s = untouched
+    case (34); out(1)%m = reshape([real(wp) ::], [parts, n], pad=[untouched]); out(2)%t = reshape([real(wp) ::], &
+      [parts, parts, n], pad=[untouched]); out(3)%v = spread(untouched, 1, n)
+    case (35); out(1)%m = reshape([real(wp) ::], [parts, n], pad=[untouched]); out(2)%t = reshape([real(wp) ::], &
+      [parts, parts, n], pad=[untouched]); out(3)%v = spread(untouched, 1, n)
     case (36); out(1)%v = spread(untouched, 1, n); out(2)%v = spread(untouched, 1, n)
     case (37); out(1)%v = spread(untouched, 1, me); out(2)%m = reshape([real(wp) ::], [me, me], pad=[untouched]); &
       out(3)%s = untouched; out(4)%s = untouched
-    case (38); out(1)%m = reshape([real(wp) ::], [components, n], pad=[untouched]); out(2)%t = reshape([real(wp) &
-      ::], [components, components, n], pad=[untouched]); out(3)%v = spread(untouched, 1, n)
-    case (39); out(1)%m = reshape([real(wp) ::], [components, n], pad=[untouched]); out(2)%t = reshape([real(wp) &
-      ::], [components, components, n], pad=[untouched]); out(3)%v = spread(untouched, 1, n)
+    case (38); out(1)%m = reshape([real(wp) ::], [parts, n], pad=[untouched]); out(2)%t = reshape([real(wp) ::], &
+      [parts, parts, n], pad=[untouched]); out(3)%v = spread(untouched, 1, n)
+    case (39); out(1)%m = reshape([real(wp) ::], [parts, n], pad=[untouched]); out(2)%t = reshape([real(wp) ::], &
+      [parts, parts, n], pad=[untouched]); out(3)%v = spread(untouched, 1, n)
     case (40); out(1)%m = reshape([real(wp) ::], [me, n], pad=[untouched]); out(2)%t = reshape([real(wp) ::], [me, &
       me, n], pad=[untouched]); out(3)%v = spread(untouched, 1, n); out(4)%v = spread(untouched, 1, n)
     end select

@@ -14,7 +14,7 @@ use cbindgen::{Bindings, Builder, Config};
 const HEADER: &str = "include/microslip.h";
 const MODULE: &str = "include/microslip.f90";
 const PYTHON: &str = "python/microslip/_core.py";
-const TEST_OF_FORTRAN: [&str; 2] = ["tests/fortran/interfaces.f90", "tests/fortran/calls.f90"];
+const TEST_OF_FORTRAN: [&str; 2] = ["tests/fortran/procedures.f90", "tests/fortran/calls.f90"];
 const CALLS_OF_RUST: &str = "tests/calls/table.rs";
 const CALLS_OF_C: &str = "c_tests/functions.h";
 const OUTPUTS_OF_C: &str = "c_tests/outputs.h";
@@ -55,14 +55,14 @@ fn generated() -> Result<[(&'static str, String); 9], String> {
     let source = interface::Header::new(&header)?;
     let prototypes = source.prototypes()?;
     let functions = interface::functions(&prototypes)?;
-    let [declarations, calls] = fortran::test(&prototypes, &functions)?;
-    let (declared, called) = ((TEST_OF_FORTRAN[0], declarations), (TEST_OF_FORTRAN[1], calls));
+    let [procedures, calls] = wrappers::test(&functions);
+    let (procedures, calls) = ((TEST_OF_FORTRAN[0], procedures), (TEST_OF_FORTRAN[1], calls));
     let rust = (CALLS_OF_RUST, tables::rust(&functions));
     let c = (CALLS_OF_C, tables::c(&functions));
     let outputs = (OUTPUTS_OF_C, tables::outputs(&functions));
     let record = record::record(&header)?;
     record::is_compatible(&read(RECORD).unwrap_or_default(), &record, &read(CHANGELOG)?)?;
-    Ok([(HEADER, header), (RECORD, record), (MODULE, module), (PYTHON, python), rust, c, outputs, declared, called])
+    Ok([(HEADER, header), (RECORD, record), (MODULE, module), (PYTHON, python), rust, c, outputs, procedures, calls])
 }
 
 /// Writes the header and the generated blocks of the Fortran module.
