@@ -46,60 +46,20 @@ module microslip
   public :: mslip_parameters_default, mslip_elliptic_parameters_default
   public :: mslip_harmonic_workspace_size, mslip_element_workspace_size
   ! <generated: public>
-  public :: mslip_contact_init
-  public :: mslip_contact_init_elliptic
-  public :: mslip_contact_check
-  public :: mslip_tractions
-  public :: mslip_slip
-  public :: mslip_monotonic_displacement
-  public :: mslip_monotonic_force
-  public :: mslip_monotonic_sensitivity
-  public :: mslip_state_length
-  public :: mslip_state_init
-  public :: mslip_state_check
-  public :: mslip_state_error
-  public :: mslip_masing_update
-  public :: mslip_masing_advance
-  public :: mslip_masing_path
-  public :: mslip_masing_path_advance
-  public :: mslip_masing_tractions
-  public :: mslip_hysteresis_loop
-  public :: mslip_dissipated_energy
-  public :: mslip_complex_stiffness
-  public :: mslip_stiffness_table_length
-  public :: mslip_stiffness_table_init
-  public :: mslip_complex_stiffness_tabulated
-  public :: mslip_jenkins_equivalent
-  public :: mslip_iwan_equivalent
-  public :: mslip_harmonic_workspace_length
-  public :: mslip_harmonic_workspace_init
-  public :: mslip_harmonic_force
-  public :: mslip_harmonic_sensitivity
-  public :: mslip_batch_complex_stiffness
-  public :: mslip_batch_masing_update
-  public :: mslip_batch_masing_advance
-  public :: mslip_batch_harmonic_force
-  public :: mslip_element_init
-  public :: mslip_element_init_elliptic
-  public :: mslip_element_check
-  public :: mslip_normal_force
-  public :: mslip_normal_approach
-  public :: mslip_element_displacement
-  public :: mslip_element_state_length
-  public :: mslip_element_state_init
-  public :: mslip_element_state_check
-  public :: mslip_element_state_error
-  public :: mslip_element_update
-  public :: mslip_element_advance
-  public :: mslip_element_path
-  public :: mslip_element_path_advance
-  public :: mslip_element_tractions
-  public :: mslip_element_workspace_length
-  public :: mslip_element_workspace_init
-  public :: mslip_element_harmonic_force
-  public :: mslip_batch_element_update
-  public :: mslip_batch_element_advance
-  public :: mslip_batch_element_harmonic_force
+  public :: mslip_contact_init, mslip_contact_init_elliptic, mslip_contact_check, mslip_tractions, mslip_slip, &
+    mslip_monotonic_displacement, mslip_monotonic_force, mslip_monotonic_sensitivity, mslip_state_length, &
+    mslip_state_init, mslip_state_check, mslip_state_error, mslip_masing_update, mslip_masing_advance, &
+    mslip_masing_path, mslip_masing_path_advance, mslip_masing_tractions, mslip_hysteresis_loop, &
+    mslip_dissipated_energy, mslip_complex_stiffness, mslip_stiffness_table_length, mslip_stiffness_table_init, &
+    mslip_complex_stiffness_tabulated, mslip_jenkins_equivalent, mslip_iwan_equivalent, &
+    mslip_harmonic_workspace_length, mslip_harmonic_workspace_init, mslip_harmonic_force, mslip_harmonic_sensitivity, &
+    mslip_batch_complex_stiffness, mslip_batch_masing_update, mslip_batch_masing_advance, mslip_batch_harmonic_force, &
+    mslip_element_init, mslip_element_init_elliptic, mslip_element_check, mslip_normal_force, mslip_normal_approach, &
+    mslip_element_displacement, mslip_element_state_length, mslip_element_state_init, mslip_element_state_check, &
+    mslip_element_state_error, mslip_element_update, mslip_element_advance, mslip_element_path, &
+    mslip_element_path_advance, mslip_element_tractions, mslip_element_workspace_length, mslip_element_workspace_init, &
+    mslip_element_harmonic_force, mslip_batch_element_update, mslip_batch_element_advance, &
+    mslip_batch_element_harmonic_force
   ! </generated>
 
   integer, parameter, public :: mslip_real = c_double  !! Kind of every real value.
@@ -377,20 +337,17 @@ module microslip
   ! <generated: functions>
   interface
 
-    pure function c_version() bind(c, name='mslip_version')
+    pure type(c_ptr) function c_version() bind(c, name='mslip_version')
       import
-      type(c_ptr) :: c_version
     end function c_version
 
-    pure function c_abi_version() bind(c, name='mslip_abi_version')
+    pure integer(c_int32_t) function c_abi_version() bind(c, name='mslip_abi_version')
       import
-      integer(c_int32_t) :: c_abi_version
     end function c_abi_version
 
-    pure function c_status_text(status) bind(c, name='mslip_status_text')
+    pure type(c_ptr) function c_status_text(status) bind(c, name='mslip_status_text')
       import
       integer(c_int32_t), value :: status
-      type(c_ptr) :: c_status_text
     end function c_status_text
 
     subroutine c_parameters_default(p) bind(c, name='mslip_parameters_default')
@@ -403,458 +360,414 @@ module microslip
       type(mslip_elliptic_parameters), intent(inout) :: p
     end subroutine c_elliptic_parameters_default
 
-    pure function c_parameters_warning(p, i) bind(c, name='mslip_parameters_warning')
+    pure type(c_ptr) function c_parameters_warning(p, i) bind(c, name='mslip_parameters_warning')
       import
       type(mslip_parameters), intent(in) :: p
       integer(c_int32_t), value :: i
-      type(c_ptr) :: c_parameters_warning
     end function c_parameters_warning
 
-    pure function c_elliptic_parameters_warning(p, i) bind(c, name='mslip_elliptic_parameters_warning')
+    pure type(c_ptr) function c_elliptic_parameters_warning(p, i) bind(c, name='mslip_elliptic_parameters_warning')
       import
       type(mslip_elliptic_parameters), intent(in) :: p
       integer(c_int32_t), value :: i
-      type(c_ptr) :: c_elliptic_parameters_warning
     end function c_elliptic_parameters_warning
 
-    function c_contact_init(p, contact) bind(c, name='mslip_contact_init')
+    integer(c_int32_t) function c_contact_init(p, contact) bind(c, name='mslip_contact_init')
       import
       type(mslip_parameters), intent(in) :: p
       type(mslip_contact), intent(inout) :: contact
-      integer(c_int32_t) :: c_contact_init
     end function c_contact_init
 
-    function c_contact_init_elliptic(p, contact) bind(c, name='mslip_contact_init_elliptic')
+    integer(c_int32_t) function c_contact_init_elliptic(p, contact) bind(c, name='mslip_contact_init_elliptic')
       import
       type(mslip_elliptic_parameters), intent(in) :: p
       type(mslip_contact), intent(inout) :: contact
-      integer(c_int32_t) :: c_contact_init_elliptic
     end function c_contact_init_elliptic
 
-    function c_contact_check(contact) bind(c, name='mslip_contact_check')
+    integer(c_int32_t) function c_contact_check(contact) bind(c, name='mslip_contact_check')
       import
       type(mslip_contact), intent(in) :: contact
-      integer(c_int32_t) :: c_contact_check
     end function c_contact_check
 
-    function c_tractions(contact, force, n, x, pressure, shear) bind(c, name='mslip_tractions')
+    integer(c_int32_t) function c_tractions(contact, force, n, x, pressure, shear) bind(c, name='mslip_tractions')
       import
       type(mslip_contact), intent(in) :: contact
       real(c_double), value :: force
       integer(c_size_t), value :: n
       real(c_double), intent(in) :: x(*)
       type(c_ptr), value :: pressure, shear
-      integer(c_int32_t) :: c_tractions
     end function c_tractions
 
-    function c_slip(contact, force, n, x, slip, damage) bind(c, name='mslip_slip')
+    integer(c_int32_t) function c_slip(contact, force, n, x, slip, damage) bind(c, name='mslip_slip')
       import
       type(mslip_contact), intent(in) :: contact
       real(c_double), value :: force
       integer(c_size_t), value :: n
       real(c_double), intent(in) :: x(*)
       type(c_ptr), value :: slip, damage
-      integer(c_int32_t) :: c_slip
     end function c_slip
 
-    function c_monotonic_displacement(contact, n, force, displacement, compliance, stick_half_width) &
-      bind(c, name='mslip_monotonic_displacement')
+    integer(c_int32_t) function c_monotonic_displacement(contact, n, force, displacement, compliance, &
+      stick_half_width) bind(c, name='mslip_monotonic_displacement')
       import
       type(mslip_contact), intent(in) :: contact
       integer(c_size_t), value :: n
       real(c_double), intent(in) :: force(*)
       type(c_ptr), value :: displacement, compliance, stick_half_width
-      integer(c_int32_t) :: c_monotonic_displacement
     end function c_monotonic_displacement
 
-    function c_monotonic_force(contact, n, displacement, force, stiffness, stick_half_width) &
+    integer(c_int32_t) function c_monotonic_force(contact, n, displacement, force, stiffness, stick_half_width) &
       bind(c, name='mslip_monotonic_force')
       import
       type(mslip_contact), intent(in) :: contact
       integer(c_size_t), value :: n
       real(c_double), intent(in) :: displacement(*)
       type(c_ptr), value :: force, stiffness, stick_half_width
-      integer(c_int32_t) :: c_monotonic_force
     end function c_monotonic_force
 
-    function c_monotonic_sensitivity(contact, n, displacement, force, sensitivity) &
+    integer(c_int32_t) function c_monotonic_sensitivity(contact, n, displacement, force, sensitivity) &
       bind(c, name='mslip_monotonic_sensitivity')
       import
       type(mslip_contact), intent(in) :: contact
       integer(c_size_t), value :: n
       real(c_double), intent(in) :: displacement(*)
       type(c_ptr), value :: force, sensitivity
-      integer(c_int32_t) :: c_monotonic_sensitivity
     end function c_monotonic_sensitivity
 
-    pure function c_state_length(reversals) bind(c, name='mslip_state_length')
+    pure integer(c_size_t) function c_state_length(reversals) bind(c, name='mslip_state_length')
       import
       integer(c_size_t), value :: reversals
-      integer(c_size_t) :: c_state_length
     end function c_state_length
 
-    function c_state_init(state_length, state) bind(c, name='mslip_state_init')
+    integer(c_int32_t) function c_state_init(state_length, state) bind(c, name='mslip_state_init')
       import
       integer(c_size_t), value :: state_length
       type(c_ptr), value :: state
-      integer(c_int32_t) :: c_state_init
     end function c_state_init
 
-    function c_state_check(state_length, state) bind(c, name='mslip_state_check')
+    integer(c_int32_t) function c_state_check(state_length, state) bind(c, name='mslip_state_check')
       import
       integer(c_size_t), value :: state_length
       real(c_double), intent(in) :: state(*)
-      integer(c_int32_t) :: c_state_check
     end function c_state_check
 
-    function c_state_error(state_length, state, force_error) bind(c, name='mslip_state_error')
+    integer(c_int32_t) function c_state_error(state_length, state, force_error) bind(c, name='mslip_state_error')
       import
       integer(c_size_t), value :: state_length
       real(c_double), intent(in) :: state(*)
       type(c_ptr), value :: force_error
-      integer(c_int32_t) :: c_state_error
     end function c_state_error
 
-    function c_masing_update(contact, state_length, state_old, displacement, state_new, force, stiffness, &
-      dissipated) bind(c, name='mslip_masing_update')
+    integer(c_int32_t) function c_masing_update(contact, state_length, state_old, displacement, state_new, force, &
+      stiffness, dissipated) bind(c, name='mslip_masing_update')
       import
       type(mslip_contact), intent(in) :: contact
       integer(c_size_t), value :: state_length
       type(c_ptr), value :: state_old, state_new, force, stiffness, dissipated
       real(c_double), value :: displacement
-      integer(c_int32_t) :: c_masing_update
     end function c_masing_update
 
-    function c_masing_path(contact, state_length, state_old, n, displacement, state_new, force, stiffness, &
-      dissipated) bind(c, name='mslip_masing_path')
+    integer(c_int32_t) function c_masing_path(contact, state_length, state_old, n, displacement, state_new, force, &
+      stiffness, dissipated) bind(c, name='mslip_masing_path')
       import
       type(mslip_contact), intent(in) :: contact
       integer(c_size_t), value :: state_length, n
       type(c_ptr), value :: state_old, state_new, force, stiffness, dissipated
       real(c_double), intent(in) :: displacement(*)
-      integer(c_int32_t) :: c_masing_path
     end function c_masing_path
 
-    function c_masing_tractions(contact, state_length, state, n, x, pressure, shear) &
+    integer(c_int32_t) function c_masing_tractions(contact, state_length, state, n, x, pressure, shear) &
       bind(c, name='mslip_masing_tractions')
       import
       type(mslip_contact), intent(in) :: contact
       integer(c_size_t), value :: state_length, n
       real(c_double), intent(in) :: state(*), x(*)
       type(c_ptr), value :: pressure, shear
-      integer(c_int32_t) :: c_masing_tractions
     end function c_masing_tractions
 
-    function c_hysteresis_loop(contact, amplitude, n, displacement, force) bind(c, name='mslip_hysteresis_loop')
+    integer(c_int32_t) function c_hysteresis_loop(contact, amplitude, n, displacement, force) &
+      bind(c, name='mslip_hysteresis_loop')
       import
       type(mslip_contact), intent(in) :: contact
       real(c_double), value :: amplitude
       integer(c_size_t), value :: n
       type(c_ptr), value :: displacement, force
-      integer(c_int32_t) :: c_hysteresis_loop
     end function c_hysteresis_loop
 
-    function c_dissipated_energy(contact, n, force_amplitude, energy) bind(c, name='mslip_dissipated_energy')
+    integer(c_int32_t) function c_dissipated_energy(contact, n, force_amplitude, energy) &
+      bind(c, name='mslip_dissipated_energy')
       import
       type(mslip_contact), intent(in) :: contact
       integer(c_size_t), value :: n
       real(c_double), intent(in) :: force_amplitude(*)
       type(c_ptr), value :: energy
-      integer(c_int32_t) :: c_dissipated_energy
     end function c_dissipated_energy
 
-    function c_complex_stiffness(contact, n, amplitude, k_real, k_imag, dk_real, dk_imag) &
+    integer(c_int32_t) function c_complex_stiffness(contact, n, amplitude, k_real, k_imag, dk_real, dk_imag) &
       bind(c, name='mslip_complex_stiffness')
       import
       type(mslip_contact), intent(in) :: contact
       integer(c_size_t), value :: n
       real(c_double), intent(in) :: amplitude(*)
       type(c_ptr), value :: k_real, k_imag, dk_real, dk_imag
-      integer(c_int32_t) :: c_complex_stiffness
     end function c_complex_stiffness
 
-    pure function c_stiffness_table_length() bind(c, name='mslip_stiffness_table_length')
+    pure integer(c_size_t) function c_stiffness_table_length() bind(c, name='mslip_stiffness_table_length')
       import
-      integer(c_size_t) :: c_stiffness_table_length
     end function c_stiffness_table_length
 
-    function c_stiffness_table_init(contact, table_length, table) bind(c, name='mslip_stiffness_table_init')
+    integer(c_int32_t) function c_stiffness_table_init(contact, table_length, table) &
+      bind(c, name='mslip_stiffness_table_init')
       import
       type(mslip_contact), intent(in) :: contact
       integer(c_size_t), value :: table_length
       type(c_ptr), value :: table
-      integer(c_int32_t) :: c_stiffness_table_init
     end function c_stiffness_table_init
 
-    function c_complex_stiffness_tabulated(contact, table, n, amplitude, k_real, k_imag, dk_real, dk_imag) &
-      bind(c, name='mslip_complex_stiffness_tabulated')
+    integer(c_int32_t) function c_complex_stiffness_tabulated(contact, table, n, amplitude, k_real, k_imag, dk_real, &
+      dk_imag) bind(c, name='mslip_complex_stiffness_tabulated')
       import
       type(mslip_contact), intent(in) :: contact
       real(c_double), intent(in) :: table(*), amplitude(*)
       integer(c_size_t), value :: n
       type(c_ptr), value :: k_real, k_imag, dk_real, dk_imag
-      integer(c_int32_t) :: c_complex_stiffness_tabulated
     end function c_complex_stiffness_tabulated
 
-    function c_jenkins_equivalent(contact, amplitude, stiffness, slip_force) &
+    integer(c_int32_t) function c_jenkins_equivalent(contact, amplitude, stiffness, slip_force) &
       bind(c, name='mslip_jenkins_equivalent')
       import
       type(mslip_contact), intent(in) :: contact
       real(c_double), value :: amplitude
       type(c_ptr), value :: stiffness, slip_force
-      integer(c_int32_t) :: c_jenkins_equivalent
     end function c_jenkins_equivalent
 
-    function c_iwan_equivalent(contact, n, stiffness, slip_force, force_error) bind(c, name='mslip_iwan_equivalent')
+    integer(c_int32_t) function c_iwan_equivalent(contact, n, stiffness, slip_force, force_error) &
+      bind(c, name='mslip_iwan_equivalent')
       import
       type(mslip_contact), intent(in) :: contact
       integer(c_size_t), value :: n
       type(c_ptr), value :: stiffness, slip_force, force_error
-      integer(c_int32_t) :: c_iwan_equivalent
     end function c_iwan_equivalent
 
-    pure function c_harmonic_workspace_length(harmonics, samples, rule) &
+    pure integer(c_size_t) function c_harmonic_workspace_length(harmonics, samples, rule) &
       bind(c, name='mslip_harmonic_workspace_length')
       import
       integer(c_size_t), value :: harmonics, samples
       integer(c_int32_t), value :: rule
-      integer(c_size_t) :: c_harmonic_workspace_length
     end function c_harmonic_workspace_length
 
-    function c_harmonic_workspace_init(harmonics, samples, rule, workspace_length, workspace) &
+    integer(c_int32_t) function c_harmonic_workspace_init(harmonics, samples, rule, workspace_length, workspace) &
       bind(c, name='mslip_harmonic_workspace_init')
       import
       integer(c_size_t), value :: harmonics, samples, workspace_length
       integer(c_int32_t), value :: rule
       type(c_ptr), value :: workspace
-      integer(c_int32_t) :: c_harmonic_workspace_init
     end function c_harmonic_workspace_init
 
-    function c_harmonic_workspace_size(workspace, harmonics, samples, rule) &
+    integer(c_int32_t) function c_harmonic_workspace_size(workspace, harmonics, samples, rule) &
       bind(c, name='mslip_harmonic_workspace_size')
       import
       real(c_double), intent(in) :: workspace(*)
       type(c_ptr), value :: harmonics, samples, rule
-      integer(c_int32_t) :: c_harmonic_workspace_size
     end function c_harmonic_workspace_size
 
-    pure function c_element_workspace_length(directions, harmonics, samples, rule) &
+    pure integer(c_size_t) function c_element_workspace_length(directions, harmonics, samples, rule) &
       bind(c, name='mslip_element_workspace_length')
       import
       integer(c_int32_t), value :: directions, rule
       integer(c_size_t), value :: harmonics, samples
-      integer(c_size_t) :: c_element_workspace_length
     end function c_element_workspace_length
 
-    function c_element_workspace_init(directions, harmonics, samples, rule, periods, workspace_length, workspace) &
-      bind(c, name='mslip_element_workspace_init')
+    integer(c_int32_t) function c_element_workspace_init(directions, harmonics, samples, rule, periods, &
+      workspace_length, workspace) bind(c, name='mslip_element_workspace_init')
       import
       integer(c_int32_t), value :: directions, rule
       integer(c_size_t), value :: harmonics, samples, periods, workspace_length
       type(c_ptr), value :: workspace
-      integer(c_int32_t) :: c_element_workspace_init
     end function c_element_workspace_init
 
-    function c_element_workspace_size(workspace, directions, harmonics, samples, rule, periods) &
+    integer(c_int32_t) function c_element_workspace_size(workspace, directions, harmonics, samples, rule, periods) &
       bind(c, name='mslip_element_workspace_size')
       import
       real(c_double), intent(in) :: workspace(*)
       type(c_ptr), value :: directions, harmonics, samples, rule, periods
-      integer(c_int32_t) :: c_element_workspace_size
     end function c_element_workspace_size
 
-    function c_element_harmonic_force(element, workspace, displacement, force, jacobian, dissipated, drift) &
-      bind(c, name='mslip_element_harmonic_force')
+    integer(c_int32_t) function c_element_harmonic_force(element, workspace, displacement, force, jacobian, &
+      dissipated, drift) bind(c, name='mslip_element_harmonic_force')
       import
       type(mslip_element), intent(in) :: element
       type(c_ptr), value :: workspace, force, jacobian, dissipated, drift
       real(c_double), intent(in) :: displacement(*)
-      integer(c_int32_t) :: c_element_harmonic_force
     end function c_element_harmonic_force
 
-    function c_harmonic_force(contact, workspace, displacement, force, jacobian, dissipated) &
+    integer(c_int32_t) function c_harmonic_force(contact, workspace, displacement, force, jacobian, dissipated) &
       bind(c, name='mslip_harmonic_force')
       import
       type(mslip_contact), intent(in) :: contact
       type(c_ptr), value :: workspace, force, jacobian, dissipated
       real(c_double), intent(in) :: displacement(*)
-      integer(c_int32_t) :: c_harmonic_force
     end function c_harmonic_force
 
-    function c_harmonic_sensitivity(contact, workspace, displacement, force, sensitivity) &
+    integer(c_int32_t) function c_harmonic_sensitivity(contact, workspace, displacement, force, sensitivity) &
       bind(c, name='mslip_harmonic_sensitivity')
       import
       type(mslip_contact), intent(in) :: contact
       type(c_ptr), value :: workspace, force, sensitivity
       real(c_double), intent(in) :: displacement(*)
-      integer(c_int32_t) :: c_harmonic_sensitivity
     end function c_harmonic_sensitivity
 
-    function c_element_init(p, directions, normal_input, element) bind(c, name='mslip_element_init')
+    integer(c_int32_t) function c_element_init(p, directions, normal_input, element) &
+      bind(c, name='mslip_element_init')
       import
       type(mslip_parameters), intent(in) :: p
       integer(c_int32_t), value :: directions, normal_input
       type(mslip_element), intent(inout) :: element
-      integer(c_int32_t) :: c_element_init
     end function c_element_init
 
-    function c_element_init_elliptic(p, directions, normal_input, element) &
+    integer(c_int32_t) function c_element_init_elliptic(p, directions, normal_input, element) &
       bind(c, name='mslip_element_init_elliptic')
       import
       type(mslip_elliptic_parameters), intent(in) :: p
       integer(c_int32_t), value :: directions, normal_input
       type(mslip_element), intent(inout) :: element
-      integer(c_int32_t) :: c_element_init_elliptic
     end function c_element_init_elliptic
 
-    function c_element_check(element) bind(c, name='mslip_element_check')
+    integer(c_int32_t) function c_element_check(element) bind(c, name='mslip_element_check')
       import
       type(mslip_element), intent(in) :: element
-      integer(c_int32_t) :: c_element_check
     end function c_element_check
 
-    function c_normal_force(element, n, approach, normal_force, stiffness, half_width) &
+    integer(c_int32_t) function c_normal_force(element, n, approach, normal_force, stiffness, half_width) &
       bind(c, name='mslip_normal_force')
       import
       type(mslip_element), intent(in) :: element
       integer(c_size_t), value :: n
       real(c_double), intent(in) :: approach(*)
       type(c_ptr), value :: normal_force, stiffness, half_width
-      integer(c_int32_t) :: c_normal_force
     end function c_normal_force
 
-    function c_normal_approach(element, n, normal_force, approach, compliance, half_width) &
+    integer(c_int32_t) function c_normal_approach(element, n, normal_force, approach, compliance, half_width) &
       bind(c, name='mslip_normal_approach')
       import
       type(mslip_element), intent(in) :: element
       integer(c_size_t), value :: n
       real(c_double), intent(in) :: normal_force(*)
       type(c_ptr), value :: approach, compliance, half_width
-      integer(c_int32_t) :: c_normal_approach
     end function c_normal_approach
 
-    function c_element_displacement(element, direction, n, force, normal_force, displacement, compliance) &
-      bind(c, name='mslip_element_displacement')
+    integer(c_int32_t) function c_element_displacement(element, direction, n, force, normal_force, displacement, &
+      compliance) bind(c, name='mslip_element_displacement')
       import
       type(mslip_element), intent(in) :: element
       integer(c_int32_t), value :: direction
       integer(c_size_t), value :: n
       real(c_double), intent(in) :: force(*), normal_force(*)
       type(c_ptr), value :: displacement, compliance
-      integer(c_int32_t) :: c_element_displacement
     end function c_element_displacement
 
-    pure function c_element_state_length(directions, pieces) bind(c, name='mslip_element_state_length')
+    pure integer(c_size_t) function c_element_state_length(directions, pieces) &
+      bind(c, name='mslip_element_state_length')
       import
       integer(c_int32_t), value :: directions
       integer(c_size_t), value :: pieces
-      integer(c_size_t) :: c_element_state_length
     end function c_element_state_length
 
-    function c_element_state_init(directions, state_length, state) bind(c, name='mslip_element_state_init')
+    integer(c_int32_t) function c_element_state_init(directions, state_length, state) &
+      bind(c, name='mslip_element_state_init')
       import
       integer(c_int32_t), value :: directions
       integer(c_size_t), value :: state_length
       type(c_ptr), value :: state
-      integer(c_int32_t) :: c_element_state_init
     end function c_element_state_init
 
-    function c_element_state_check(directions, state_length, state) bind(c, name='mslip_element_state_check')
+    integer(c_int32_t) function c_element_state_check(directions, state_length, state) &
+      bind(c, name='mslip_element_state_check')
       import
       integer(c_int32_t), value :: directions
       integer(c_size_t), value :: state_length
       real(c_double), intent(in) :: state(*)
-      integer(c_int32_t) :: c_element_state_check
     end function c_element_state_check
 
-    function c_element_state_error(directions, state_length, state, force_error) &
+    integer(c_int32_t) function c_element_state_error(directions, state_length, state, force_error) &
       bind(c, name='mslip_element_state_error')
       import
       integer(c_int32_t), value :: directions
       integer(c_size_t), value :: state_length
       real(c_double), intent(in) :: state(*)
       type(c_ptr), value :: force_error
-      integer(c_int32_t) :: c_element_state_error
     end function c_element_state_error
 
-    function c_element_update(element, state_length, state_old, displacement, state_new, force, tangent, dissipated) &
-      bind(c, name='mslip_element_update')
+    integer(c_int32_t) function c_element_update(element, state_length, state_old, displacement, state_new, force, &
+      tangent, dissipated) bind(c, name='mslip_element_update')
       import
       type(mslip_element), intent(in) :: element
       integer(c_size_t), value :: state_length
       type(c_ptr), value :: state_old, state_new, force, tangent, dissipated
       real(c_double), intent(in) :: displacement(*)
-      integer(c_int32_t) :: c_element_update
     end function c_element_update
 
-    function c_element_path(element, state_length, state_old, n, displacement, state_new, force, tangent, &
-      dissipated) bind(c, name='mslip_element_path')
+    integer(c_int32_t) function c_element_path(element, state_length, state_old, n, displacement, state_new, force, &
+      tangent, dissipated) bind(c, name='mslip_element_path')
       import
       type(mslip_element), intent(in) :: element
       integer(c_size_t), value :: state_length, n
       type(c_ptr), value :: state_old, state_new, force, tangent, dissipated
       real(c_double), intent(in) :: displacement(*)
-      integer(c_int32_t) :: c_element_path
     end function c_element_path
 
-    function c_element_tractions(element, state_length, state, n, x, pressure, shear) &
+    integer(c_int32_t) function c_element_tractions(element, state_length, state, n, x, pressure, shear) &
       bind(c, name='mslip_element_tractions')
       import
       type(mslip_element), intent(in) :: element
       integer(c_size_t), value :: state_length, n
       real(c_double), intent(in) :: state(*), x(*)
       type(c_ptr), value :: pressure, shear
-      integer(c_int32_t) :: c_element_tractions
     end function c_element_tractions
 
-    function c_batch_complex_stiffness(n, n_contacts, contacts, index, active, amplitude, k_real, k_imag, dk_real, &
-      dk_imag) bind(c, name='mslip_batch_complex_stiffness')
+    integer(c_int32_t) function c_batch_complex_stiffness(n, n_contacts, contacts, index, active, amplitude, k_real, &
+      k_imag, dk_real, dk_imag) bind(c, name='mslip_batch_complex_stiffness')
       import
       integer(c_size_t), value :: n, n_contacts
       type(mslip_contact), intent(in) :: contacts(*)
       type(c_ptr), value :: index, active, k_real, k_imag, dk_real, dk_imag
       real(c_double), intent(in) :: amplitude(*)
-      integer(c_int32_t) :: c_batch_complex_stiffness
     end function c_batch_complex_stiffness
 
-    function c_batch_masing_update(n, n_contacts, contacts, index, active, state_length, states_old, displacement, &
-      states_new, force, stiffness, dissipated) bind(c, name='mslip_batch_masing_update')
+    integer(c_int32_t) function c_batch_masing_update(n, n_contacts, contacts, index, active, state_length, &
+      states_old, displacement, states_new, force, stiffness, dissipated) bind(c, name='mslip_batch_masing_update')
       import
       integer(c_size_t), value :: n, n_contacts, state_length
       type(mslip_contact), intent(in) :: contacts(*)
       type(c_ptr), value :: index, active, states_old, states_new, force, stiffness, dissipated
       real(c_double), intent(in) :: displacement(*)
-      integer(c_int32_t) :: c_batch_masing_update
     end function c_batch_masing_update
 
-    function c_batch_harmonic_force(n, n_contacts, contacts, index, active, workspace, displacement, force, &
-      jacobian, dissipated) bind(c, name='mslip_batch_harmonic_force')
+    integer(c_int32_t) function c_batch_harmonic_force(n, n_contacts, contacts, index, active, workspace, &
+      displacement, force, jacobian, dissipated) bind(c, name='mslip_batch_harmonic_force')
       import
       integer(c_size_t), value :: n, n_contacts
       type(mslip_contact), intent(in) :: contacts(*)
       type(c_ptr), value :: index, active, workspace, force, jacobian, dissipated
       real(c_double), intent(in) :: displacement(*)
-      integer(c_int32_t) :: c_batch_harmonic_force
     end function c_batch_harmonic_force
 
-    function c_batch_element_update(n, n_elements, elements, index, active, state_length, states_old, displacement, &
-      states_new, force, tangent, dissipated) bind(c, name='mslip_batch_element_update')
+    integer(c_int32_t) function c_batch_element_update(n, n_elements, elements, index, active, state_length, &
+      states_old, displacement, states_new, force, tangent, dissipated) bind(c, name='mslip_batch_element_update')
       import
       integer(c_size_t), value :: n, n_elements, state_length
       type(mslip_element), intent(in) :: elements(*)
       type(c_ptr), value :: index, active, states_old, states_new, force, tangent, dissipated
       real(c_double), intent(in) :: displacement(*)
-      integer(c_int32_t) :: c_batch_element_update
     end function c_batch_element_update
 
-    function c_batch_element_harmonic_force(n, n_elements, elements, index, active, workspace, displacement, force, &
-      jacobian, dissipated, drift) bind(c, name='mslip_batch_element_harmonic_force')
+    integer(c_int32_t) function c_batch_element_harmonic_force(n, n_elements, elements, index, active, workspace, &
+      displacement, force, jacobian, dissipated, drift) bind(c, name='mslip_batch_element_harmonic_force')
       import
       integer(c_size_t), value :: n, n_elements
       type(mslip_element), intent(in) :: elements(*)
       type(c_ptr), value :: index, active, workspace, force, jacobian, dissipated, drift
       real(c_double), intent(in) :: displacement(*)
-      integer(c_int32_t) :: c_batch_element_harmonic_force
     end function c_batch_element_harmonic_force
 
   end interface
@@ -1080,9 +993,7 @@ contains
   end subroutine mslip_slip
 
   subroutine monotonic_displacement_array(contact, force, status, displacement, compliance, stick_half_width)
-    !! Monotonic (initial loading) curve (Eq. 10), odd in the force: displacement [m], compliance [m/N] and stick
-    !! half-width [m] at force(n) [N]. At mu N the compliance is infinite for a cylinder and an elliptical contact, and
-    !! the stick half-width is that of the flat, a.
+    !! `mslip_monotonic_displacement` of n values.
     type(mslip_contact), intent(in) :: contact  !! An initialised contact.
     real(mslip_real), intent(in) :: force(:)  !! Tangential force [N]; its magnitude is at most `slip_force`.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE or MSLIP_FORCE_EXCEEDS_SLIP.
@@ -1105,9 +1016,7 @@ contains
   end subroutine monotonic_displacement_array
 
   subroutine monotonic_displacement_scalar(contact, force, status, displacement, compliance, stick_half_width)
-    !! Monotonic (initial loading) curve (Eq. 10), odd in the force: displacement [m], compliance [m/N] and stick
-    !! half-width [m] at force(n) [N]. At mu N the compliance is infinite for a cylinder and an elliptical contact, and
-    !! the stick half-width is that of the flat, a.
+    !! `mslip_monotonic_displacement` of one value.
     type(mslip_contact), intent(in) :: contact  !! An initialised contact.
     real(mslip_real), intent(in) :: force  !! Tangential force [N]; its magnitude is at most `slip_force`.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE or MSLIP_FORCE_EXCEEDS_SLIP.
@@ -1122,9 +1031,7 @@ contains
   end subroutine monotonic_displacement_scalar
 
   subroutine monotonic_force_array(contact, displacement, status, force, stiffness, stick_half_width)
-    !! Inverse of the monotonic curve, odd in the displacement: force [N], stiffness [N/m] and stick half-width [m] at
-    !! displacement(n) [m]. At slip_displacement the stick half-width is a, as at mu N; beyond, the force stays at mu N,
-    !! and stiffness and stick half-width are 0.
+    !! `mslip_monotonic_force` of n values.
     type(mslip_contact), intent(in) :: contact  !! An initialised contact.
     real(mslip_real), intent(in) :: displacement(:)  !! Displacement [m]; its magnitude is at most 1e150.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, MSLIP_BAD_CONTACT or MSLIP_BAD_DISPLACEMENT.
@@ -1147,9 +1054,7 @@ contains
   end subroutine monotonic_force_array
 
   subroutine monotonic_force_scalar(contact, displacement, status, force, stiffness, stick_half_width)
-    !! Inverse of the monotonic curve, odd in the displacement: force [N], stiffness [N/m] and stick half-width [m] at
-    !! displacement(n) [m]. At slip_displacement the stick half-width is a, as at mu N; beyond, the force stays at mu N,
-    !! and stiffness and stick half-width are 0.
+    !! `mslip_monotonic_force` of one value.
     type(mslip_contact), intent(in) :: contact  !! An initialised contact.
     real(mslip_real), intent(in) :: displacement  !! Displacement [m]; its magnitude is at most 1e150.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, MSLIP_BAD_CONTACT or MSLIP_BAD_DISPLACEMENT.
@@ -1372,7 +1277,7 @@ contains
   end subroutine mslip_hysteresis_loop
 
   subroutine dissipated_energy_array(contact, force_amplitude, energy, status)
-    !! Energy [J] dissipated per cycle between +- force_amplitude(n) [N], each from 0 to mu N (Eq. 13-16).
+    !! `mslip_dissipated_energy` of n values.
     type(mslip_contact), intent(in) :: contact  !! An initialised contact.
     real(mslip_real), intent(in) :: force_amplitude(:)  !! Amplitude of the force [N], 0 to `slip_force`.
     real(mslip_real), intent(inout), target, contiguous :: energy(:)  !! Energy per cycle [J].
@@ -1390,7 +1295,7 @@ contains
   end subroutine dissipated_energy_array
 
   subroutine dissipated_energy_scalar(contact, force_amplitude, energy, status)
-    !! Energy [J] dissipated per cycle between +- force_amplitude(n) [N], each from 0 to mu N (Eq. 13-16).
+    !! `mslip_dissipated_energy` of one value.
     type(mslip_contact), intent(in) :: contact  !! An initialised contact.
     real(mslip_real), intent(in) :: force_amplitude  !! Amplitude of the force [N], 0 to `slip_force`.
     real(mslip_real), intent(inout), target :: energy  !! Energy per cycle [J].
@@ -1401,8 +1306,7 @@ contains
   end subroutine dissipated_energy_scalar
 
   subroutine complex_stiffness_array(contact, amplitude, status, k_real, k_imag, dk_real, dk_imag)
-    !! Complex (harmonic) stiffness K' + iK'' [N/m] at displacement amplitude(n) >= 0 [m] and its derivatives with
-    !! respect to the amplitude [N/m^2] (section 3.4); at amplitude 0: the initial stiffness.
+    !! `mslip_complex_stiffness` of n values.
     type(mslip_contact), intent(in) :: contact  !! An initialised contact.
     real(mslip_real), intent(in) :: amplitude(:)  !! Amplitude of the displacement [m], 0 to 1e150; 0 gives the initial stiffness.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
@@ -1425,8 +1329,7 @@ contains
   end subroutine complex_stiffness_array
 
   subroutine complex_stiffness_scalar(contact, amplitude, status, k_real, k_imag, dk_real, dk_imag)
-    !! Complex (harmonic) stiffness K' + iK'' [N/m] at displacement amplitude(n) >= 0 [m] and its derivatives with
-    !! respect to the amplitude [N/m^2] (section 3.4); at amplitude 0: the initial stiffness.
+    !! `mslip_complex_stiffness` of one value.
     type(mslip_contact), intent(in) :: contact  !! An initialised contact.
     real(mslip_real), intent(in) :: amplitude  !! Amplitude of the displacement [m], 0 to 1e150; 0 gives the initial stiffness.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
@@ -1459,9 +1362,7 @@ contains
   end subroutine mslip_stiffness_table_init
 
   subroutine complex_stiffness_tabulated_array(contact, table, amplitude, status, k_real, k_imag, dk_real, dk_imag)
-    !! mslip_complex_stiffness from a table of mslip_stiffness_table_init: a few polynomials for each amplitude, at any
-    !! amplitude, with errors of 1e-13 of |K| and of |K|/amplitude. For a contact with Λ below 0.9, 2L/b below about 2,
-    !! it is mslip_complex_stiffness.
+    !! `mslip_complex_stiffness_tabulated` of n values.
     type(mslip_contact), intent(in) :: contact  !! An initialised contact.
     real(mslip_real), intent(in), contiguous :: table(:)  !! A table of the shape of the contact.
     real(mslip_real), intent(in) :: amplitude(:)  !! Amplitude of the displacement [m], 0 to 1e150; 0 gives the initial stiffness.
@@ -1486,9 +1387,7 @@ contains
   end subroutine complex_stiffness_tabulated_array
 
   subroutine complex_stiffness_tabulated_scalar(contact, table, amplitude, status, k_real, k_imag, dk_real, dk_imag)
-    !! mslip_complex_stiffness from a table of mslip_stiffness_table_init: a few polynomials for each amplitude, at any
-    !! amplitude, with errors of 1e-13 of |K| and of |K|/amplitude. For a contact with Λ below 0.9, 2L/b below about 2,
-    !! it is mslip_complex_stiffness.
+    !! `mslip_complex_stiffness_tabulated` of one value.
     type(mslip_contact), intent(in) :: contact  !! An initialised contact.
     real(mslip_real), intent(in), contiguous :: table(:)  !! A table of the shape of the contact.
     real(mslip_real), intent(in) :: amplitude  !! Amplitude of the displacement [m], 0 to 1e150; 0 gives the initial stiffness.
@@ -1845,8 +1744,7 @@ contains
   end subroutine mslip_element_check
 
   subroutine normal_force_array(element, approach, status, normal_force, stiffness, half_width)
-    !! The normal law: normal force [N], normal stiffness [N/m] and half-width of the contact [m] at approach(n) [m]. An
-    !! approach <= 0 gives 0, 0, 0.
+    !! `mslip_normal_force` of n values.
     type(mslip_element), intent(in) :: element  !! An initialised element.
     real(mslip_real), intent(in) :: approach(:)  !! Normal approach [m].
     integer(mslip_int), intent(out) :: status
@@ -1869,8 +1767,7 @@ contains
   end subroutine normal_force_array
 
   subroutine normal_force_scalar(element, approach, status, normal_force, stiffness, half_width)
-    !! The normal law: normal force [N], normal stiffness [N/m] and half-width of the contact [m] at approach(n) [m]. An
-    !! approach <= 0 gives 0, 0, 0.
+    !! `mslip_normal_force` of one value.
     type(mslip_element), intent(in) :: element  !! An initialised element.
     real(mslip_real), intent(in) :: approach  !! Normal approach [m].
     integer(mslip_int), intent(out) :: status
@@ -1885,8 +1782,7 @@ contains
   end subroutine normal_force_scalar
 
   subroutine normal_approach_array(element, normal_force, status, approach, compliance, half_width)
-    !! The inverse normal law: approach [m], compliance [m/N] and half-width [m] under normal_force(n) [N]. At 0 the
-    !! compliance of a cylinder and of an ellipse is infinite.
+    !! `mslip_normal_approach` of n values.
     type(mslip_element), intent(in) :: element  !! An initialised element.
     real(mslip_real), intent(in) :: normal_force(:)  !! Normal force [N], >= 0.
     integer(mslip_int), intent(out) :: status
@@ -1909,8 +1805,7 @@ contains
   end subroutine normal_approach_array
 
   subroutine normal_approach_scalar(element, normal_force, status, approach, compliance, half_width)
-    !! The inverse normal law: approach [m], compliance [m/N] and half-width [m] under normal_force(n) [N]. At 0 the
-    !! compliance of a cylinder and of an ellipse is infinite.
+    !! `mslip_normal_approach` of one value.
     type(mslip_element), intent(in) :: element  !! An initialised element.
     real(mslip_real), intent(in) :: normal_force  !! Normal force [N], >= 0.
     integer(mslip_int), intent(out) :: status
@@ -1925,10 +1820,7 @@ contains
   end subroutine normal_approach_scalar
 
   subroutine element_displacement_array(element, direction, force, normal_force, status, displacement, compliance)
-    !! The monotonic curve of an element at a constant normal force: the displacement [m] that carries force(n) [N], at
-    !! most mu N in magnitude, under normal_force(n) [N], and the compliance [m/N] there, in the direction 0 (x) or, of
-    !! an element with two directions, 1 (y). At mu N the compliance of a cylinder and of an ellipse is infinite; so it
-    !! is without friction and without a normal force.
+    !! `mslip_element_displacement` of n values.
     type(mslip_element), intent(in) :: element  !! An initialised element.
     integer(mslip_int), intent(in) :: direction  !! The tangential direction, 0 (x) or, of an element with two directions, 1 (y).
     real(mslip_real), intent(in) :: force(:)
@@ -1956,10 +1848,7 @@ contains
   end subroutine element_displacement_array
 
   subroutine element_displacement_scalar(element, direction, force, normal_force, status, displacement, compliance)
-    !! The monotonic curve of an element at a constant normal force: the displacement [m] that carries force(n) [N], at
-    !! most mu N in magnitude, under normal_force(n) [N], and the compliance [m/N] there, in the direction 0 (x) or, of
-    !! an element with two directions, 1 (y). At mu N the compliance of a cylinder and of an ellipse is infinite; so it
-    !! is without friction and without a normal force.
+    !! `mslip_element_displacement` of one value.
     type(mslip_element), intent(in) :: element  !! An initialised element.
     integer(mslip_int), intent(in) :: direction  !! The tangential direction, 0 (x) or, of an element with two directions, 1 (y).
     real(mslip_real), intent(in) :: force

@@ -123,9 +123,14 @@ fn interface(prototype: &Prototype) -> Result<Vec<String>, String> {
     let is_pure = base == "char" || base != "void" && arguments.iter().all(|argument| !argument.pointer);
     let prefix = if is_pure { "pure " } else { "" };
     let unit = if base == "void" { "subroutine" } else { "function" };
+    let kind = match base {
+        "void" => String::new(),
+        "char" => "type(c_ptr) ".to_owned(),
+        _ => format!("{} ", scalar(base)?),
+    };
     let names: Vec<&str> = arguments.iter().map(|argument| argument.name).collect();
     let names = names.join(", ");
-    let mut lines = wrapped("    ", &format!("{prefix}{unit} {short}({names}) bind(c,{UNBROKEN}name='{name}')"));
+    let mut lines = wrapped("    ", &format!("{prefix}{kind}{unit} {short}({names}) bind(c,{UNBROKEN}name='{name}')"));
     lines.push("      import".to_owned());
 
     // One declaration for all arguments of a type.
@@ -136,10 +141,6 @@ fn interface(prototype: &Prototype) -> Result<Vec<String>, String> {
             Some(declared) => declared.1.push(dummy),
             None => declarations.push((kind, vec![dummy])),
         }
-    }
-    if base != "void" {
-        let kind = if base == "char" { "type(c_ptr)".to_owned() } else { scalar(base)?.to_owned() };
-        declarations.push((kind, vec![short.clone()]));
     }
     for (kind, dummies) in declarations {
         lines.extend(wrapped("      ", &format!("{kind} :: {}", dummies.join(", "))));
@@ -288,20 +289,18 @@ void mslip_clear(struct mslip_result *result);
   ! <generated: functions>
   interface
 
-    function c_step(n, n_results, results, state_old, x, state_new) bind(c, name='mslip_step')
+    integer(c_int32_t) function c_step(n, n_results, results, state_old, x, state_new) bind(c, name='mslip_step')
       import
       integer(c_size_t), value :: n, n_results
       type(mslip_result), intent(in) :: results(*)
       type(c_ptr), value :: state_old, state_new
       real(c_double), intent(in) :: x(*)
-      integer(c_int32_t) :: c_step
     end function c_step
 
-    pure function c_length(n, rule) bind(c, name='mslip_length')
+    pure integer(c_size_t) function c_length(n, rule) bind(c, name='mslip_length')
       import
       integer(c_size_t), value :: n
       integer(c_int32_t), value :: rule
-      integer(c_size_t) :: c_length
     end function c_length
 
     subroutine c_clear(result) bind(c, name='mslip_clear')
@@ -316,7 +315,7 @@ void mslip_clear(struct mslip_result *result);
     /// The blocks but for the procedures.
     fn fill(module: &str, header: &str) -> Result<String, String> {
         let declared = Header::new(header)?;
-        let raw = ("functions", interfaces(&declared.prototypes()?.iter().collect::<Vec<_>>())?);
+        let raw = ("functions", interfaces(&declared.prototypes()?)?);
         replaced(module, vec![("constants", constants(header)), ("types", types(header)?), raw])
     }
 

@@ -32,14 +32,14 @@ pub fn blocks(functions: &[Function]) -> [(&'static str, Vec<String>); 3] {
             let procedure = |end| format!("{short}_{end}");
             forms = vec![(Form::Array, procedure("array")), (Form::Scalar, procedure("scalar"))];
             interfaces.extend([String::new(), format!("  interface {name}")]);
-            interfaces.extend(comment_lines("    ", &description(function, Form::Array)[0]));
+            interfaces.extend(description(function));
             interfaces.push(format!("    module procedure {}, {}", forms[0].1, forms[1].1));
             interfaces.push(format!("  end interface {name}"));
         }
-        public.push(format!("  public :: {name}"));
+        public.push(name.to_owned());
         if function.arguments.iter().any(is_new_state) {
             let advance = name_of(function, Form::Advance);
-            public.push(format!("  public :: {advance}"));
+            public.push(advance.clone());
             forms.push((Form::Advance, advance));
         }
         for (form, name) in forms {
@@ -47,6 +47,7 @@ pub fn blocks(functions: &[Function]) -> [(&'static str, Vec<String>); 3] {
             procedures.extend(Procedure { function, form, name: &name }.lines());
         }
     }
+    let public = wrapped("  ", &format!("public :: {}", public.join(", ")));
     [("public", public), ("interfaces", interfaces), ("procedures", procedures)]
 }
 
@@ -110,10 +111,7 @@ fn is_old_state(argument: &Argument) -> bool {
 }
 
 /// The comment of the header without sentences that concern C only, and without the paragraphs on status and memory.
-fn description(function: &Function, form: Form) -> Vec<String> {
-    if form == Form::Advance {
-        return vec![format!("`{}` in place: the new state replaces the old one.", function.name)];
-    }
+fn description(function: &Function) -> Vec<String> {
     let paragraphs = function.comment.iter().filter(|text| !text.starts_with("Returns "));
     let paragraphs = paragraphs.map(|text| {
         let of_c = |sentence: &&str| ["NULL", "alias", "MSLIP_BY_"].iter().any(|word| sentence.contains(word));
@@ -135,7 +133,12 @@ fn description(function: &Function, form: Form) -> Vec<String> {
         }
         text
     });
-    paragraphs.filter(|text| !text.is_empty()).collect()
+    let mut lines = Vec::new();
+    for paragraph in paragraphs.filter(|text| !text.is_empty()) {
+        lines.extend((!lines.is_empty()).then(|| "    !!".to_owned()));
+        lines.extend(comment_lines("    ", &paragraph));
+    }
+    lines
 }
 
 /// A sentence ends with a full stop before a letter that is not lower case, or a name of the interface.
@@ -329,12 +332,13 @@ impl Procedure<'_> {
     }
 
     fn description(&self) -> Vec<String> {
-        let mut lines = Vec::new();
-        for (number, paragraph) in description(self.function, self.form).iter().enumerate() {
-            lines.extend((number > 0).then(|| "    !!".to_owned()));
-            lines.extend(comment_lines("    ", paragraph));
-        }
-        lines
+        let variant = match self.form {
+            Form::Advance => "in place: the new state replaces the old one",
+            Form::Array if self.function.has("scalar") => "of n values",
+            Form::Array => return description(self.function),
+            Form::Scalar => "of one value",
+        };
+        vec![format!("    !! `{}` {variant}.", self.function.name)]
     }
 
     /// The codes as the header names them; no pointer is NULL.
