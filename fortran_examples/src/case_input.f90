@@ -234,14 +234,7 @@ contains
         call require(dof(5) == -1 .or. law == law_element .or. second_direction /= with_friction, &
                      'only an element has friction in a second direction')
         call require(count > 0, 'count must be 1 or more')
-        c%name = name
-        c%law = law
-        c%dof = dof
-        c%second_direction = second_direction
-        c%angle = angle
-        c%interference = interference
-        c%count = count
-        c%load_varied = load_varied
+        c = contact_input(name, law, dof, angle, interference, second_direction, count, load_varied)
         c%parameters%flat_half_width = flat_half_width
         c%parameters%edge_radius = edge_radius
         c%parameters%length = length
@@ -414,6 +407,7 @@ contains
       end associate
     end do
   end subroutine prepare_problem
+
   !> The parameters of a parameter file of the command line, such as `microslip fit --fitted` writes: lines `key = value` and tables
   !> [[material]], one of both bodies or one of each. Other forms of TOML are errors.
   subroutine read_parameter_file(path, parameters)
@@ -445,38 +439,27 @@ contains
 
     subroutine set(key, value)
       character(len=*), intent(in) :: key, value
+      real(wp) :: number
 
-      status = 0
+      number = 0.0_wp
+      read (value, *, iostat=status) number
       select case (key)
-      case ('flat_half_width')
-        read (value, *, iostat=status) parameters%flat_half_width
-      case ('edge_radius')
-        read (value, *, iostat=status) parameters%edge_radius
-      case ('length')
-        read (value, *, iostat=status) parameters%length
-      case ('normal_force')
-        read (value, *, iostat=status) parameters%normal_force
-      case ('friction_coefficient')
-        read (value, *, iostat=status) parameters%friction_coefficient
-      case ('normal_compliance')
-        read (value, *, iostat=status) parameters%layer%normal_compliance
-      case ('tangential_compliance')
-        read (value, *, iostat=status) parameters%layer%tangential_compliance
-      case ('stiffening_load')
-        read (value, *, iostat=status) parameters%layer%stiffening_load
-      case ('reference_load')
-        read (value, *, iostat=status) parameters%layer%reference_load
-      case ('young_modulus')
-        read (value, *, iostat=status) parameters%material(max(bodies, 1))%young_modulus
-      case ('poisson_ratio')
-        read (value, *, iostat=status) parameters%material(max(bodies, 1))%poisson_ratio
+      case ('flat_half_width'); parameters%flat_half_width = number
+      case ('edge_radius'); parameters%edge_radius = number
+      case ('length'); parameters%length = number
+      case ('normal_force'); parameters%normal_force = number
+      case ('friction_coefficient'); parameters%friction_coefficient = number
+      case ('normal_compliance'); parameters%layer%normal_compliance = number
+      case ('tangential_compliance'); parameters%layer%tangential_compliance = number
+      case ('stiffening_load'); parameters%layer%stiffening_load = number
+      case ('reference_load'); parameters%layer%reference_load = number
+      case ('young_modulus'); parameters%material(max(bodies, 1))%young_modulus = number
+      case ('poisson_ratio'); parameters%material(max(bodies, 1))%poisson_ratio = number
       case ('displacement_reference')
         parameters%displacement_reference = merge(MSLIP_RIGID_STRIP, MSLIP_CENTRE_POINT, value == '"rigid_strip"')
-        if (all(value /= [character(len=14) :: '"rigid_strip"', '"centre_point"'])) status = 1
-      case ('units')
-        if (value /= '"si"') status = 1
-      case default
-        status = 1
+        status = merge(0, 1, any(value == [character(len=14) :: '"rigid_strip"', '"centre_point"']))
+      case ('units'); status = merge(0, 1, value == '"si"')
+      case default; status = 1
       end select
       if (status /= 0) call fail(trim(path)//': '//key//' = '//value//' is not possible here')
     end subroutine set
