@@ -197,14 +197,14 @@ FUNCTION(int32_t, mslip_batch_masing_update, (size_t n, size_t n_contacts, const
      const int32_t *index, const int32_t *active, size_t state_length, const double *states_old, const double *displacement,
      double *states_new, double *force, double *stiffness, double *dissipated))
 FUNCTION(int32_t, mslip_batch_harmonic_force, (size_t n, size_t n_contacts, const struct mslip_contact *contacts,
-     const int32_t *index, const int32_t *active, double *workspace, const double *displacement, double *force,
-     double *jacobian, double *dissipated))
+     const int32_t *index, const int32_t *active, double *workspace, const double *displacement, double *force, double *jacobian,
+     double *dissipated))
 FUNCTION(int32_t, mslip_batch_element_update, (size_t n, size_t n_elements, const struct mslip_element *elements,
      const int32_t *index, const int32_t *active, size_t state_length, const double *states_old, const double *displacement,
      double *states_new, double *force, double *tangent, double *dissipated))
 FUNCTION(int32_t, mslip_batch_element_harmonic_force, (size_t n, size_t n_elements, const struct mslip_element *elements,
-     const int32_t *index, const int32_t *active, double *workspace, const double *displacement, double *force,
-     double *jacobian, double *dissipated, double *drift))
+     const int32_t *index, const int32_t *active, double *workspace, const double *displacement, double *force, double *jacobian,
+     double *dissipated, double *drift))
 
 LENGTH(mslip_state_length(0), 11)
 LENGTH(mslip_state_length(16), 53)

@@ -31,9 +31,9 @@
 
 // Version of the library that this header belongs to: major.
 #define MSLIP_VERSION_MAJOR 0
-// Version of the library: minor.
+// Version of the library that this header belongs to: minor.
 #define MSLIP_VERSION_MINOR 1
-// Version of the library: patch.
+// Version of the library that this header belongs to: patch.
 #define MSLIP_VERSION_PATCH 0
 
 // a required pointer is NULL

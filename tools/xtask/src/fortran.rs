@@ -11,7 +11,7 @@ const WIDTH: usize = 120;
 /// The longest line of free-form Fortran.
 const LONGEST: usize = 132;
 /// A blank at which no line is broken.
-const UNBROKEN: char = '\u{a0}';
+pub const UNBROKEN: char = '\u{a0}';
 
 /// Fills the generated blocks of the module from the header.
 pub fn fill(module: &str, header: &str) -> Result<String, String> {
@@ -217,7 +217,7 @@ pub fn wrapped(indent: &str, statement: &str) -> Vec<String> {
 }
 
 /// A text, broken at blanks into lines of a width.
-fn broken(text: &str, width: usize) -> Vec<String> {
+pub fn broken(text: &str, width: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in text.split_ascii_whitespace() {
         let line = lines.last_mut().expect("there is a line");

@@ -100,7 +100,7 @@ pub struct Argument<'a> {
     pub extents: String,
     pub required: bool,
     pub comment: &'a str,
-    /// Name of the constant that is the status of an invalid value; empty if none is.
+    /// Name of the constant that is the status of an invalid value; `MSLIP_OK` if none is.
     pub status: &'a str,
 }
 
@@ -258,7 +258,7 @@ fn function<'a>(
             extents: fact.as_ref().map_or(String::new(), |fact| fact.extents.clone()),
             required: fact.as_ref().is_some_and(|fact| fact.required),
             comment: fact.as_ref().map_or("", |fact| fact.comment),
-            status: status.copied().unwrap_or(""),
+            status: status.copied().unwrap_or("MSLIP_OK"),
         };
         if (argument.is_input() || argument.is_output()) && fact.is_none() && !words.contains(&"by hand") {
             return Err(format!("{name}: {short} is missing"));

@@ -106,21 +106,14 @@ fn bindings() -> Bindings {
     // cbindgen includes whatever is public and could be C: items of the interface carry its prefix. Excluding an item can
     // expose others that only it had covered.
     loop {
-        let bindings = generate(&config);
+        let bindings = Builder::new().with_crate(root()).with_config(config.clone()).generate();
+        let bindings = bindings.unwrap_or_else(|e| panic!("no header can be generated from the source: {e}"));
         let outsiders = outsiders(&bindings);
         if outsiders.is_empty() {
             return bindings;
         }
         config.export.exclude.extend(outsiders);
     }
-}
-
-fn generate(config: &Config) -> Bindings {
-    Builder::new()
-        .with_crate(root())
-        .with_config(config.clone())
-        .generate()
-        .unwrap_or_else(|e| panic!("no header can be generated from the source: {e}"))
 }
 
 /// The constants, types and functions without the prefix of the interface.
@@ -137,17 +130,11 @@ fn outsiders(bindings: &Bindings) -> Vec<String> {
 
 /// The package's version, as macros: this crate and the library share one version.
 fn version_macros() -> String {
-    format!(
-        "\n// Version of the library that this header belongs to: major.\n\
-         #define MSLIP_VERSION_MAJOR {}\n\
-         // Version of the library: minor.\n\
-         #define MSLIP_VERSION_MINOR {}\n\
-         // Version of the library: patch.\n\
-         #define MSLIP_VERSION_PATCH {}",
-        env!("CARGO_PKG_VERSION_MAJOR"),
-        env!("CARGO_PKG_VERSION_MINOR"),
-        env!("CARGO_PKG_VERSION_PATCH")
-    )
+    let version = ["MAJOR", "MINOR", "PATCH"].into_iter().zip(env!("CARGO_PKG_VERSION").split('.'));
+    let comment = "// Version of the library that this header belongs to";
+    version
+        .map(|(name, n)| format!("\n{comment}: {}.\n#define MSLIP_VERSION_{name} {n}", name.to_lowercase()))
+        .collect()
 }
 
 /// The status codes, from the library's own table: the macro that defines them is not expanded by cbindgen.

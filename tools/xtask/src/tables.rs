@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use crate::fortran::{UNBROKEN, broken};
 use crate::interface::{Argument, Function};
 
 /// The functions with a status and memory of the caller.
@@ -71,16 +72,15 @@ pub fn rust(functions: &[Function]) -> String {
         let slots: Vec<String> = (0..function.arguments.len()).map(|place| format!("a[{place}].get()")).collect();
         let (name, slots) = (function.name, slots.join(", "));
         let [flat, one_direction] = ["flat", "one direction"].map(|word| function.has(word));
-        let _ = writeln!(
+        let call = wrapped(&format!("function: |a| unsafe {{ {name}({slots}) }},"));
+        let _ = write!(
             text,
-            "    Call {{\n        name: \"{name}\",\n        flat: {flat},\n        one_direction: {one_direction},"
+            "    Call {{\n        name: \"{name}\",\n        flat: {flat},\n        one_direction: {one_direction},\n        \
+             {call}        arguments: &[\n"
         );
-        text += &wrapped(&format!("        function: |a| unsafe {{ {name}({slots}) }},"));
-        text.push_str("        arguments: &[\n");
         for argument in &function.arguments {
-            let (name, status) =
-                (argument.name(), if argument.status.is_empty() { "MSLIP_OK" } else { argument.status });
-            let (kind, extents) = (kind_in(function, argument), &argument.extents);
+            let (name, kind) = (argument.name(), kind_in(function, argument));
+            let Argument { status, extents, .. } = argument;
             let _ = writeln!(
                 text,
                 "            Argument {{ name: \"{name}\", kind: {kind}, extents: \"{extents}\", status: {status} }},"
@@ -103,8 +103,8 @@ pub fn c(functions: &[Function]) -> String {
         for (argument, field) in function.arguments.iter().zip(self::fields(function)) {
             let kind = kind_in(function, argument);
             let quantity = if matches!(kind, "Value" | "Input") { argument.name() } else { "none" }.to_uppercase();
-            let status = if argument.status.is_empty() { "MSLIP_OK" } else { argument.status };
-            let (name, kind, extents) = (argument.name(), screaming(kind), &argument.extents);
+            let (name, kind) = (argument.name(), screaming(kind));
+            let Argument { status, extents, .. } = argument;
             let _ = write!(rows, ",\n    ARGUMENT({name}, ARG_{kind}, {field}, {quantity}, \"{extents}\", {status})");
         }
         rows += ")\n";
@@ -133,19 +133,10 @@ fn screaming(kind: &str) -> String {
     kind.chars().enumerate().flat_map(capital).collect()
 }
 
-/// A macro, continued if it is too long.
+/// A macro, continued after a comma if it is too long.
 pub fn wrapped(line: &str) -> String {
-    let (mut text, mut length) = (String::new(), 0);
-    for part in line.split_inclusive(", ") {
-        if length + part.len() > 125 {
-            text.truncate(text.trim_end().len());
-            text.push_str("\n     ");
-            length = 5;
-        }
-        text.push_str(part);
-        length += part.len();
-    }
-    text + "\n"
+    let line = line.replace(' ', &UNBROKEN.to_string()).replace(&format!(",{UNBROKEN}"), ", ");
+    broken(&line, 125).join("\n     ").replace(UNBROKEN, " ") + "\n"
 }
 
 /// Macros of the functions with outputs: `c_tests/outputs.h`.
@@ -275,17 +266,12 @@ mod tests {
                 let name = name.split(|c: char| !c.is_alphanumeric() && c != '_').next().unwrap_or_default();
                 documented = format!("{before}{}", returns(name).unwrap_or_default());
             }
-            for argument in function.arguments.iter().filter(|argument| !argument.status.is_empty()) {
-                let is_read = !argument.is_output() && !kind_in(function, argument).starts_with("New");
-                let is_checked = is_read && !kind_in(function, argument).starts_with("Found");
-                let is_named = documented.contains(argument.status);
-                assert!(
-                    !is_checked || is_named || kind_in(function, argument) == "Buffer",
-                    "{}: {}",
-                    function.name,
-                    argument.status
-                );
-                assert!(KINDS.contains(&kind_in(function, argument)));
+            for argument in function.arguments.iter().filter(|argument| argument.status != "MSLIP_OK") {
+                let (kind, status) = (kind_in(function, argument), argument.status);
+                let is_filled = kind == "Buffer" || ["New", "Found"].iter().any(|start| kind.starts_with(start));
+                let is_named = documented.contains(status);
+                assert!(is_filled || argument.is_output() || is_named, "{}: {status}", function.name);
+                assert!(KINDS.contains(&kind));
             }
         }
     }
