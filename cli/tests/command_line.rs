@@ -43,14 +43,12 @@ fn flat_parameters() -> Parameters {
 }
 
 fn elliptic_parameters() -> EllipticParameters {
-    let material = [(200e3, 0.3); 2].map(material);
-    let (semi_axis_x, semi_axis_y, normal_force, friction_coefficient) = (0.2, 0.6, 400.0, 0.5);
     EllipticParameters {
-        semi_axis_x,
-        semi_axis_y,
-        normal_force,
-        friction_coefficient,
-        material,
+        semi_axis_x: 0.2,
+        semi_axis_y: 0.6,
+        normal_force: 400.0,
+        friction_coefficient: 0.5,
+        material: [(200e3, 0.3); 2].map(material),
         ..EllipticParameters::default()
     }
 }
@@ -223,15 +221,8 @@ fn results_equal_those_of_the_library() {
         let x = [-contact.half_width, 0.0, 5e-5, contact.half_width];
         let row = |(force, x)| {
             let point = contact.curve_at_force(force).unwrap();
-            let row = [
-                Some(force),
-                Some(x),
-                Some(contact.pressure(x)),
-                Some(point.shear(x)),
-                point.slip(x).ok(),
-                point.damage(x).ok(),
-            ];
-            row.into_iter().flatten().collect()
+            let row = [force, x, contact.pressure(x), point.shear(x)].into_iter();
+            row.chain(point.slip(x).ok()).chain(point.damage(x).ok()).collect()
         };
         let rows: Vec<Vec<f64>> = forces.into_iter().flat_map(|force| x.map(|x| row((force, x)))).collect();
         let options = format!("--force -10,55.5 --position {:e},0,5e-5,{:e}", x[0], x[3]);
@@ -488,11 +479,9 @@ fn a_fit_recovers_the_contact_of_its_loops() {
     shell.stdout(
         "microslip fit flat.toml --measured l0.7.csv,l1.5.csv --fix shape --fix contact_compliance --fitted layer.toml",
     );
-    let line = shell
-        .read("layer.toml")
-        .lines()
-        .find_map(|line| Some(line.strip_prefix("tangential_compliance = ")?.to_owned()));
-    assert!((line.unwrap().parse::<f64>().unwrap() / 4e-9 - 1.0).abs() < 1e-4);
+    let layer = shell.read("layer.toml");
+    let compliance = layer.lines().find_map(|line| line.strip_prefix("tangential_compliance = "));
+    assert!((compliance.unwrap().parse::<f64>().unwrap() / 4e-9 - 1.0).abs() < 1e-4);
     let json: serde_json::Value = serde_json::from_str(&shell.read("new.json")).unwrap();
     assert_eq!(json["friction_coefficient"]["value"].as_f64(), Some(quantity(&table, "friction_coefficient").0));
 
@@ -563,12 +552,10 @@ fn layers_follow_from_measured_stiffnesses_and_from_the_roughness() {
         20.0 / cells(&table).1[0][0].parse::<f64>().unwrap()
     };
     let under = |load: f64| format!("rough.toml --normal-force {load}");
+    let rough = 1.0 / (1.0 / initial("flat.toml") + values[1]);
     // The comments of the table are lines of a parameter file, whose layer holds at another normal force.
     for (given, expected) in [
-        (
-            "--rms-height 1e-6",
-            (1.0 / (1.0 / initial("flat.toml") + values[1]), &initial as &dyn Fn(&str) -> f64, 150.0),
-        ),
+        ("--rms-height 1e-6", (rough, &initial as &dyn Fn(&str) -> f64, 150.0)),
         ("--measured-stiffness 3e7", (3e7, &initial, 150.0)),
         ("--measured-stiffness 3e7 --at 50", (3e7, &initial, 50.0)),
         ("--measured-stiffness 3e7 --at 100 --secant-force 20 --stiffening-load 7", (3e7, &secant, 100.0)),
@@ -834,15 +821,9 @@ fn every_command_draws() {
         check_picture(&shell.0.join(name));
     };
     for given in ["flat.toml", "$ELLIPSE", "flat.toml --normal-force 0"] {
-        for command in [
-            "contact",
-            "tractions --force 0",
-            "curve",
-            "loop",
-            "stiffness --from 1e-9 --to 1e-3",
-            "iwan",
-            "jenkins --amplitude 1",
-        ] {
+        let commands =
+            "contact|tractions --force 0|curve|loop|stiffness --from 1e-9 --to 1e-3|iwan|jenkins --amplitude 1";
+        for command in commands.split('|') {
             draw(&format!("{command} {given}"), "picture.svg");
         }
         draw(&format!("stiffness --amplitude 0,1e-7,1e-6 {given}"), "picture.SVG");
@@ -958,14 +939,9 @@ fn help_has_units_columns_and_an_example_for_each_command() {
     {
         assert!(general.contains(&format!("\n  {command} ")), "{command}");
         let help = shell.stdout(&format!("microslip {command} --help"));
-        for text in [
-            "--edge-radius <m>",
-            "--young-modulus <Pa>",
-            "--normal-force <N>",
-            "--plot <FILE",
-            "[default: si]",
-            "Units:",
-        ] {
+        for text in
+            "--edge-radius <m>|--young-modulus <Pa>|--normal-force <N>|--plot <FILE|[default: si]|Units:".split('|')
+        {
             assert!(help.contains(text), "{command}: {text}");
         }
         // The examples work, and their tables have the columns.

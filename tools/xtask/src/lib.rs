@@ -7,7 +7,7 @@ mod tables;
 mod wrappers;
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use cbindgen::{Bindings, Builder, Config};
 
@@ -25,11 +25,6 @@ const INCLUDE_GUARD: &str = "MICROSLIP_H";
 /// The directory of the library's package.
 fn root() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../.."))
-}
-
-/// Path of the header in the repository.
-pub fn header_path() -> PathBuf {
-    root().join(HEADER)
 }
 
 /// The text that the header should have.
