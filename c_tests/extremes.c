@@ -69,22 +69,12 @@ typedef struct {
 static function functions[128];
 static int FUNCTIONS;
 
-static size_t extent_of(const char *extents, size_t components)
-{
-    size_t extent = 1;
-    for (; *extents != '\0'; ++extents) {
-        const size_t factor = *extents == 'k' ? COEFFICIENTS : 1;
-        extent *= *extents == 'n' ? ITEMS : *extents == 'p' ? MSLIP_PARAMETER_COUNT : components * factor;
-    }
-    return extent;
-}
-
 static void add_function(function f, int rule)
 {
     const size_t components = f.takes & IS_ELEMENT ? (size_t)directions_of(rule) + 1 : 1;
     f.rule = rule;
     for (const argument *a = f.argument; a->name != NULL; ++a) {
-        const size_t extent = extent_of(a->extents, components);
+        const size_t extent = extent_of(a->extents, ITEMS, components, COEFFICIENTS);
         if (a->kind == ARG_VALUE) {
             f.scalar = a->quantity;
         } else if (a->kind == ARG_INPUT) {

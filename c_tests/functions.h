@@ -48,6 +48,17 @@ typedef struct {
 enum { MOST_ARGUMENTS = 13 };
 #define ARGUMENT(id, kind, field, quantity, extents, status) { #id, kind, offsetof(arguments, field), quantity, extents, status }
 
+/* Doubles of an argument. */
+static inline size_t extent_of(const char *extents, size_t items, size_t components, size_t coefficients)
+{
+    size_t extent = 1;
+    for (; *extents != '\0'; ++extents) {
+        extent *= *extents == 'n' ? items : *extents == 'p' ? (size_t)MSLIP_PARAMETER_COUNT
+                                                            : components * (*extents == 'k' ? coefficients : 1);
+    }
+    return extent;
+}
+
 #endif
 
 #ifdef CALL

@@ -152,22 +152,12 @@ static double *workspace(int of_element, int32_t rule)
     return memory;
 }
 
-static size_t extent_of(const char *extents, size_t components)
-{
-    size_t extent = 1;
-    for (; *extents != '\0'; ++extents) {
-        extent *= *extents == 'n' ? (size_t)ITEMS : *extents == 'p' ? (size_t)MSLIP_PARAMETER_COUNT
-                                          : components * (*extents == 'k' ? COEFFICIENTS : 1);
-    }
-    return extent;
-}
-
 /* Memory for an argument, if it is a pointer. */
 static void *memory_of(struct sequence *s, const function *f, const argument *a, const arguments *call)
 {
     const size_t items = takes(f, ARG_INDEX) ? ITEMS : 1;
     const int of_element = strstr(f->name, "element") != NULL;
-    const size_t extent = extent_of(a->extents, takes(f, ARG_ELEMENT) ? 2 : 1);
+    const size_t extent = extent_of(a->extents, ITEMS, takes(f, ARG_ELEMENT) ? 2 : 1, COEFFICIENTS);
     double *x;
     switch (a->kind) {
         case ARG_NEW_CONTACT: return array(s, sizeof(mslip_contact) / sizeof(double));

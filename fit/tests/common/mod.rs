@@ -108,9 +108,7 @@ pub struct Random(u64);
 impl Random {
     pub fn new(seed: u64) -> Random {
         let mut random = Random(seed);
-        (0..8).for_each(|_| {
-            random.uniform();
-        });
+        (0..8).for_each(|_| _ = random.uniform());
         random
     }
 

@@ -175,21 +175,20 @@ impl Case {
         self.at_force(force).stick_half_width() / self.contact.half_width
     }
 
-    /// b p/P at x/b; 0 at the edge, though the rounded b may differ.
+    /// A traction at x/b over P/b; 0 at the edge, though the rounded b may differ.
+    fn traction(&self, x: f64, at: impl FnOnce(f64) -> f64) -> f64 {
+        let b = self.contact.half_width;
+        if x.abs() >= 1.0 { 0.0 } else { at(x * b) * b / self.line_load() }
+    }
+
+    /// b p/P at x/b.
     pub fn pressure(&self, x: f64) -> f64 {
-        if x.abs() >= 1.0 {
-            return 0.0;
-        }
-        self.contact.pressure(x * self.contact.half_width) * self.contact.half_width / self.line_load()
+        self.traction(x, |x| self.contact.pressure(x))
     }
 
     /// b q/(μP) at x/b and Q/μP.
     pub fn shear(&self, x: f64, force: f64) -> f64 {
-        if x.abs() >= 1.0 {
-            return 0.0;
-        }
-        self.at_force(force).shear(x * self.contact.half_width) * self.contact.half_width
-            / (self.friction * self.line_load())
+        self.traction(x, |x| self.at_force(force).shear(x)) / self.friction
     }
 
     /// Slip at x/b and Q/μP, in the unit of the displacement.
@@ -210,13 +209,12 @@ impl Case {
 
     /// b q/(μP) at x/b of a state.
     pub fn shear_of_state(&self, state: &[f64], x: f64) -> f64 {
-        if x.abs() >= 1.0 {
-            return 0.0;
-        }
         let mut shear = [0.0];
-        let place = [x * self.contact.half_width];
-        masing::shear_tractions(&self.contact, state, &place, &mut shear).expect("a traction");
-        shear[0] * self.contact.half_width / (self.friction * self.line_load())
+        let mut at = |x| {
+            masing::shear_tractions(&self.contact, state, &[x], &mut shear).expect("a traction");
+            shear[0]
+        };
+        self.traction(x, &mut at) / self.friction
     }
 
     /// The contact in multi-precision.

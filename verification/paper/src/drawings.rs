@@ -61,7 +61,8 @@ pub fn all() -> Vec<Table> {
     tables.extend(loops_of_amplitudes());
     tables.extend([loops_of_shapes(), loops_of_lengths(), stiffness_under_load(), first_loading()]);
     tables.extend(complex_stiffness());
-    tables.extend([energy(), energy_logarithmic(), oscillating_tractions()]);
+    tables.extend([energies("fig15a", even(0.0, 1.0, 120)), energies("fig15b", geometric(0.01, 1.0, 60))]);
+    tables.push(oscillating_tractions());
     tables.extend(swing::tables());
     tables
 }
@@ -160,14 +161,6 @@ fn complex_stiffness() -> [Table; 4] {
         part("fig14a", &mut lengths(), true),
         part("fig14b", &mut lengths(), false),
     ]
-}
-
-fn energy() -> Table {
-    energies("fig15a", even(0.0, 1.0, 120))
-}
-
-fn energy_logarithmic() -> Table {
-    energies("fig15b", geometric(0.01, 1.0, 60))
 }
 
 fn energies(name: &'static str, forces: Vec<f64>) -> Table {
