@@ -107,7 +107,10 @@ fn bindings() -> Bindings {
         if outsiders.is_empty() {
             return bindings;
         }
-        config.export.exclude.extend(outsiders);
+        // cbindgen excludes a constant TYPE_NAME of a type by NAMETYPE.
+        let of_types =
+            outsiders.iter().filter_map(|name| name.split_once('_')).map(|(kind, name)| name.to_owned() + kind);
+        config.export.exclude.extend(of_types.chain(outsiders.iter().cloned()));
     }
 }
 
