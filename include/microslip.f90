@@ -210,8 +210,7 @@ module microslip
     type(mslip_layer) :: layer  !! A layer in series with the contact; all zero: none.
     integer(mslip_int) :: displacement_reference = -1
       !! `MSLIP_RIGID_STRIP`, corrected to 3-D, for the contact of a machine, or `MSLIP_CENTRE_POINT`, as in the paper.
-    integer(mslip_int) :: springs = 0
-      !! Springs of an element with two directions: 8, 12 or 16, more accurate and slower; 0: the default.
+    integer(mslip_int) :: reserved = 0  !! Not read.
   end type mslip_parameters
 
   type, bind(c), public :: mslip_elliptic_parameters
@@ -836,7 +835,7 @@ contains
   ! Defaults, and sizes of workspaces
 
   subroutine mslip_parameters_default(parameters)
-    !! Every value unset (NaN, the displacement reference -1), so that a forgotten one is rejected by name; default springs.
+    !! Every value unset (NaN, the displacement reference -1), so that a forgotten one is rejected by name.
     type(mslip_parameters), intent(out) :: parameters  !! The parameters to reset.
 
     call c_parameters_default(parameters)
