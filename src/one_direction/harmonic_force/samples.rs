@@ -2,7 +2,7 @@
 
 use super::MotionKind;
 use crate::element::{Element, Normal};
-use crate::fourier::{at, largest_of};
+use crate::fourier::at;
 use crate::simd::dispatch;
 
 /// Arrays over the samples of a period, continued periodically to whole blocks of four.
@@ -103,6 +103,7 @@ impl Samples<'_> {
     pub fn enter_steady_state(&mut self, element: &Element, motion: MotionKind) -> Part {
         dispatch!({
             let mu = element.friction_coefficient;
+            let (mut largest, mut smallest) = ([f64::MIN; 4], [f64::MAX; 4]);
             let blocks = self
                 .displacement
                 .as_chunks::<4>()
@@ -116,10 +117,13 @@ impl Samples<'_> {
                 for k in 0..4 {
                     let limit = mu * shift[k];
                     (x[k], y[k]) = (displacement[k] - limit, displacement[k] + limit);
+                    largest[k] = if x[k] > largest[k] { x[k] } else { largest[k] };
+                    smallest[k] = if y[k] < smallest[k] { y[k] } else { smallest[k] };
                 }
                 (*xi, *eta) = (x, y);
             }
-            let (largest, smallest) = (largest_of(self.xi, |xi| xi), -largest_of(self.eta, |eta| -eta));
+            let largest = largest.into_iter().fold(f64::MIN, f64::max);
+            let smallest = smallest.into_iter().fold(f64::MAX, f64::min);
             let first = |values: &[f64], value: f64| values.iter().position(|v| *v == value).unwrap_or(0);
             let opens = !element.is_closed(motion.least_input);
             let start = if opens {
