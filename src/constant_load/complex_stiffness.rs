@@ -47,9 +47,9 @@ pub struct ComplexStiffness {
 
 /// Gauss's rule within 1e-3 below gross slip, where 40 nodes have an error of 1e-15 of F and 1e-12 of dF/dξ, and beyond it up to
 /// `e = -0.05`, from where the contact has weights: 1e-15 and 1e-13. The last rule is that for all amplitudes of a curve without an
-/// interpolant, too: it has a knee, or is nearly singular.
+/// interpolant, too, which has a knee or is nearly singular: 5e-15 and 6e-13.
 static RULE_BELOW: [[[f64; 4]; 2]; 12] = gauss_legendre();
-static RULE_BEYOND: [[[f64; 4]; 2]; 24] = gauss_legendre();
+static RULE_BEYOND: [[[f64; 4]; 2]; 23] = gauss_legendre();
 const IN_SLIP: f64 = -0.05;
 
 /// Smallest scale of the rule: the cube root of the rounding of ξ.
