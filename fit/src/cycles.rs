@@ -71,7 +71,7 @@ pub(crate) fn loops(original: &Record) -> Result<Vec<Loop>, Error> {
     let mut reversals = reversals(&smoothed(&record.displacement), least(record));
     let rotated;
     if reversals.len() < 3 {
-        let end = reversals.first().map_or(count, |first| repeats(&record.displacement, *first, record.noise[0]));
+        let end = reversals.first().map_or(count, |first| first_cycle(&record.displacement, *first, record.noise[0]));
         let is_closed = |values: &[f64]| (values[end - 1] - values[0]).abs() <= CLOSED * range(values);
         if reversals.is_empty() || !is_closed(&record.displacement) || !is_closed(&record.force) {
             return fail("less than one cycle: record from one reversal to the next but one, or a closed loop");
@@ -133,12 +133,13 @@ fn reversals(displacement: &[f64], least: f64) -> Vec<usize> {
     found
 }
 
-/// The sample from which on a record, whose first reversal is given, repeats itself; the number of samples if there is none.
-fn repeats(displacement: &[f64], first: usize, noise: f64) -> usize {
+/// The number of samples before the second cycle of a record whose first reversal is given; that of all if the record has less.
+fn first_cycle(displacement: &[f64], first: usize, noise: f64) -> usize {
     let (values, count) = (smoothed(displacement), displacement.len());
     let above = |i: &usize| (values[*i] - values[0]) * (values[0] - values[first]).signum();
     let top = |from: usize, to: usize| (from..to).max_by(|i, j| above(i).total_cmp(&above(j))).unwrap_or(first);
-    // The record may start just before a reversal.
+    // Whether the record starts before a reversal that is too close to its start to be found: farther from there than by noise, in six
+    // standard deviations.
     let before = above(&top(0, first)) > 6.0 * noise;
     let from = if before { first } else { top(first, count) + 1 };
     (from..count).find(|i| if before { above(i) >= 0.0 } else { above(i) <= 0.0 }).unwrap_or(count)

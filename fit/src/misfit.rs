@@ -70,7 +70,8 @@ fn between_branches(one: &Loop, residuals: &[f64], forces: &[[f64; 2]]) -> f64 {
             0 => 1.0,
             1 => law(k),
             // A difference of both directions; from cycle to cycle none.
-            _ => f64::from(sign < 0.0) * law(k).abs(),
+            _ if sign < 0.0 => law(k).abs(),
+            _ => 0.0,
         });
         let differences = DVector::from_iterator(second.len(), second.clone().map(difference));
         if let Ok(changes) = columns.clone().svd(true, true).solve(&differences, 1e-12) {

@@ -85,14 +85,15 @@ impl Law for TwoDirections {
         let mut held = memory.springs.as_flattened().iter().chain(memory.turned.as_flattened());
         let held = held.all(|value| value.abs() <= LONGEST);
         let edge = contact.edge.as_flattened().iter().chain(&contact.per_pressure).all(|value| *value >= 0.0);
-        let finite = contact.slopes.values().iter().all(|slope| slope.abs() <= 1.0 / LEAST);
+        // Products of derivatives do not overflow.
+        let small = contact.slopes.values().iter().all(|slope| slope.abs() <= 1.0 / LEAST);
         let start = starts(contact.under_flat);
         let within = (0..2).all(|k| {
             let rounding = 1e-9 * contact.now.shift[k];
             let limit = |j: usize| contact.limit(&&*memory.tables, k, start[j]) + rounding;
             (0..=contact.last.min(N - 1)).all(|j| memory.springs[k][j].abs() <= limit(j))
         });
-        if within && held && edge && finite && positive.iter().all(|value| *value > 0.0) {
+        if within && held && edge && small && positive.iter().all(|value| *value > 0.0) {
             Ok(())
         } else {
             Err(Error::BadState)

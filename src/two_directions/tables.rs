@@ -42,7 +42,7 @@ const UNDER_FLAT: usize = 2;
 const GRADING: f64 = 0.035;
 /// Position of x_i in its shell: in the inner half, for which G decreases with j. Values from 0.02 to 0.2 are as good.
 const POINT: f64 = 0.1;
-/// Parts of the shells from the innermost one under pressure: fewer than springs.
+/// Parts of the shells from the innermost one under pressure, each less than N, with which rows have room for those of a last shell.
 const PARTS: [usize; N - 1] = [9, 9, 8, 7, 6, 5, 3, 3, 2, 2, 1];
 /// Where the parts of the last shell begin, over its width: some are beyond the reference size, for loads up to the next alignment.
 pub(crate) const BEYOND: [f64; 4] = [0.0, 0.5, 1.0, 3.0];
