@@ -17,6 +17,15 @@ module microslip
   !! is not computed. Sections with strides are allowed. But of an associate name, `associate (row => table(1, :))`,
   !! gfortran 12 may lose the stride: pass `table(1, :)` itself.
   !!
+  !! **Wrappers.** A procedure of your own may pass its optional dummy arguments on to the module. Declare such arrays
+  !! `contiguous` or with explicit shape: gfortran 12, mostly at `-O0`, crashes if any other array is absent. Pass a dummy
+  !! argument that is `allocatable` or a `pointer` only if it is `present`: gfortran and flang crash if it is absent. An
+  !! unallocated array as actual argument is absent; so is a disassociated `pointer, contiguous`, but of any other
+  !! disassociated pointer to an array gfortran reads the shape.
+  !!
+  !! **Components.** In a type of your own give a component its default, `type(mslip_parameters) :: p = mslip_parameters()`: in a
+  !! constructor flang and the standard require a value of a component that has none.
+  !!
   !! **Ownership.** All memory is the caller's, and nothing is kept between calls. Contacts, elements, states, workspaces
   !! and tables are plain data: they may be copied, written to restart files and sent through MPI. Components of a contact or
   !! an element are results; do not set them. Memory that comes from outside the process is validated in full by the
@@ -206,8 +215,8 @@ module microslip
       !! must be positive.
     real(mslip_real) :: normal_force = unset  !! Normal force N >= 0 [N]; 0 is an open contact: no force, no stiffness.
     real(mslip_real) :: friction_coefficient = unset  !! Friction coefficient mu >= 0.
-    type(mslip_material) :: material(2)  !! The two bodies.
-    type(mslip_layer) :: layer  !! A layer in series with the contact; all zero: none.
+    type(mslip_material) :: material(2) = mslip_material()  !! The two bodies.
+    type(mslip_layer) :: layer = mslip_layer()  !! A layer in series with the contact; all zero: none.
     integer(mslip_int) :: displacement_reference = -1
       !! `MSLIP_RIGID_STRIP`, corrected to 3-D, for the contact of a machine, or `MSLIP_CENTRE_POINT`, as in the paper.
     integer(mslip_int) :: reserved = 0  !! Not read.
@@ -220,8 +229,8 @@ module microslip
     real(mslip_real) :: semi_axis_y = unset  !! Semi-axis across the tangential force [m], > 0.
     real(mslip_real) :: normal_force = unset  !! Normal force N >= 0 [N]; 0 is an open contact.
     real(mslip_real) :: friction_coefficient = unset  !! Friction coefficient mu >= 0.
-    type(mslip_material) :: material(2)  !! The two bodies.
-    type(mslip_layer) :: layer  !! A layer in series with the contact; all zero: none.
+    type(mslip_material) :: material(2) = mslip_material()  !! The two bodies.
+    type(mslip_layer) :: layer = mslip_layer()  !! A layer in series with the contact; all zero: none.
   end type mslip_elliptic_parameters
 
   ! The reserved components are public, because `write` rejects types with private ones.

@@ -13,6 +13,19 @@ uninstall() {
     cp -R "$prefix" "$work/leave" && make uninstall PREFIX="$work/leave" && [ -z "$(find "$work/leave" -type f)" ]
 }
 
+# The guide names the versions of the compilers that the tests use, on the system that it names.
+compilers_named() {
+    grep -q '^VERSION_ID="12"' /etc/os-release || return 0
+    sentence=$(sed -n '/^Tested on Debian 12/,/^$/p' docs/guide.md | tr '\n' ' ')
+    for compiler in "gfortran $(gfortran -dumpfullversion)" "clang $(clang -dumpversion)" "flang $($FC -dumpversion)"; do
+        case $sentence in *"${compiler%.*}"*) ;; *) echo "docs/guide.md does not name ${compiler%.*}" && return 1 ;; esac
+    done
+}
+
+client() {
+    build "$FC -J $work $prefix/include/microslip.f90" packaging/clients/client.f90 "$work/client" && "$work/client"
+}
+
 rust() {
     step 'formatting' "$CARGO" fmt --all --check
     # Nothing is linked, so libFuzzer need not be compiled.
@@ -37,6 +50,13 @@ installed() {
     step 'instruction counts' target/debug/instructions
     step 'benchmark, quick' make bench QUICK=1 TRUTH="$PWD/target/debug/truth"
     step 'uninstall leaves no file' uninstall
+    # All tests in Fortran, with another compiler.
+    FC=flang-new-19
+    step 'guide: the compilers' compilers_named
+    step 'flang: tests of the module' env MICROSLIP_PREFIX="$prefix" "$CARGO" test $workspace --test c_drivers fortran
+    step 'flang: examples' make -C fortran_examples short PREFIX="$prefix"
+    step 'flang: a client' client
+    programs_of_documents f90
 }
 
 packages() {

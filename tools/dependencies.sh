@@ -19,6 +19,7 @@ g++             test check fuzz                                       : command 
 shellcheck      check                                                 : command shellcheck
 valgrind        check instructions                                    : command valgrind
 clang           check                                                 : command clang
+flang-19        check                                                 : command flang-new-19
 llvm            check                                                 : command llvm-symbolizer
 libclang-rt-dev check                                                 : clang -fsanitize=address,undefined
 lld             check                                                 : command ld.lld

@@ -82,5 +82,26 @@ build() {
     $compiler "$source" -o "$program" $(flags) "$@"
 }
 
+# A program of a document prints its result in the document.
+snippet() {
+    case $1 in
+        *.c) build "$CC -std=c99 -Wall -Wextra -Wpedantic -Werror -O1" "$1" "$work/snippet" ;;
+        *.f90) build "$FC -J $work $prefix/include/microslip.f90" "$1" "$work/snippet" ;;
+    esac && "$work/snippet" > "$work/snippet.txt" && diff "${1%.*}.txt" "$work/snippet.txt"
+}
+
+# programs_of_documents LANGUAGE...
+programs_of_documents() {
+    for document in README.md docs/*.md; do
+        name=$(basename "$document" .md)
+        tools/snippets.sh "$document" "$work/snippets/$name"
+        for language in "$@"; do
+            for file in "$work/snippets/$name"/*."$language"; do
+                [ ! -e "$file" ] || step "$name: $(basename "$file")" snippet "$file"
+            done
+        done
+    done
+}
+
 prefix=$work/moved
 export PKG_CONFIG_PATH="$prefix/lib/pkgconfig"

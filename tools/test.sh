@@ -5,16 +5,6 @@ set -eu
 cd "$(dirname "$0")/.."
 . tools/steps.sh
 
-strict='-Wall -Wextra -Wpedantic -Werror -O1'
-
-# A program of a document prints its result in the document.
-snippet() {
-    case $1 in
-        *.c) build "$CC -std=c99 $strict" "$1" "$work/snippet" ;;
-        *.f90) build "$FC -J $work $prefix/include/microslip.f90" "$1" "$work/snippet" ;;
-    esac && "$work/snippet" > "$work/snippet.txt" && diff "${1%.*}.txt" "$work/snippet.txt"
-}
-
 installed() {
     step 'library: build, install, move' install_and_move
 }
@@ -37,13 +27,8 @@ programs() {
     step 'Fortran examples, short' make -C fortran_examples short PREFIX="$prefix"
     step 'Python: interface and reference tables' tools/python.sh
     step 'documents: links' tools/links.sh
-    for document in README.md docs/*.md; do
-        name=$(basename "$document" .md)
-        tools/snippets.sh "$document" "$work/snippets/$name"
-        for file in "$work/snippets/$name"/*.c "$work/snippets/$name"/*.f90; do
-            [ ! -e "$file" ] || step "$name: $(basename "$file")" snippet "$file"
-        done
-    done
+    FC="$FC -std=f2008"
+    programs_of_documents c f90
 }
 
 tools/dependencies.sh --install test

@@ -21,11 +21,11 @@ subroutine contact_init(harmonics)
   p%material = mslip_material(114e9_mslip_real, 0.32_mslip_real)                                            ! Pa, -
   p%displacement_reference = MSLIP_RIGID_STRIP                          ! the contact of a machine, in three dimensions
   call mslip_contact_init(p, contact, status)
-  if (status /= MSLIP_OK) error stop mslip_status_text(status)
+  if (status /= MSLIP_OK) then; print '(a)', mslip_status_text(status); error stop; end if
   coefficients = 2*harmonics + 1
   allocate (workspace(mslip_harmonic_workspace_length(int(harmonics, mslip_size), samples)))
   call mslip_harmonic_workspace_init(int(harmonics, mslip_size), samples, workspace, status)
-  if (status /= MSLIP_OK) error stop mslip_status_text(status)
+  if (status /= MSLIP_OK) then; print '(a)', mslip_status_text(status); error stop; end if
   print '(a, es13.6, a, f6.2, a)', 'initial stiffness', contact%initial_stiffness, ' N/m, slip force', contact%slip_force, ' N'
 end subroutine contact_init
 
@@ -37,5 +37,5 @@ subroutine contact_force(u, force, jacobian)
   integer(mslip_int) :: status
 
   call mslip_harmonic_force(contact, workspace, u, status, force, jacobian)
-  if (status /= MSLIP_OK) error stop mslip_status_text(status)
+  if (status /= MSLIP_OK) then; print '(a)', mslip_status_text(status); error stop; end if
 end subroutine contact_force

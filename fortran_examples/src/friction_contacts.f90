@@ -39,7 +39,7 @@ module friction_contacts
     character(len=name_length) :: second_direction = with_friction   !! of three components: friction, a spring, or free
     integer :: count = 1                  !! number of identical contacts that share the displacement
     logical :: load_varied = .true.       !! the load factor multiplies the normal force
-    type(mslip_parameters) :: parameters
+    type(mslip_parameters) :: parameters = mslip_parameters()
   end type contact_input
 
   !> The elements with the same number of tangential directions: items of one call.

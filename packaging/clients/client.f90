@@ -13,9 +13,9 @@ program client
   p%material = mslip_material(2e11_mslip_real, 0.3_mslip_real)
   p%displacement_reference = MSLIP_RIGID_STRIP
   call mslip_contact_init(p, contact, status)
-  if (status /= MSLIP_OK) error stop mslip_status_text(status)
+  if (status /= MSLIP_OK) then; print '(a)', mslip_status_text(status); error stop; end if
   call mslip_monotonic_force(contact, [2*contact%slip_displacement], status, force)
-  if (status /= MSLIP_OK) error stop mslip_status_text(status)
+  if (status /= MSLIP_OK) then; print '(a)', mslip_status_text(status); error stop; end if
 
   ! In gross slip the force is mu N: 0.5 times 800 N, a product without rounding.
   if (any(force /= 400)) error stop 'the force of gross slip is not mu N'
