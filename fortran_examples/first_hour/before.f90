@@ -2,7 +2,8 @@
 module slider
   implicit none
   integer, parameter :: wp = kind(1.0d0), samples = 128
-  real(wp), parameter :: pi = acos(-1.0_wp), kt = 2.171986e8_wp, mu_n = 60   ! kt: as printed by after
+  real(wp), parameter :: pi = acos(-1.0_wp)
+  real(wp) :: kt = 2.171986e8_wp, mu_n = 60             ! kt: as printed by after
   real(wp), allocatable :: basis(:, :)
 end module slider
 
@@ -12,7 +13,6 @@ subroutine contact_init(harmonics)
   integer, intent(in) :: harmonics
   integer :: i, k
 
-  print '(a, es13.6, a, f6.2, a)', 'initial stiffness', kt, ' N/m, slip force', mu_n, ' N'
   allocate (basis(2*harmonics + 1, samples))
   do i = 1, samples
     basis(:, i) = [1.0_wp, (cos(2*pi*k*i/samples), sin(2*pi*k*i/samples), k = 1, harmonics)]
