@@ -1,70 +1,49 @@
-# Harmonic balance against Newmark's method: one period at the damper, and differences against the number of harmonics.
+# How many harmonics: one period at the damper, differences from Newmark's method, and the harmonics of the friction force beside the
+# modes of the blades with sticking contacts (vertical lines). Cases of &time_integration in cylinder.nml.
 load 'plots/style.gp'
 name = 'newmark'
-wide = 1060
-high = 820
-
-set style line 21 lc rgb '#b0b0b0' lw 6.0 dt 1       # time integration: broad, below the others
-set style line 22 lc rgb '#CC79A7' lw 1.8 dt (8,4)   # 1 harmonic
-set style line 23 lc rgb '#0072B2' lw 1.8 dt 1       # 5 harmonics
-set style line 24 lc rgb '#222222' lw 1.6 dt (2,3)   # 25 harmonics
-set style line 31 lc rgb '#009E73' lw 1.8 dt 1     pt 7 ps 0.9
-set style line 32 lc rgb '#D55E00' lw 1.8 dt (8,4) pt 5 ps 0.9
-set style line 33 lc rgb '#222222' lw 1.6 dt (2,3) pt 9 ps 1.0
-
-# The two groups &time_integration of cylinder.nml; above, the middle one of their three frequencies.
-differences = 'results/cylinder_comparison.csv'
-array normal_force[2] = [250, 7]
-array frequency[6] = [464.0, 464.6, 465.6, 420, 425, 430]
+wide = 1240
+high = 430
 
 same(a, b) = abs(a - b) < 1e-6 * abs(b)
+best(value) = (same(column('load_factor'), 7) ? value : NaN)
 # The balance of the case itself, with 128 samples, is not shown.
-wave(harmonics) = (column('harmonics') == harmonics && column('points') != 128 && same(column('frequency_hz'), f) \
-  ? micro(column('contact_displacement_m')) : NaN)
-names = 'Newmark "1 harmonic" "5 harmonics" "25 harmonics"'
-# All have the same phases.
-array newmark[257]
-sample(dummy) = int(128*column('phase_rad')/pi + 1.5)
-row(f) = (same(column('frequency_hz'), f) && column('samples') != 128 ? column('response_difference') : NaN)
+wave(harmonics) = (column('harmonics') == harmonics && column('points') != 128 ? best(micro(column('contact_displacement_m'))) : NaN)
+difference(force) = (same(column('load_factor'), force) && column('samples') != 128 ? column('response_difference') : NaN)
+# A mode in which the damper moves.
+mode(dummy) = (column('participation') > 0.12 && column('order') < 37 ? best(column('order')) : NaN)
 
 @set_terminal
-set multiplot layout 2, 2
-do for [c=1:2] {
-  f = frequency[3*(c-1) + 2]
-  unset logscale
-  set title sprintf('damper at %g N, %g Hz', normal_force[c], f)
-  set xlabel 'phase of the excitation (degrees)'
-  set format '%g'
-  set xrange [0:360]
-  set xtics 0, 90, 360
-  set yrange [*:*]
-  set offsets 0, 0, graph 0.35, graph 0.05
-  set key top left Left reverse samplen 2 maxrows 2 font ',13'
-  # The curves under 250 N would coincide: their differences are drawn.
-  if (c == 1) {
-    set ylabel 'displacement less that of Newmark (nm)'
-    stats 'results/cylinder_waveforms.csv' using (wave(0) == wave(0) ? newmark[sample(0)] = wave(0) : NaN) nooutput
-    plot for [i=2:4] 'results/cylinder_waveforms.csv' \
-      using (57.29578*column('phase_rad')):(1e3*(wave(word('0 1 5 25', i) + 0) - newmark[sample(0)])) \
-      with lines ls 20+i title word(names, i)
-  } else {
-    set ylabel 'displacement at the damper (µm)'
-    plot for [i=1:4] 'results/cylinder_waveforms.csv' \
-      using (57.29578*column('phase_rad')):(wave(word('0 1 5 25', i) + 0)) with lines ls 20+i title word(names, i)
-  }
-}
+set multiplot layout 1, 3
+set title 'damper at 7 N, 420 Hz'
+set xlabel 'phase of the excitation (degrees)'
+set ylabel 'displacement at the damper (µm)'
+set xrange [0:360]
+set xtics 90
+set offsets 0, 0, graph 0.35, graph 0.05
+set key top left Left reverse samplen 2 maxrows 2
+plot 'results/cylinder_waveforms.csv' using (57.29578*column('phase_rad')):(wave(0)) with lines lw 6 lc rgb '#b0b0b0' title 'Newmark', \
+     '' using (57.29578*column('phase_rad')):(wave(5)) with lines lw 1.8 lc rgb '#0072B2' title '5 harmonics', \
+     '' using (57.29578*column('phase_rad')):(wave(15)) with lines lw 1.8 dt (8,4) lc rgb '#D55E00' title '15', \
+     '' using (57.29578*column('phase_rad')):(wave(35)) with lines lw 1.6 dt (2,3) lc rgb '#222222' title '35'
 set offsets 0, 0, 0, 0
 set logscale y
 set format y '10^{%T}'
-set xlabel 'harmonics of the balance'
+set xrange [0:37]
+set xtics 5
+set xlabel 'harmonics H of the balance'
 set ylabel 'largest difference of the tip, relative'
-set xrange [0:26]
-set xtics (1, 3, 5, 9, 15, 25)
-do for [c=1:2] {
-  set title sprintf('damper at %g N', normal_force[c])
-  set yrange [3e-5:10]
-  set key top right Left reverse samplen 3 maxrows 3 font ',13'
-  plot for [i=1:3] differences using 'harmonics':(row(frequency[3*(c-1) + i])) \
-    with linespoints ls 30+i title sprintf('%g Hz', frequency[3*(c-1) + i])
-}
+set title 'balance against time integration'
+set yrange [1e-5:1]
+set key bottom left maxrows 3
+plot 'results/cylinder_modes.csv' using (mode(0)):(1) with impulses lw 5 lc rgb '#e0e0e0' notitle, \
+     'results/cylinder_comparison.csv' using 'harmonics':(difference(7)) with linespoints ls 1 title '7 N, 420 Hz', \
+     '' using 'harmonics':(difference(250)) with linespoints ls 3 title '250 N, 464.6 Hz'
+set title 'friction force, 7 N, 420 Hz'
+set xlabel 'harmonic, or natural frequency / 420 Hz'
+set ylabel 'amplitude over that of harmonic 1'
+unset key
+odd(dummy) = (int(column('harmonic')) % 2 == 1 ? best(column('contact_force')) : NaN)
+plot 'results/cylinder_modes.csv' using (mode(0)):(1) with impulses lw 5 lc rgb '#e0e0e0', \
+     'results/cylinder_spectrum.csv' using 'harmonic':(odd(0)) with linespoints ls 1
 unset multiplot

@@ -122,7 +122,10 @@ end module newmark
 !> DIRECTORY, for a case called NAME:
 !> * NAME_comparison.csv  the differences, for every load factor, frequency and number of harmonics;
 !> * NAME_waveforms.csv   one period of both: the response, and displacement and force of the first contact; those in the normal
-!>   and in the second tangential direction are NaN if it has no such component.
+!>   and in the second tangential direction are NaN if it has no such component;
+!> * NAME_modes.csv       natural frequencies with the contacts at their initial stiffness, over that of the excitation, and the
+!>   displacement of the first contact in each mode, relative to the largest: harmonics near such a mode are amplified;
+!> * NAME_spectrum.csv    amplitude of each harmonic of the force of the first contact by time integration, over the first.
 !>
 !> The exit code is 1 if the peak of the balance of the case itself (&harmonic_balance) differs by more than the
 !> allowed_difference of the group.
@@ -132,7 +135,7 @@ program time_integration
   use case_input, only: case_data, integration_input, prepare_problem, read_case
   use continuation, only: solve_within
   use dense_algebra, only: solve, symmetric_modes
-  use fourier_series, only: series_basis, series_peak
+  use fourier_series, only: harmonic_amplitude, series_basis, series_peak
   use friction_contacts, only: contact_history
   use harmonic_balance, only: balance_point, balance_problem, structure_response
   use newmark, only: motion, newmark_scheme, newmark_step, prepare_newmark
@@ -148,7 +151,7 @@ program time_integration
 
   character(len=:), allocatable :: prefix
   type(case_data) :: data
-  integer :: table, waveforms, i, k
+  integer :: table, waveforms, modes, spectrum, i, k
 
   call read_case(trim(argument(1, usage)), data)
   prefix = trim(argument(2, usage))//'/'//trim(data%name)
@@ -159,6 +162,8 @@ program time_integration
   waveforms = open_table(prefix//'_waveforms.csv', &
     'load_factor,excitation_factor,frequency_hz,source,harmonics,points,phase_rad,response_m,contact_displacement_m,'// &
     'contact_approach_m,contact_force_N,contact_normal_force_N,contact_displacement_y_m,contact_force_y_N')
+  modes = open_table(prefix//'_modes.csv', 'load_factor,frequency_hz,order,participation')
+  spectrum = open_table(prefix//'_spectrum.csv', 'load_factor,frequency_hz,harmonic,contact_force')
   do k = 1, size(data%integrations)
     do i = 1, size(data%integrations(k)%frequencies)
       call compare_at(data%integrations(k), data%integrations(k)%frequencies(i))
@@ -166,6 +171,8 @@ program time_integration
   end do
   close (table)
   close (waveforms)
+  close (modes)
+  close (spectrum)
 
 contains
 
@@ -285,6 +292,7 @@ contains
 
     integrated_peak = maxval(abs(integrated%response - sum(integrated%response) / size(integrated%response)))
     call write_waveform(input, frequency, 'time_integration', 0, input%steps_per_period, integrated)
+    call write_harmonics(input, frequency, problem, integrated%force(:, 1))
     do k = 1, size(balances)
       difference = [abs(peak(k) / integrated_peak - 1.0_wp), &
                     relative_difference(balances(k)%response, integrated%response), &
@@ -371,6 +379,38 @@ contains
         csv([2.0_wp * pi * j / input%steps_per_period, waves%response(k), contact])
     end do
   end subroutine write_waveform
+
+  !> What decides how many harmonics a balance needs: the modes with sticking contacts, and the harmonics of the contact force.
+  subroutine write_harmonics(input, frequency, problem, force)
+    type(integration_input), intent(in) :: input
+    real(wp), intent(in) :: frequency, force(:)
+    type(balance_problem), intent(in) :: problem
+    integer, parameter :: most = 61
+    real(wp) :: stiffness(size(problem%excitation), size(problem%excitation)), amplitude(0:most)
+    real(wp), dimension(size(problem%excitation)) :: omega, shown
+    real(wp) :: shapes(size(omega), size(omega)), k
+    integer :: i, j
+
+    stiffness = problem%model%stiffness
+    do i = 1, size(data%contacts)
+      k = data%contacts(i)%count * problem%contacts%prepared(i)%initial_stiffness
+      associate (direction => problem%incidence(:, problem%contacts%first(i)))
+        do j = 1, size(omega)
+          stiffness(:, j) = stiffness(:, j) + k * direction(j) * direction
+        end do
+      end associate
+    end do
+    call symmetric_modes(stiffness, problem%model%mass, omega, shapes)
+    shown = abs(matmul(problem%incidence(:, problem%contacts%first(shown_contact)), shapes))
+    do i = 1, size(omega)
+      write (modes, '(a)') text(input%load_factor, '(es24.16e3)')//csv([frequency, omega(i) / (2.0_wp * pi * frequency), &
+                                                                        shown(i) / maxval(shown)])
+    end do
+    amplitude = harmonic_amplitude(matmul(force, series_basis(most, size(force))))
+    do i = 1, most
+      write (spectrum, '(a)') text(input%load_factor, '(es24.16e3)')//csv([frequency, real(i, wp), amplitude(i) / amplitude(1)])
+    end do
+  end subroutine write_harmonics
 
   !> Largest difference over the period, relative to the largest value.
   pure real(wp) function relative_difference(a, reference)
