@@ -99,6 +99,6 @@ contains
   end subroutine evaluate
 
   subroutine check
-    if (status /= MSLIP_OK) error stop mslip_status_text(status)
+    if (status /= MSLIP_OK) then; print '(a)', mslip_status_text(status); error stop; end if
   end subroutine check
 end program equivalent

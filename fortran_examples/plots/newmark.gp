@@ -1,5 +1,5 @@
-# How many harmonics: one period at the damper, differences from Newmark's method, and the harmonics of the friction force beside the
-# modes of the blades with sticking contacts (vertical lines). Cases of &time_integration in cylinder.nml.
+# How many harmonics: one period at the damper, differences from Newmark's method, and the harmonics of the friction force beside
+# the modes of the blades with sticking contacts (vertical lines). Cases of &time_integration in cylinder.nml.
 load 'plots/style.gp'
 name = 'newmark'
 wide = 1240
@@ -8,7 +8,8 @@ high = 430
 same(a, b) = abs(a - b) < 1e-6 * abs(b)
 best(value) = (same(column('load_factor'), 7) ? value : NaN)
 # The balance of the case itself, with 128 samples, is not shown.
-wave(harmonics) = (column('harmonics') == harmonics && column('points') != 128 ? best(micro(column('contact_displacement_m'))) : NaN)
+wave(harmonics) = (column('harmonics') == harmonics && column('points') != 128 \
+  ? best(micro(column('contact_displacement_m'))) : NaN)
 difference(force) = (same(column('load_factor'), force) && column('samples') != 128 ? column('response_difference') : NaN)
 # A mode in which the damper moves.
 mode(dummy) = (column('participation') > 0.12 && column('order') < 37 ? best(column('order')) : NaN)
@@ -22,7 +23,8 @@ set xrange [0:360]
 set xtics 90
 set offsets 0, 0, graph 0.35, graph 0.05
 set key top left Left reverse samplen 2 maxrows 2
-plot 'results/cylinder_waveforms.csv' using (57.29578*column('phase_rad')):(wave(0)) with lines lw 6 lc rgb '#b0b0b0' title 'Newmark', \
+plot 'results/cylinder_waveforms.csv' using (57.29578*column('phase_rad')):(wave(0)) \
+       with lines lw 6 lc rgb '#b0b0b0' title 'Newmark', \
      '' using (57.29578*column('phase_rad')):(wave(5)) with lines lw 1.8 lc rgb '#0072B2' title '5 harmonics', \
      '' using (57.29578*column('phase_rad')):(wave(15)) with lines lw 1.8 dt (8,4) lc rgb '#D55E00' title '15', \
      '' using (57.29578*column('phase_rad')):(wave(35)) with lines lw 1.6 dt (2,3) lc rgb '#222222' title '35'

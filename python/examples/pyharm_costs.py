@@ -1,4 +1,4 @@
-"""What the harmonic force and the Jacobian of a contact cost in pyHarm: its own friction elements, and microslip through the adapter.
+"""What harmonic force and Jacobian of a contact cost in pyHarm: its own friction elements, and microslip through the adapter.
 
 Prints medians of the processor time in microseconds over rounds in which the elements take turns, for 1, 5 and 9 harmonics and 128
 samples; in brackets what `Contact.harmonic_force` takes of it. Set OPENBLAS_NUM_THREADS=1: the matrices are small."""
