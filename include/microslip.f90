@@ -2117,7 +2117,9 @@ contains
     !! direction m = 2 components, u [m] and w, T and N [N], with two directions m = 3, u, v [m] and w, Tx, Ty and N
     !! [N]. The normal component w of the displacement is the approach [m] or the normal force [N]. jacobian is d
     !! force_i / d displacement_j, m(2H+1) x m(2H+1), column-major: the exact derivative of the discrete force,
-    !! one-sided at corners. dissipated [J] is the energy per period.
+    !! one-sided at corners. dissipated [J] is the work of the tangential force in the returned period, pi sum k (c_k
+    !! s'_k - s_k c'_k) from the coefficients of force and displacement, over the tangential directions; if rounding
+    !! makes it negative, 0.
     !!
     !! Steady state: at the first sample of the largest normal force the element is pressed without tangential
     !! displacement and then displaced at constant normal force. It advances from there through the periods of the
@@ -2128,7 +2130,7 @@ contains
     !! reduces that force over many periods: drift is the largest difference of the tangential force between the last
     !! two periods, over mu times the largest normal force; 0 with one direction, and for a contact that opens, because
     !! that erases its memory. If the workspace has 1 period, the drift contains the first loading. A drift is not an
-    !! error.
+    !! error. While the force drifts, dissipated contains the change of the stored energy.
     type(mslip_element), intent(in) :: element  !! An initialised element.
     real(mslip_real), intent(inout), target, contiguous :: workspace(:)
       !! An initialised workspace; it decides H, and that of an element m.
@@ -2142,7 +2144,8 @@ contains
       !! Coefficients of the tangential forces, then of the normal force [N].
     real(mslip_real), intent(inout), optional, target, contiguous :: jacobian(:, :)
       !! (k, k): Derivatives of the force coefficients with respect to the displacement coefficients.
-    real(mslip_real), intent(inout), optional, target :: dissipated  !! Energy dissipated per period [J].
+    real(mslip_real), intent(inout), optional, target :: dissipated
+      !! Work of the tangential force in the returned period, the energy dissipated [J].
     real(mslip_real), intent(inout), optional, target :: drift
       !! Largest difference of the tangential force between the last two periods, over mu times the largest normal
       !! force.
@@ -2271,7 +2274,8 @@ contains
       !! (k, n): Coefficients of the tangential forces, then of the normal force [N].
     real(mslip_real), intent(inout), optional, target, contiguous :: jacobian(:, :, :)
       !! (k, k, n): Derivatives of the force coefficients with respect to the displacement coefficients.
-    real(mslip_real), intent(inout), optional, target, contiguous :: dissipated(:)  !! Energy dissipated per period [J].
+    real(mslip_real), intent(inout), optional, target, contiguous :: dissipated(:)
+      !! Work of the tangential force in the returned period, the energy dissipated [J].
     real(mslip_real), intent(inout), optional, target, contiguous :: drift(:)
       !! Largest difference of the tangential force between the last two periods, over mu times the largest normal
       !! force.

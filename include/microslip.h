@@ -635,7 +635,9 @@ int32_t mslip_element_workspace_size(const double *workspace,
 // component, each 2H+1 coefficients [c0, cos1, sin1, cos2, sin2, ...]: with one tangential direction m = 2 components, u [m]
 // and w, T and N [N], with two directions m = 3, u, v [m] and w, Tx, Ty and N [N]. The normal component w of the
 // displacement is the approach [m] or the normal force [N]. jacobian is d force_i / d displacement_j, m(2H+1) x m(2H+1),
-// column-major: the exact derivative of the discrete force, one-sided at corners. dissipated [J] is the energy per period.
+// column-major: the exact derivative of the discrete force, one-sided at corners. dissipated [J] is the work of the tangential force
+// in the returned period, pi sum k (c_k s'_k - s_k c'_k) from the coefficients of force and displacement, over the tangential
+// directions; if rounding makes it negative, 0.
 //
 // Steady state: at the first sample of the largest normal force the element is pressed without tangential displacement and then
 // displaced at constant normal force. It advances from there through the periods of the workspace and one more, which is returned. The
@@ -645,7 +647,8 @@ int32_t mslip_element_workspace_size(const double *workspace,
 // With one direction the returned period is the steady state. With two, a vibration across a mean tangential force reduces that force
 // over many periods: drift is the largest difference of the tangential force between the last two periods, over mu times the largest
 // normal force; 0 with one direction, and for a contact that opens, because that erases its memory. If the workspace has 1 period, the
-// drift contains the first loading. A drift is not an error.
+// drift contains the first loading. A drift is not an error. While the force drifts, dissipated contains the change of the stored
+// energy.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_WORKSPACE, MSLIP_BAD_DIRECTIONS for the workspace of another number of
 // directions, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE if the normal force of a sample is negative, or

@@ -21,7 +21,7 @@ pub struct HarmonicOutput<'a> {
     pub force: Option<&'a mut [f64]>,
     /// (2H + 1)² derivatives of force i with respect to displacement j \[N/m\] at `i + (2H + 1) j`.
     pub jacobian: Option<&'a mut [f64]>,
-    /// Energy dissipated per period \[J\].
+    /// Energy dissipated per period \[J\]; of an element the [`work`] of the tangential force.
     pub dissipated: Option<&'a mut f64>,
     /// The largest difference of the tangential force between the last period and the one before, over mu times the largest normal
     /// force; 0 but for two directions.
@@ -79,4 +79,18 @@ pub(crate) fn normalise(sums: &mut [f64], weight: f64) {
     if let Some(constant) = sums.first_mut() {
         *constant *= 0.5;
     }
+}
+
+/// The work of the tangential forces in a period \[J\]: `π Σ k (a_k B_k - b_k A_k)` from the n coefficients `[a_0, a_1, b_1, ...]` of
+/// the force in each tangential direction, and those of the displacement. In the steady state it is the energy dissipated, which is not
+/// negative; rounding below 0 counts as 0.
+pub(crate) fn work(n: usize, displacement: &[f64], force: &[f64]) -> f64 {
+    let mut work = 0.0;
+    for (displacement, force) in displacement.chunks_exact(n.max(1)).zip(force.chunks_exact(n.max(1))) {
+        let [displacement, force] = [displacement, force].map(|all| all.get(1..).unwrap_or(&[]).as_chunks::<2>().0);
+        for (order, ([cos, sin], [force_cos, force_sin])) in (1..=n).zip(displacement.iter().zip(force)) {
+            work += order as f64 * (force_cos * sin - force_sin * cos);
+        }
+    }
+    PI * work.max(0.0)
 }

@@ -174,6 +174,12 @@ fn coefficients_of(values: &[f64], coefficients: usize) -> Vec<f64> {
     (0..coefficients).map(|c| sum(c) * if c == 0 { 1.0 } else { 2.0 } / values.len() as f64).collect()
 }
 
+/// Work in a period of a force on a displacement, from their coefficients.
+fn work(displacement: &[f64], force: &[f64]) -> f64 {
+    let pairs = displacement[1..].as_chunks::<2>().0.iter().zip(force[1..].as_chunks::<2>().0);
+    PI * (1..).zip(pairs).map(|(k, ([a, b], [of_cos, of_sin]))| f64::from(k) * (of_cos * b - of_sin * a)).sum::<f64>()
+}
+
 /// The definition: the second of two periods from the unloaded state, step by step. The Jacobian by differences.
 #[test]
 fn harmonic_forces_of_the_second_period() {
@@ -254,7 +260,7 @@ fn element_harmonic(element: &Element, samples: usize, motion: &[f64]) -> Result
     })
 }
 
-/// Of an element, from the sample of the largest normal component, pressed by that before.
+/// Forces and energy of an element by steps, from the sample of the largest normal component, pressed by that before.
 fn second_period(element: &Element, u: &[f64], w: &[f64]) -> (Vec<f64>, Vec<f64>, f64) {
     let (samples, largest) = (u.len(), w.iter().copied().fold(f64::MIN, f64::max));
     let start = w.iter().position(|w| *w == largest).unwrap();
@@ -332,8 +338,12 @@ fn harmonic_forces_of_elements_of_the_second_period() {
             let scale = NORMAL_FORCE * (mean.abs() + swing).max(1.0).powi(2);
             let near = force.iter().zip(&expected).all(|(one, two)| (one - two).abs() < 1e-13 * scale);
             assert!(near, "{}: {force:?} {expected:?}", place());
-            let allowed = 1e-11 * energy + 1e-14 * scale * element.shift_under(NORMAL_FORCE) * size.max(1.0);
-            assert!((dissipated - energy).abs() < allowed, "{}: {dissipated} {energy}", place());
+            let (work, shift) = (work(&motion[..k], &expected[..k]), element.shift_under(NORMAL_FORCE));
+            let allowed = 1e-14 * scale * shift * size.max(1.0) * harmonics as f64;
+            assert!((dissipated - work.max(0.0)).abs() < allowed, "{}: {dissipated} {work}", place());
+            // By steps it differs by the error of the samples, up to 12 % for 12 of them in a cycle of the highest harmonic.
+            let converges = (dissipated - energy).abs() < 0.2 * energy + allowed;
+            assert!(samples < 12 * harmonics || converges, "{}: {dissipated} {energy}", place());
             if case < 5 || case == 7 || size < 1e-3 || mean < 0.0 {
                 continue;
             }

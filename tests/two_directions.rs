@@ -502,7 +502,7 @@ fn the_drift_is_that_of_the_steps_and_falls_with_the_periods() {
             let motion = shaken(&element, swing);
             let mut before = f64::INFINITY;
             for periods in [1, 2, 4, 8] {
-                let Harmonic { force, drift, .. } = harmonic(&element, periods, &motion);
+                let Harmonic { force, dissipated, drift, .. } = harmonic(&element, periods, &motion);
                 let [last, other] = walked(&element, periods, &motion);
                 let slip_force = element.friction_coefficient * last.iter().fold(0.0, |n: f64, force| n.max(force[2]));
                 let apart = |one: &[f64; 3], two: &[f64; 3]| (one[0] - two[0]).hypot(one[1] - two[1]);
@@ -512,15 +512,27 @@ fn the_drift_is_that_of_the_steps_and_falls_with_the_periods() {
                 assert!((drift - expected).abs() < 1e-10, "{swing} {periods}: {drift:e} {expected:e}");
                 let mean = last.iter().map(|force| force[0]).sum::<f64>() / SAMPLES as f64;
                 assert!((force[0] - mean).abs() < 1e-10 * slip_force, "{swing} {periods}: {} {mean}", force[0]);
+                let work = TAU / SAMPLES as f64
+                    * last
+                        .iter()
+                        .enumerate()
+                        .map(|(n, force)| {
+                            let (sin, cos) = (TAU * n as f64 / SAMPLES as f64).sin_cos();
+                            let speed = |c: usize| motion[c * ROW + 2] * cos - motion[c * ROW + 1] * sin;
+                            force[0] * speed(0) + force[1] * speed(1)
+                        })
+                        .sum::<f64>();
+                let allowed = 1e-10 * slip_force * unit(&element);
+                assert!((dissipated - work).abs() < allowed, "{swing} {periods}: {dissipated:e} {work:e}");
                 // Down to the roundings of the forces.
                 assert!(drift < (0.8 * before).max(1e-14), "{swing} {periods}: {drift:e} after {before:e}");
                 before = drift;
             }
             let [by_default, three, one, many] = [0, 3, 1, 400].map(|periods| harmonic(&element, periods, &motion));
             assert_eq!((by_default.force, by_default.dissipated), (three.force, three.dissipated));
-            // Constant normal force: that much of the energy is the shaking out.
+            // Constant normal force: in a period that shakes out, that much of the work changes what the contact stores.
             let excess = one.dissipated / many.dissipated - 1.0;
-            assert!(many.drift < 1e-4 && (swing > 0.0 || excess > 0.5), "{:e} {excess}", many.drift);
+            assert!(many.drift < 1e-4 && (swing > 0.0 || excess > 0.2), "{:e} {excess}", many.drift);
         }
     }
 }

@@ -49,6 +49,7 @@ const RELATIONS: &[(&str, f64, &str, &str)] = &[
     ("batch_element_inactive", 0.05, "batch_element", "inactive items are skipped"),
     ("batch_element_shared", 1.05, "batch_element", "items may share an element at no cost"),
     ("element_harmonics_force", 0.9, "element_harmonics", "the force does not need the Jacobian"),
+    ("element_harmonics_energy", 1.05, "element_harmonics", "the energy is the work of the force"),
     ("element_harmonics_open", 0.05, "element_harmonics", "an open contact has no force"),
     ("curve_layer", 1.02, "curve_force", "a layer with N_c >= N/12 changes the polynomials only"),
     ("harmonics_layer", 1.02, "harmonics", "a layer with N_c >= N/12 changes the polynomials only"),
@@ -405,6 +406,7 @@ const CASES: &[Case] = &[
     ("batch_element_inactive", || batch_element(false, 0)),
     ("element_harmonics", || element_harmonics(false, 2)),
     ("element_harmonics_force", || element_harmonics(false, 1)),
+    ("element_harmonics_energy", || element_harmonics(false, 3)),
     ("element_harmonics_open", || element_harmonics(true, 2)),
 ];
 

@@ -7,7 +7,7 @@
 //! in closed form at one sample, so one period is evaluated, and half of one if it is half-wave symmetric.
 //!
 //! - `samples`: normal states, characteristic coordinates, entry into the steady state;
-//! - `runs`: the memory diagram along the period, without evaluating any force, and the energy dissipated;
+//! - `runs`: the memory diagram along the period, without evaluating any force;
 //! - `forces`: the tangential forces;
 //! - `jacobian`: their exact derivatives.
 
@@ -24,7 +24,7 @@ use crate::fourier::folded::{FoldedFourier, sample_length};
 use crate::fourier::rows::{OuterProducts, Rows, row_blocks};
 use crate::fourier::sampled_jacobian::Assembly;
 use crate::fourier::workspace::{Layout, Parts, Size};
-use crate::fourier::{largest_of, normalise};
+use crate::fourier::{largest_of, normalise, work};
 use crate::limits::check_coefficients;
 use crate::tag::Kind;
 use forces::Forces;
@@ -90,7 +90,7 @@ impl<'a> Layout<'a> for Workspace<'a> {
             parts.take_arrays(sample_length(count))?;
         let forces =
             Forces { force, cut_load, cut_stiffness, slope, last_cut: parts.take_records(sample_length(count))? };
-        let (knots, runs) = (parts.take_blocks(capacity)?, parts.take_records(capacity)?);
+        let (knots, runs) = (parts.take_records(capacity)?, parts.take_records(capacity)?);
         let path = PeriodicPath { knots, depth: 0, runs, run_count: 0, cut_shift, cut_count: 0 };
         let pieces = parts.take_records(capacity)?;
         let stored = parts.take_blocks(2 * row_blocks(harmonics) * capacity)?;
@@ -122,7 +122,8 @@ const NORMAL_FORCE_ROUNDING: f64 = 8.0 * f64::EPSILON;
 /// the approach \[m\] or the normal force \[N\].
 ///
 /// The force has 2 (2H + 1) coefficients \[N\], T then N. The Jacobian has (2 (2H + 1))² entries, column by column: their derivatives
-/// with respect to the coefficients of the motion. It is the exact derivative of the discrete force, one-sided at corners.
+/// with respect to the coefficients of the motion. It is the exact derivative of the discrete force, one-sided at corners. The energy is
+/// the [`work`] of T.
 /// Errors: `BadArraySize` if a length does not agree with the workspace; `BadDisplacement` if a coefficient is not finite or
 /// exceeds 1e150; `BadNormalForce` if a sample of the normal force is negative by more than rounding; `LengthTooShort` if the
 /// contact would become too wide for its length.
@@ -138,41 +139,46 @@ pub fn harmonic_force(
     let (tangential, input) = displacement.split_at_checked(coefficients).unwrap_or((&[], &[]));
     let motion = workspace.press(element, tangential, input, jacobian.is_some())?;
     let has_friction = !motion.open && element.friction_coefficient > 0.0;
-    let needs_forces = force.is_some() || jacobian.is_some();
     let mut part = None;
-    if has_friction && (needs_forces || dissipated.is_some()) {
+    if has_friction && (force.is_some() || jacobian.is_some() || dissipated.is_some()) {
         let Workspace { fourier, samples, path, forces, sensitivity, .. } = workspace;
         fourier.synthesise(tangential, samples.displacement);
         let part = part.insert(samples.enter_steady_state(element, motion));
-        if needs_forces {
-            let (runs, cut_shift) = path.evaluate(element, samples, part);
-            if jacobian.is_none() {
-                forces.evaluate::<false>(element, samples, cut_shift, runs);
-            } else {
-                forces.evaluate::<true>(element, samples, cut_shift, runs);
-                let context = Context {
-                    element,
-                    samples,
-                    part,
-                    cut_shifts: cut_shift.as_flattened(),
-                    cut_loads: forces.cut_load,
-                    cut_stiffnesses: forces.cut_stiffness,
-                    slopes: forces.slope,
-                };
-                sensitivity.gather(&context, runs);
-            }
+        let (runs, cut_shift) = path.evaluate(element, samples, part);
+        if jacobian.is_none() {
+            forces.evaluate::<false>(element, samples, cut_shift, runs);
+        } else {
+            forces.evaluate::<true>(element, samples, cut_shift, runs);
+            let context = Context {
+                element,
+                samples,
+                part,
+                cut_shifts: cut_shift.as_flattened(),
+                cut_loads: forces.cut_load,
+                cut_stiffnesses: forces.cut_stiffness,
+                slopes: forces.slope,
+            };
+            sensitivity.gather(&context, runs);
         }
-    }
-    if let Some(dissipated) = dissipated {
-        let Workspace { samples, path, .. } = workspace;
-        let energy = part.map_or(0.0, |part| path.dissipated(element, samples, &part));
-        *dissipated = if motion.half_wave { 2.0 * energy } else { energy };
     }
     if let Some(drift) = drift {
         *drift = 0.0;
     }
-    if let Some(force) = force {
-        workspace.write_force(element, input, motion, part.as_ref(), force);
+    // The sums serve the Jacobian only, and have twice as many places as the coefficients.
+    let sums = core::mem::take(&mut workspace.assembly.sums);
+    let (to, normal) = match force.and_then(|force| force.split_at_mut_checked(coefficients)) {
+        Some((to, normal)) => (Some(to), Some(normal)),
+        None => (sums.get_mut(..coefficients).filter(|_| dissipated.is_some()), None),
+    };
+    if let Some(to) = to {
+        workspace.write_tangential_force(motion, part.as_ref(), to);
+        if let Some(dissipated) = dissipated {
+            *dissipated = work(coefficients, tangential, to);
+        }
+    }
+    workspace.assembly.sums = sums;
+    if let Some(normal) = normal {
+        workspace.write_normal_force(element, input, motion, normal);
     }
     if let Some(jacobian) = jacobian {
         workspace.write_jacobian(element, motion, part.as_ref(), jacobian);
@@ -256,23 +262,18 @@ impl Workspace<'_> {
         Ok(motion)
     }
 
-    fn write_force(
-        &mut self,
-        element: &Element,
-        input: &[f64],
-        motion: MotionKind,
-        part: Option<&Part>,
-        force: &mut [f64],
-    ) {
-        let Workspace { size, fourier, samples, forces, .. } = self;
-        let weight = 1.0 / samples.count as f64;
-        let (tangential, normal) = force.split_at_mut_checked(size.coefficients()).unwrap_or((&mut [], &mut []));
+    fn write_tangential_force(&mut self, motion: MotionKind, part: Option<&Part>, tangential: &mut [f64]) {
+        let Workspace { fourier, samples, forces, .. } = self;
         if let Some(part) = part {
             fourier.sum_half_wave(part.start, motion.half_wave.then_some(-1.0), forces.force, tangential);
-            normalise(tangential, weight);
+            normalise(tangential, 1.0 / samples.count as f64);
         } else {
             tangential.fill(0.0);
         }
+    }
+
+    fn write_normal_force(&mut self, element: &Element, input: &[f64], motion: MotionKind, normal: &mut [f64]) {
+        let Workspace { fourier, samples, .. } = self;
         if !element.by_approach() && !motion.open {
             // Rounding below 0 counts as 0.
             normal.iter_mut().zip(input).for_each(|(normal, input)| *normal = *input);
@@ -283,7 +284,7 @@ impl Workspace<'_> {
             }
         } else {
             fourier.sum(samples.load, normal);
-            normalise(normal, weight);
+            normalise(normal, 1.0 / samples.count as f64);
         }
     }
 

@@ -10,20 +10,19 @@
 //! along. Those of a step by parameters of the contact, the load at both ends and the alignment, are computed once; those by the
 //! springs at its start are advanced for a few coefficients at once, and the former are added to them.
 
-use super::Requested;
 use super::contact::{Contact, Pressed};
 use super::path::Path;
 use super::scalar::{Dual, Linear};
 use super::slip::Slips;
-use super::step::{advance, bounded, derivatives, separated, step};
+use super::step::{advance, bounded, derivatives, step};
 use super::tables::{
     ALIGNMENT, Both, DualRows, END, Matrix, N, PARAMETERS, ROWS, Rows, START, Units, fill, under_flat,
 };
 use super::trial::{Derivatives, Motion, SPRINGS, Springs, Values, trial};
 use crate::element::{Element, Normal};
 use crate::error::Error;
-use crate::fourier::angle;
 use crate::fourier::workspace::{Layout, Parts, Size};
+use crate::fourier::{angle, work};
 use crate::limits::check_coefficients;
 use crate::simd::{dispatch, plus};
 use crate::tag::Kind;
@@ -162,7 +161,7 @@ impl<'a> Workspace<'a> {
 ///
 /// The force has 3 (2H + 1) coefficients \[N\], Tx, Ty, N. The Jacobian has (3 (2H + 1))² entries, column by column: their derivatives
 /// with respect to the coefficients of the motion. The drift is the largest difference of the tangential force between the period that
-/// counts and the one before, over μ times the largest normal force; 0 if the contact opens.
+/// counts and the one before, over μ times the largest normal force; 0 if the contact opens. The energy is the [`work`] of Tx and Ty.
 /// Errors: `BadArraySize` if a length does not agree with the workspace; `BadDisplacement` if a coefficient is not finite or
 /// exceeds 1e150; `BadNormalForce` if a sample of the normal force is negative by more than rounding; `LengthTooShort` if the
 /// contact would become too wide for its length.
@@ -175,7 +174,7 @@ pub fn harmonic_force(
     let n = workspace.coefficients();
     output.check(3 * n, displacement)?;
     workspace.synthesise(element, displacement)?;
-    walk(element, workspace, output);
+    walk(element, workspace, displacement, output);
     Ok(())
 }
 
@@ -210,7 +209,6 @@ struct Walk<'a> {
 /// What a step gives besides the state.
 struct Taken {
     force: Both<f64>,
-    dissipated: f64,
     /// Springs at the start, the motion, and whether the contact was closed.
     old: Values,
     motion: Motion<f64, f64>,
@@ -243,7 +241,7 @@ impl<'a> Walk<'a> {
     }
 
     /// Advances to a sample.
-    fn advance(&mut self, to: [f64; 3], requested: Requested) -> Taken {
+    fn advance(&mut self, to: [f64; 3], derivatives: bool) -> Taken {
         let (was_closed, closes) = (self.contact.now.load > 0.0, self.element.is_closed(to[2]));
         let closed = [was_closed, closes];
         let same = was_closed && to[2].to_bits() == self.at[2].to_bits();
@@ -253,22 +251,18 @@ impl<'a> Walk<'a> {
         let motion = Motion { before: from.now.shift, by: path.by, constant_load };
         self.at = to;
         if !closes {
-            let energy = was_closed && requested.energy;
-            let dissipated =
-                if energy { separated(self.tables.values, &from, &Pressed::default(), path.by, &old) } else { 0.0 };
             self.open();
-            return Taken { force: [0.0; 2], dissipated: dissipated * path.scale, old, motion, path, before, closed };
+            return Taken { force: [0.0; 2], old, motion, path, before, closed };
         }
         if !same {
             self.press(to[2]);
         }
         self.slip.trial = trial(self.tables.values, &self.contact, &motion, &old);
-        self.slip.find(self.tables.values, &self.contact, &self.inverse, &motion, &old, requested.tangent);
+        self.slip.find(self.tables.values, &self.contact, &self.inverse, &motion, &old, derivatives);
         let contacts = [&from, &self.contact];
-        let (force, dissipated) =
-            advance(self.tables.values, contacts, &motion, &self.slip, requested.energy, &mut self.springs);
+        let (force, _) = advance(self.tables.values, contacts, &motion, &self.slip, false, &mut self.springs);
         let force = bounded(force, self.contact.now.load);
-        Taken { force, dissipated: dissipated * path.scale, old, motion, path, before, closed }
+        Taken { force, old, motion, path, before, closed }
     }
 
     /// The contact under a normal component that closes it.
@@ -371,10 +365,9 @@ fn without_friction(element: &Element, samples: &mut [[f64; SAMPLE]]) {
 
 /// The periods of a motion that was synthesised. Not inlined: its frame is not that of a call with one direction.
 #[inline(never)]
-fn walk(element: &Element, workspace: &mut Workspace, output: HarmonicOutput) {
+fn walk(element: &Element, workspace: &mut Workspace, displacement: &[f64], output: HarmonicOutput) {
     let Size { samples: count, periods, .. } = workspace.size;
     let HarmonicOutput { force, jacobian, dissipated, drift } = output;
-    let requested = Requested { tangent: jacobian.is_some(), energy: dissipated.is_some() };
     let (largest, top) = first_of_largest_load(workspace);
     let slides = element.friction_coefficient > 0.0 && element.is_closed(top);
     let top_load = if slides { element.normal(top).load } else { element.normal_force };
@@ -383,11 +376,11 @@ fn walk(element: &Element, workspace: &mut Workspace, output: HarmonicOutput) {
     // A contact that opens forgets: whatever was before, the second period is the steady state.
     let opens = workspace.samples.iter().any(|sample| !element.is_closed(sample[2]));
     let periods = if opens { 1 } else { periods };
-    let (mut energy, mut largest_change) = (0.0, 0.0f64);
+    let mut largest_change = 0.0f64;
     let memory = core::mem::take(&mut workspace.tables);
     if slides && let [tables, slopes, smaller] = &mut *memory {
         fill(tables, element, &units, 1.0);
-        if requested.tangent {
+        if jacobian.is_some() {
             derive_tables(element, &units, [slopes, smaller]);
             workspace.derivatives.fill(0.0);
             workspace.sums.fill(0.0);
@@ -397,14 +390,12 @@ fn walk(element: &Element, workspace: &mut Workspace, output: HarmonicOutput) {
         for step in 0..=(periods + 1) * count {
             let index = (largest + step).checked_rem(count).unwrap_or(0);
             let counts = step > periods * count;
-            let taken =
-                walk.advance(workspace.place(index), Requested { energy: requested.energy && counts, ..requested });
-            if requested.tangent {
+            let taken = walk.advance(workspace.place(index), jacobian.is_some());
+            if jacobian.is_some() {
                 let fades = step % FADING == 0;
                 walk.differentiate(workspace, &taken, [before, Some(index), Some(largest)], [fades, counts]);
             }
             before = Some(index);
-            energy += taken.dissipated;
             if let Some(sample) = workspace.samples.get_mut(index) {
                 let [x, y] = taken.force.map(|force| unit * force);
                 let change = (x - sample[5]).powi(2) + (y - sample[6]).powi(2);
@@ -416,15 +407,18 @@ fn walk(element: &Element, workspace: &mut Workspace, output: HarmonicOutput) {
         without_friction(element, workspace.samples);
     }
     workspace.tables = memory;
-    if let Some(dissipated) = dissipated {
-        *dissipated = energy * unit * element.friction_coefficient * units.shift;
-    }
-    if let Some(force) = force {
-        write_force(workspace, force);
-    }
     if let Some(jacobian) = jacobian {
         write_jacobian(workspace, slides.then_some(unit), jacobian);
     }
+    // The sums serve the Jacobian only, and have more than as many places as the force.
+    let (sums, n) = (core::mem::take(&mut workspace.sums), workspace.coefficients());
+    if let Some(force) = force.or(sums.get_mut(..3 * n).filter(|_| dissipated.is_some())) {
+        write_force(workspace, force);
+        if let Some(dissipated) = dissipated {
+            *dissipated = work(n, displacement.get(..2 * n).unwrap_or(&[]), force);
+        }
+    }
+    workspace.sums = sums;
     if let Some(drift) = drift {
         let slip_force = (element.friction_coefficient * top_load).max(f64::MIN_POSITIVE);
         *drift = if slides && !opens { largest_change.sqrt() / slip_force } else { 0.0 };

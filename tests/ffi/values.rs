@@ -140,7 +140,7 @@ fn rounding_error(call: &Call, law: &Law, output: &str) -> f64 {
         // The error of the rule if rounding divides the period differently.
         _ if call.has(Workspace) && law.rule == MSLIP_EVENT_DRIVEN => 4e-8,
         // Relative to mu N times the displacement; a little slip, down to 1e-7 of that, loses up to seven digits.
-        (_, "dissipated") if of_element && walks => 1e-10,
+        (_, "dissipated") if of_element && call.has(State) => 1e-10,
         // The error of the direction of slip, amplified by the memory of two periods.
         _ if of_element && walks && law.directions == 2 => 1e-8,
         // Hundreds of roundings of one sign.

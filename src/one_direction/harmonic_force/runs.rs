@@ -7,7 +7,6 @@ use crate::element::Element;
 use crate::fourier::at;
 use crate::fourier::workspace::record;
 use crate::one_direction::diagram::slope;
-use crate::one_direction::energy::{self, Path};
 use crate::one_direction::harmonic_force::samples::{Part, Samples, ranges};
 use crate::one_direction::step::Crossing;
 use core::ops::Range;
@@ -93,12 +92,14 @@ impl Run {
     }
 }
 
-/// A knot of the diagram.
-#[derive(Debug, Clone, Copy)]
-struct Knot {
-    xi: f64,
-    eta: f64,
-    place: Place,
+record! {
+    /// A knot of the diagram.
+    #[derive(Default)]
+    pub(super) struct Knot {
+        xi: f64,
+        eta: f64,
+        place: Place,
+    }
 }
 
 impl Knot {
@@ -113,7 +114,7 @@ impl Knot {
 /// A walk along samples: the stack of knots, and the runs and packed boundaries so far.
 #[derive(Debug)]
 pub(super) struct PeriodicPath<'a> {
-    pub knots: &'a mut [[f64; 4]],
+    pub knots: &'a mut [Knot],
     pub depth: usize,
     pub runs: &'a mut [Run],
     pub run_count: usize,
@@ -130,14 +131,12 @@ impl PeriodicPath<'_> {
     }
 
     fn knot(&self, index: usize) -> Knot {
-        let [xi, eta, code, _] = self.knots.get(index).copied().unwrap_or([0.0; 4]);
-        Knot { xi, eta, place: Place { code: code.to_bits() } }
+        self.knots.get(index).copied().unwrap_or_default()
     }
 
-    /// Pushes a knot as in other diagrams, which have forces.
     fn push(&mut self, knot: Knot) {
         if let Some(place) = self.knots.get_mut(self.depth) {
-            *place = [knot.xi, knot.eta, f64::from_bits(knot.place.code), 0.0];
+            *place = knot;
             self.depth += 1;
         }
     }
@@ -185,7 +184,7 @@ impl PeriodicPath<'_> {
     #[inline(always)]
     fn close_loops(&mut self, x: f64, y: f64) -> bool {
         let before = self.depth;
-        while let Some(&[xi, eta, ..]) = self.depth.checked_sub(1).and_then(|top| self.knots.get(top))
+        while let Some(&Knot { xi, eta, .. }) = self.depth.checked_sub(1).and_then(|top| self.knots.get(top))
             && !(xi > x && eta < y)
         {
             self.depth -= 1;
@@ -307,34 +306,6 @@ impl PeriodicPath<'_> {
         self.cut_shift.iter_mut().skip(cuts).take(3).for_each(|place| *place = last);
         let cut_shift = self.cut_shift.as_chunks().0.get(..cuts.div_ceil(4));
         (self.runs.get(..runs).unwrap_or(&[]), cut_shift.unwrap_or(&[]))
-    }
-
-    /// Energy \[J\] dissipated in the steps along a part of the period.
-    #[inline(never)]
-    pub fn dissipated(&mut self, element: &Element, samples: &Samples, part: &Part) -> f64 {
-        self.begin(part);
-        let mut energy = 0.0;
-        // The step to the first sample (or to its counterpart half a period later) is the last.
-        let steps = ranges(&Part { length: part.length + 1, ..*part }, samples.count).into_iter().flatten();
-        for (step, sample) in steps.enumerate() {
-            let before = samples.before(sample);
-            let [was_open, is_open] = [before, sample].map(|sample| part.opens && samples.is_open(sample));
-            if step > 0 && !(was_open && is_open) {
-                let [mut start, mut end] = [before, sample].map(|sample| at(samples.displacement, sample));
-                let shift = [before, sample].map(|sample| at(samples.shift, sample));
-                if was_open {
-                    start = closing(samples, element, sample).displacement;
-                    self.restart(start);
-                } else if is_open {
-                    end = closing(samples, element, sample).displacement;
-                }
-                let knots = self.knots.get(..self.depth).unwrap_or(&[]);
-                energy += energy::dissipated(element, knots, &Path { shift, displacement: end - start });
-            }
-            (self.run_count, self.cut_count) = (0, 0);
-            self.advance(element, samples, part, sample..sample + 1);
-        }
-        energy
     }
 }
 

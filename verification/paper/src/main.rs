@@ -1,7 +1,7 @@
 //! The figures of the paper and of the guide computed by the library, and a check of each claim of the paper.
 //!
-//! - `paper` writes the data of the figures to `target/figures`, the claims in `docs/claims.csv`, and the tables of samples and of
-//!   periods in `docs/guide.md`;
+//! - `paper` writes the data of the figures to `target/figures`, the claims in `docs/claims.csv`, the tables of samples and of periods
+//!   in `docs/guide.md`, and that of the roundings of the work in `docs/accuracy.md`;
 //! - `paper --check` compares the tables with what the library computes now.
 
 mod cases;
@@ -32,6 +32,7 @@ fn main() -> ExitCode {
     drawings::all().iter().for_each(|table| documents.data(table));
     documents.page("claims.csv", |old| with_claims(old, &claims));
     documents.page("guide.md", |old| between(old, "samples of elements", |_| Ok(samples::table())));
+    documents.page("accuracy.md", |old| between(old, "roundings of the work", |_| Ok(samples::roundings())));
     documents.page("guide.md", |old| between(old, "periods of elements", |_| Ok(periods::table())));
     documents.report()
 }

@@ -50,6 +50,34 @@ pub fn table() -> String {
     text
 }
 
+/// Amplitudes of the table of roundings over that of gross slip.
+const AMPLITUDES: [f64; 4] = [1e-1, 1e-2, 1e-4, 1e-6];
+
+/// The rows of the table of roundings: the largest relative difference of the energies of a motion and of the same motion some samples
+/// later, which has the same samples; rounded up to a power of ten.
+pub fn roundings() -> String {
+    let cells = AMPLITUDES.map(|amplitude| format!("{amplitude:.0e} | "));
+    let mut text =
+        format!("| contact | load | {}\n|---|---|{}\n", cells.concat().trim_end(), "---:|".repeat(AMPLITUDES.len()));
+    for (name, flat) in [("cylinder", 0.0), ("flat, a/b = 0.9", 0.9)] {
+        let element = Case::flat(flat, 20.0).element(NormalInput::Approach);
+        for (load, swing) in [("constant", 0.0), ("varies by 40 %", 0.28)] {
+            text += &format!("| {name} | {load} |");
+            for displacement in AMPLITUDES {
+                let motion = Motion { name, displacement, mean: 0.7, swing, phase: 0.25 };
+                let energies = (0..SAMPLES[0]).map(|shift| {
+                    let coefficients = motion.coefficients(&element, 1, shift as f64 / SAMPLES[0] as f64);
+                    evaluate(&element, &coefficients, 1, SAMPLES[0]).1
+                });
+                let (least, largest) = energies.fold((f64::MAX, 0.0_f64), |(a, b), e| (a.min(e), b.max(e)));
+                text += &format!(" {:.0e} |", 10f64.powf((1.0 - least / largest).log10().ceil()));
+            }
+            text.push('\n');
+        }
+    }
+    text
+}
+
 fn worst_errors(element: &Element, motion: &Motion, harmonics: usize, samples: usize) -> [f64; 2] {
     let (mut worst, coefficients) = ([0.0_f64; 2], 2 * harmonics + 1);
     for shift in 0..SHIFTS {

@@ -13,7 +13,7 @@
 //! | `harmonic` | samples, u0, c1, s1, ... | force coefficients f0, c1, s1, ...; exact integrals with 0 samples, else by their rule |
 //! | `masing` | displacements | force after each of them, from the unloaded state |
 //! | `element` | input, u, w, u, w, ... | T and N after each step of an element, from the open contact |
-//! | `element_harmonic` | input, samples, u0, c1, s1, ..., w0, c1, s1, ... | coefficients of T, then of N, and the dissipated energy, by the rule of uniform samples |
+//! | `element_harmonic` | input, samples, u0, c1, s1, ..., w0, c1, s1, ... | coefficients of T, then of N, and the work of T, by the rule of uniform samples |
 //!
 //! The input of an element is 0 if w is the normal approach, 1 if it is the normal force.
 //!
@@ -85,8 +85,8 @@ fn row(line: &str) -> String {
         ("element_harmonic", [kind, samples, coefficients @ ..]) if coefficients.len() % 4 == 2 => {
             let element = Element::new(&contact.input, *kind == 1.0);
             let coefficients: Vec<Real> = coefficients.iter().map(|value| element.real(*value)).collect();
-            let (mut values, dissipated) = harmonic_force(&element, &coefficients, *samples as usize);
-            values.push(dissipated);
+            let (mut values, work) = harmonic_force(&element, &coefficients, *samples as usize);
+            values.push(work);
             values
         }
         _ => panic!("{line}: no such task, or wrong arguments"),
