@@ -46,7 +46,7 @@ CONSTANT(MSLIP_BAD_PERIODS, 44)
 CONSTANT(MSLIP_BAD_COEFFICIENTS, 45)
 CONSTANT(MSLIP_BAD_ARRAY_SIZE, 90)
 CONSTANT(MSLIP_BAD_ALIGNMENT, 91)
-CONSTANT(MSLIP_ABI_VERSION, 5)
+CONSTANT(MSLIP_ABI_VERSION, 6)
 CONSTANT(MSLIP_CENTRE_POINT, 0)
 CONSTANT(MSLIP_RIGID_STRIP, 1)
 CONSTANT(MSLIP_UNIFORM_SAMPLING, 0)
@@ -192,19 +192,19 @@ FUNCTION(int32_t, mslip_element_tractions, (const struct mslip_element *element,
      size_t n, const double *x, double *pressure, double *shear))
 FUNCTION(int32_t, mslip_batch_complex_stiffness, (size_t n, size_t n_contacts, const struct mslip_contact *contacts,
      const int32_t *index, const int32_t *active, const double *amplitude, double *k_real, double *k_imag, double *dk_real,
-     double *dk_imag))
+     double *dk_imag, size_t *failed_item))
 FUNCTION(int32_t, mslip_batch_masing_update, (size_t n, size_t n_contacts, const struct mslip_contact *contacts,
      const int32_t *index, const int32_t *active, size_t state_length, const double *states_old, const double *displacement,
-     double *states_new, double *force, double *stiffness, double *dissipated))
+     double *states_new, double *force, double *stiffness, double *dissipated, size_t *failed_item))
 FUNCTION(int32_t, mslip_batch_harmonic_force, (size_t n, size_t n_contacts, const struct mslip_contact *contacts,
      const int32_t *index, const int32_t *active, double *workspace, const double *displacement, double *force, double *jacobian,
-     double *dissipated))
+     double *dissipated, size_t *failed_item))
 FUNCTION(int32_t, mslip_batch_element_update, (size_t n, size_t n_elements, const struct mslip_element *elements,
      const int32_t *index, const int32_t *active, size_t state_length, const double *states_old, const double *displacement,
-     double *states_new, double *force, double *tangent, double *dissipated))
+     double *states_new, double *force, double *tangent, double *dissipated, size_t *failed_item))
 FUNCTION(int32_t, mslip_batch_element_harmonic_force, (size_t n, size_t n_elements, const struct mslip_element *elements,
      const int32_t *index, const int32_t *active, double *workspace, const double *displacement, double *force, double *jacobian,
-     double *dissipated, double *drift))
+     double *dissipated, double *drift, size_t *failed_item))
 
 LENGTH(mslip_state_length(0), 11)
 LENGTH(mslip_state_length(16), 53)

@@ -12,8 +12,8 @@
 
 /* What an argument is. */
 enum { ARG_PARAMETERS, ARG_ELLIPTIC_PARAMETERS, ARG_CONTACT, ARG_ELEMENT, ARG_NEW_CONTACT, ARG_NEW_ELEMENT, ARG_COUNT,
-     ARG_LAWS, ARG_LENGTH, ARG_SIZE, ARG_CHOICE, ARG_INDEX, ARG_ACTIVE, ARG_FOUND_CHOICE, ARG_FOUND_SIZE, ARG_STATE,
-     ARG_NEW_STATE, ARG_WORKSPACE, ARG_TABLE, ARG_BUFFER, ARG_VALUE, ARG_INPUT, ARG_OUTPUT };
+     ARG_LAWS, ARG_LENGTH, ARG_SIZE, ARG_CHOICE, ARG_INDEX, ARG_ACTIVE, ARG_FAILED_ITEM, ARG_FOUND_CHOICE, ARG_FOUND_SIZE,
+     ARG_STATE, ARG_NEW_STATE, ARG_WORKSPACE, ARG_TABLE, ARG_BUFFER, ARG_VALUE, ARG_INPUT, ARG_OUTPUT };
 
 /* The arguments of a call. A function takes some of them. */
 enum { OUTPUTS = 5 }; /* the new state first */
@@ -31,7 +31,7 @@ typedef struct {
     const double *input, *state;
     double *workspace, *table, *buffer, *out[OUTPUTS];
     int32_t *found_directions, *found_rule;
-    size_t *found_harmonics, *found_samples, *found_periods;
+    size_t *failed_item, *found_harmonics, *found_samples, *found_periods;
 } arguments;
 
 /* Quantities. The normal components of displacements, and their coefficients, are distinguished by the drivers. */
@@ -45,7 +45,7 @@ typedef struct {
     const char *extents;
     int32_t status;
 } argument;
-enum { MOST_ARGUMENTS = 13 };
+enum { MOST_ARGUMENTS = 14 };
 #define ARGUMENT(id, kind, field, quantity, extents, status) { #id, kind, offsetof(arguments, field), quantity, extents, status }
 
 /* Doubles of an argument. */
@@ -91,11 +91,11 @@ CALL(harmonic_workspace_size, call.workspace, call.found_harmonics, call.found_s
 CALL(harmonic_force, call.contacts, call.workspace, call.input, call.out[1], call.out[2], call.out[3])
 CALL(harmonic_sensitivity, call.contacts, call.workspace, call.input, call.out[1], call.out[2])
 CALL(batch_complex_stiffness, call.n, call.n_contacts, call.contacts, call.index, call.active, call.input, call.out[1],
-     call.out[2], call.out[3], call.out[4])
+     call.out[2], call.out[3], call.out[4], call.failed_item)
 CALL(batch_masing_update, call.n, call.n_contacts, call.contacts, call.index, call.active, call.state_length, call.state,
-     call.input, call.out[0], call.out[1], call.out[2], call.out[3])
+     call.input, call.out[0], call.out[1], call.out[2], call.out[3], call.failed_item)
 CALL(batch_harmonic_force, call.n, call.n_contacts, call.contacts, call.index, call.active, call.workspace, call.input,
-     call.out[1], call.out[2], call.out[3])
+     call.out[1], call.out[2], call.out[3], call.failed_item)
 CALL(element_init, call.parameters, call.directions, call.normal_input, call.new_element)
 CALL(element_init_elliptic, call.elliptic_parameters, call.directions, call.normal_input, call.new_element)
 CALL(element_check, call.elements)
@@ -115,9 +115,9 @@ CALL(element_workspace_size, call.workspace, call.found_directions, call.found_h
      call.found_rule, call.found_periods)
 CALL(element_harmonic_force, call.elements, call.workspace, call.input, call.out[1], call.out[2], call.out[3], call.out[4])
 CALL(batch_element_update, call.n, call.n_contacts, call.elements, call.index, call.active, call.state_length, call.state,
-     call.input, call.out[0], call.out[1], call.out[2], call.out[3])
+     call.input, call.out[0], call.out[1], call.out[2], call.out[3], call.failed_item)
 CALL(batch_element_harmonic_force, call.n, call.n_contacts, call.elements, call.index, call.active, call.workspace,
-     call.input, call.out[1], call.out[2], call.out[3], call.out[4])
+     call.input, call.out[1], call.out[2], call.out[3], call.out[4], call.failed_item)
 #undef CALL
 #endif
 
@@ -278,7 +278,8 @@ FUNCTION(batch_complex_stiffness, 2,
     ARGUMENT(k_real, ARG_OUTPUT, out[1], NONE, "n", MSLIP_OK),
     ARGUMENT(k_imag, ARG_OUTPUT, out[2], NONE, "n", MSLIP_OK),
     ARGUMENT(dk_real, ARG_OUTPUT, out[3], NONE, "n", MSLIP_OK),
-    ARGUMENT(dk_imag, ARG_OUTPUT, out[4], NONE, "n", MSLIP_OK))
+    ARGUMENT(dk_imag, ARG_OUTPUT, out[4], NONE, "n", MSLIP_OK),
+    ARGUMENT(failed_item, ARG_FAILED_ITEM, failed_item, NONE, "", MSLIP_OK))
 FUNCTION(batch_masing_update, 2,
     ARGUMENT(n, ARG_COUNT, n, NONE, "", MSLIP_OK),
     ARGUMENT(n_contacts, ARG_LAWS, n_contacts, NONE, "", MSLIP_OK),
@@ -291,7 +292,8 @@ FUNCTION(batch_masing_update, 2,
     ARGUMENT(states_new, ARG_NEW_STATE, out[0], NONE, "", MSLIP_OK),
     ARGUMENT(force, ARG_OUTPUT, out[1], NONE, "n", MSLIP_BAD_FORCE),
     ARGUMENT(stiffness, ARG_OUTPUT, out[2], NONE, "n", MSLIP_OK),
-    ARGUMENT(dissipated, ARG_OUTPUT, out[3], NONE, "n", MSLIP_OK))
+    ARGUMENT(dissipated, ARG_OUTPUT, out[3], NONE, "n", MSLIP_OK),
+    ARGUMENT(failed_item, ARG_FAILED_ITEM, failed_item, NONE, "", MSLIP_OK))
 FUNCTION(batch_harmonic_force, 2,
     ARGUMENT(n, ARG_COUNT, n, NONE, "", MSLIP_OK),
     ARGUMENT(n_contacts, ARG_LAWS, n_contacts, NONE, "", MSLIP_OK),
@@ -302,7 +304,8 @@ FUNCTION(batch_harmonic_force, 2,
     ARGUMENT(displacement, ARG_INPUT, input, DISPLACEMENT, "kn", MSLIP_BAD_DISPLACEMENT),
     ARGUMENT(force, ARG_OUTPUT, out[1], NONE, "kn", MSLIP_BAD_FORCE),
     ARGUMENT(jacobian, ARG_OUTPUT, out[2], NONE, "kkn", MSLIP_OK),
-    ARGUMENT(dissipated, ARG_OUTPUT, out[3], NONE, "n", MSLIP_OK))
+    ARGUMENT(dissipated, ARG_OUTPUT, out[3], NONE, "n", MSLIP_OK),
+    ARGUMENT(failed_item, ARG_FAILED_ITEM, failed_item, NONE, "", MSLIP_OK))
 FUNCTION(element_init, 2,
     ARGUMENT(p, ARG_PARAMETERS, parameters, NONE, "", MSLIP_OK),
     ARGUMENT(directions, ARG_CHOICE, directions, NONE, "", MSLIP_BAD_DIRECTIONS),
@@ -404,7 +407,8 @@ FUNCTION(batch_element_update, 2,
     ARGUMENT(states_new, ARG_NEW_STATE, out[0], NONE, "", MSLIP_OK),
     ARGUMENT(force, ARG_OUTPUT, out[1], NONE, "mn", MSLIP_BAD_FORCE),
     ARGUMENT(tangent, ARG_OUTPUT, out[2], NONE, "mmn", MSLIP_OK),
-    ARGUMENT(dissipated, ARG_OUTPUT, out[3], NONE, "n", MSLIP_OK))
+    ARGUMENT(dissipated, ARG_OUTPUT, out[3], NONE, "n", MSLIP_OK),
+    ARGUMENT(failed_item, ARG_FAILED_ITEM, failed_item, NONE, "", MSLIP_OK))
 FUNCTION(batch_element_harmonic_force, 2,
     ARGUMENT(n, ARG_COUNT, n, NONE, "", MSLIP_OK),
     ARGUMENT(n_elements, ARG_LAWS, n_contacts, NONE, "", MSLIP_OK),
@@ -416,6 +420,7 @@ FUNCTION(batch_element_harmonic_force, 2,
     ARGUMENT(force, ARG_OUTPUT, out[1], NONE, "kn", MSLIP_BAD_FORCE),
     ARGUMENT(jacobian, ARG_OUTPUT, out[2], NONE, "kkn", MSLIP_OK),
     ARGUMENT(dissipated, ARG_OUTPUT, out[3], NONE, "n", MSLIP_OK),
-    ARGUMENT(drift, ARG_OUTPUT, out[4], NONE, "n", MSLIP_OK))
+    ARGUMENT(drift, ARG_OUTPUT, out[4], NONE, "n", MSLIP_OK),
+    ARGUMENT(failed_item, ARG_FAILED_ITEM, failed_item, NONE, "", MSLIP_OK))
 #undef FUNCTION
 #endif

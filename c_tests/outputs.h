@@ -56,15 +56,15 @@
 #define mslip_harmonic_sensitivity(...) with_outputs_harmonic_sensitivity(__VA_ARGS__, NULL, NULL)
 #define with_outputs_harmonic_sensitivity(a, b, c, d, e, ...) \
     mslip_harmonic_sensitivity(a, b, c, d, e)
-#define mslip_batch_complex_stiffness(...) with_outputs_batch_complex_stiffness(__VA_ARGS__, NULL, NULL, NULL, NULL)
-#define with_outputs_batch_complex_stiffness(a, b, c, d, e, f, g, h, i, j, ...) \
-    mslip_batch_complex_stiffness(a, b, c, d, e, f, g, h, i, j)
-#define mslip_batch_masing_update(...) with_outputs_batch_masing_update(__VA_ARGS__, NULL, NULL, NULL)
-#define with_outputs_batch_masing_update(a, b, c, d, e, f, g, h, i, j, k, l, ...) \
-    mslip_batch_masing_update(a, b, c, d, e, f, g, h, i, j, k, l)
-#define mslip_batch_harmonic_force(...) with_outputs_batch_harmonic_force(__VA_ARGS__, NULL, NULL, NULL)
-#define with_outputs_batch_harmonic_force(a, b, c, d, e, f, g, h, i, j, ...) \
-    mslip_batch_harmonic_force(a, b, c, d, e, f, g, h, i, j)
+#define mslip_batch_complex_stiffness(...) with_outputs_batch_complex_stiffness(__VA_ARGS__, NULL, NULL, NULL, NULL, NULL)
+#define with_outputs_batch_complex_stiffness(a, b, c, d, e, f, g, h, i, j, k, ...) \
+    mslip_batch_complex_stiffness(a, b, c, d, e, f, g, h, i, j, k)
+#define mslip_batch_masing_update(...) with_outputs_batch_masing_update(__VA_ARGS__, NULL, NULL, NULL, NULL)
+#define with_outputs_batch_masing_update(a, b, c, d, e, f, g, h, i, j, k, l, m, ...) \
+    mslip_batch_masing_update(a, b, c, d, e, f, g, h, i, j, k, l, m)
+#define mslip_batch_harmonic_force(...) with_outputs_batch_harmonic_force(__VA_ARGS__, NULL, NULL, NULL, NULL)
+#define with_outputs_batch_harmonic_force(a, b, c, d, e, f, g, h, i, j, k, ...) \
+    mslip_batch_harmonic_force(a, b, c, d, e, f, g, h, i, j, k)
 #define mslip_normal_force(...) with_outputs_normal_force(__VA_ARGS__, NULL, NULL, NULL)
 #define with_outputs_normal_force(a, b, c, d, e, f, ...) \
     mslip_normal_force(a, b, c, d, e, f)
@@ -89,11 +89,11 @@
 #define mslip_element_harmonic_force(...) with_outputs_element_harmonic_force(__VA_ARGS__, NULL, NULL, NULL, NULL)
 #define with_outputs_element_harmonic_force(a, b, c, d, e, f, g, ...) \
     mslip_element_harmonic_force(a, b, c, d, e, f, g)
-#define mslip_batch_element_update(...) with_outputs_batch_element_update(__VA_ARGS__, NULL, NULL, NULL)
-#define with_outputs_batch_element_update(a, b, c, d, e, f, g, h, i, j, k, l, ...) \
-    mslip_batch_element_update(a, b, c, d, e, f, g, h, i, j, k, l)
-#define mslip_batch_element_harmonic_force(...) with_outputs_batch_element_harmonic_force(__VA_ARGS__, NULL, NULL, NULL, NULL)
-#define with_outputs_batch_element_harmonic_force(a, b, c, d, e, f, g, h, i, j, k, ...) \
-    mslip_batch_element_harmonic_force(a, b, c, d, e, f, g, h, i, j, k)
+#define mslip_batch_element_update(...) with_outputs_batch_element_update(__VA_ARGS__, NULL, NULL, NULL, NULL)
+#define with_outputs_batch_element_update(a, b, c, d, e, f, g, h, i, j, k, l, m, ...) \
+    mslip_batch_element_update(a, b, c, d, e, f, g, h, i, j, k, l, m)
+#define mslip_batch_element_harmonic_force(...) with_outputs_batch_element_harmonic_force(__VA_ARGS__, NULL, NULL, NULL, NULL, NULL)
+#define with_outputs_batch_element_harmonic_force(a, b, c, d, e, f, g, h, i, j, k, l, ...) \
+    mslip_batch_element_harmonic_force(a, b, c, d, e, f, g, h, i, j, k, l)
 
 #endif

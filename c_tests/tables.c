@@ -145,8 +145,8 @@ static int32_t batch(const law *l, size_t length, const double *from, const doub
 {
     static const int32_t index[2] = { 0, 0 };
     return l->element == NULL
-               ? mslip_batch_masing_update(2, 1, l->contact, index, NULL, length, from, u, to, force, tangent, energy)
-               : mslip_batch_element_update(2, 1, l->element, index, NULL, length, from, u, to, force, tangent, energy);
+               ? mslip_batch_masing_update(2, 1, l->contact, index, NULL, length, from, u, to, force, tangent, energy, NULL)
+               : mslip_batch_element_update(2, 1, l->element, index, NULL, length, from, u, to, force, tangent, energy, NULL);
 }
 
 /* The results of a history. */

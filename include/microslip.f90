@@ -152,7 +152,7 @@ module microslip
     !! Fortran), or an array is too long to be addressed
   integer(mslip_int), parameter, public :: MSLIP_BAD_ALIGNMENT = 91
     !! misaligned pointer: doubles need 8-byte, int32 flags 4-byte alignment
-  integer(mslip_int), parameter, public :: MSLIP_MODULE_ABI_VERSION = 5
+  integer(mslip_int), parameter, public :: MSLIP_MODULE_ABI_VERSION = 6
     !! Version of this interface: incremented whenever a name, a meaning or a size changes.
   integer(mslip_int), parameter, public :: MSLIP_CENTRE_POINT = 0
     !! Displacement of the centre point under a line of uniform traction: Eq. 5-10 of the paper.
@@ -734,47 +734,50 @@ module microslip
     end function c_element_tractions
 
     integer(c_int32_t) function c_batch_complex_stiffness(n, n_contacts, contacts, index, active, amplitude, k_real, &
-      k_imag, dk_real, dk_imag) bind(c, name='mslip_batch_complex_stiffness')
+      k_imag, dk_real, dk_imag, failed_item) bind(c, name='mslip_batch_complex_stiffness')
       import
       integer(c_size_t), value :: n, n_contacts
       type(mslip_contact), intent(in) :: contacts(*)
-      type(c_ptr), value :: index, active, k_real, k_imag, dk_real, dk_imag
+      type(c_ptr), value :: index, active, k_real, k_imag, dk_real, dk_imag, failed_item
       real(c_double), intent(in) :: amplitude(*)
     end function c_batch_complex_stiffness
 
     integer(c_int32_t) function c_batch_masing_update(n, n_contacts, contacts, index, active, state_length, &
-      states_old, displacement, states_new, force, stiffness, dissipated) bind(c, name='mslip_batch_masing_update')
+      states_old, displacement, states_new, force, stiffness, dissipated, failed_item) &
+      bind(c, name='mslip_batch_masing_update')
       import
       integer(c_size_t), value :: n, n_contacts, state_length
       type(mslip_contact), intent(in) :: contacts(*)
-      type(c_ptr), value :: index, active, states_old, states_new, force, stiffness, dissipated
+      type(c_ptr), value :: index, active, states_old, states_new, force, stiffness, dissipated, failed_item
       real(c_double), intent(in) :: displacement(*)
     end function c_batch_masing_update
 
     integer(c_int32_t) function c_batch_harmonic_force(n, n_contacts, contacts, index, active, workspace, &
-      displacement, force, jacobian, dissipated) bind(c, name='mslip_batch_harmonic_force')
+      displacement, force, jacobian, dissipated, failed_item) bind(c, name='mslip_batch_harmonic_force')
       import
       integer(c_size_t), value :: n, n_contacts
       type(mslip_contact), intent(in) :: contacts(*)
-      type(c_ptr), value :: index, active, workspace, force, jacobian, dissipated
+      type(c_ptr), value :: index, active, workspace, force, jacobian, dissipated, failed_item
       real(c_double), intent(in) :: displacement(*)
     end function c_batch_harmonic_force
 
     integer(c_int32_t) function c_batch_element_update(n, n_elements, elements, index, active, state_length, &
-      states_old, displacement, states_new, force, tangent, dissipated) bind(c, name='mslip_batch_element_update')
+      states_old, displacement, states_new, force, tangent, dissipated, failed_item) &
+      bind(c, name='mslip_batch_element_update')
       import
       integer(c_size_t), value :: n, n_elements, state_length
       type(mslip_element), intent(in) :: elements(*)
-      type(c_ptr), value :: index, active, states_old, states_new, force, tangent, dissipated
+      type(c_ptr), value :: index, active, states_old, states_new, force, tangent, dissipated, failed_item
       real(c_double), intent(in) :: displacement(*)
     end function c_batch_element_update
 
     integer(c_int32_t) function c_batch_element_harmonic_force(n, n_elements, elements, index, active, workspace, &
-      displacement, force, jacobian, dissipated, drift) bind(c, name='mslip_batch_element_harmonic_force')
+      displacement, force, jacobian, dissipated, drift, failed_item) &
+      bind(c, name='mslip_batch_element_harmonic_force')
       import
       integer(c_size_t), value :: n, n_elements
       type(mslip_element), intent(in) :: elements(*)
-      type(c_ptr), value :: index, active, workspace, force, jacobian, dissipated, drift
+      type(c_ptr), value :: index, active, workspace, force, jacobian, dissipated, drift, failed_item
       real(c_double), intent(in) :: displacement(*)
     end function c_batch_element_harmonic_force
 
@@ -1556,7 +1559,7 @@ contains
   ! Batches: n items at once. Item i uses contacts(index(i)), or contacts(i) without an index
 
   subroutine mslip_batch_complex_stiffness(contacts, amplitude, status, index, active, k_real, k_imag, dk_real, &
-    dk_imag)
+    dk_imag, failed_item)
     !! mslip_complex_stiffness for n items, one amplitude each.
     type(mslip_contact), intent(in) :: contacts(:)  !! Initialised contacts.
     real(mslip_real), intent(in) :: amplitude(:)  !! Amplitude of the displacement [m], 0 to 1e150; 0 gives the initial stiffness.
@@ -1570,12 +1573,17 @@ contains
     real(mslip_real), intent(inout), optional, target, contiguous :: k_imag(:)  !! K'' [N/m], >= 0.
     real(mslip_real), intent(inout), optional, target, contiguous :: dk_real(:)  !! dK'/d(amplitude) [N/m2].
     real(mslip_real), intent(inout), optional, target, contiguous :: dk_imag(:)  !! dK''/d(amplitude) [N/m2].
+    integer(mslip_size), intent(inout), optional :: failed_item
+      !! On an error the first item at fault, from 1; 0 if the error is not the error of an item. Not written on
+      !! success.
 
     integer(mslip_size) :: n
     integer(mslip_int), allocatable, target :: from_zero(:)
+    integer(mslip_size), target :: failed
     type(c_ptr) :: ptr(6)
 
     n = size(amplitude, kind=mslip_size)
+    failed = n
     ptr = c_null_ptr
     call check_index(size(contacts, kind=mslip_size), n, index, from_zero, ptr(1), status)
     if (present(active)) call check_array(active, n, ptr(2), status)
@@ -1584,11 +1592,13 @@ contains
     if (present(dk_real)) call check_array(dk_real, n, ptr(5), status)
     if (present(dk_imag)) call check_array(dk_imag, n, ptr(6), status)
     if (status == MSLIP_OK) status = c_batch_complex_stiffness(n, size(contacts, kind=mslip_size), contacts, ptr(1), &
-      ptr(2), amplitude, ptr(3), ptr(4), ptr(5), ptr(6))
+      ptr(2), amplitude, ptr(3), ptr(4), ptr(5), ptr(6), c_loc(failed))
+    ! C counts from 0, and gives n if no item is at fault.
+    if (present(failed_item) .and. status /= MSLIP_OK) failed_item = merge(failed + 1, 0_mslip_size, failed < n)
   end subroutine mslip_batch_complex_stiffness
 
   subroutine mslip_batch_masing_update(contacts, states_old, displacement, states_new, status, index, active, force, &
-    stiffness, dissipated)
+    stiffness, dissipated, failed_item)
     !! mslip_masing_update for n items: states hold state_length doubles per item, contiguously; displacement, force,
     !! stiffness and dissipated one.
     type(mslip_contact), intent(in) :: contacts(:)  !! Initialised contacts.
@@ -1608,12 +1618,17 @@ contains
     real(mslip_real), intent(inout), optional, target, contiguous :: stiffness(:)
       !! Derivative of the force with respect to the displacement at the end of the step [N/m].
     real(mslip_real), intent(inout), optional, target, contiguous :: dissipated(:)  !! Energy dissipated by the step [J].
+    integer(mslip_size), intent(inout), optional :: failed_item
+      !! On an error the first item at fault, from 1; 0 if the error is not the error of an item. Not written on
+      !! success.
 
     integer(mslip_size) :: n
     integer(mslip_int), allocatable, target :: from_zero(:)
+    integer(mslip_size), target :: failed
     type(c_ptr) :: ptr(7)
 
     n = size(displacement, kind=mslip_size)
+    failed = n
     ptr = c_null_ptr
     call check_index(size(contacts, kind=mslip_size), n, index, from_zero, ptr(1), status)
     if (present(active)) call check_array(active, n, ptr(2), status)
@@ -1623,11 +1638,13 @@ contains
     if (present(stiffness)) call check_array(stiffness, n, ptr(6), status)
     if (present(dissipated)) call check_array(dissipated, n, ptr(7), status)
     if (status == MSLIP_OK) status = c_batch_masing_update(n, size(contacts, kind=mslip_size), contacts, ptr(1), &
-      ptr(2), size(states_old, 1, mslip_size), ptr(3), displacement, ptr(4), ptr(5), ptr(6), ptr(7))
+      ptr(2), size(states_old, 1, mslip_size), ptr(3), displacement, ptr(4), ptr(5), ptr(6), ptr(7), c_loc(failed))
+    ! C counts from 0, and gives n if no item is at fault.
+    if (present(failed_item) .and. status /= MSLIP_OK) failed_item = merge(failed + 1, 0_mslip_size, failed < n)
   end subroutine mslip_batch_masing_update
 
   subroutine mslip_batch_masing_advance(contacts, states, displacement, status, index, active, force, stiffness, &
-    dissipated)
+    dissipated, failed_item)
     !! `mslip_batch_masing_update` in place: the new state replaces the old one.
     type(mslip_contact), intent(in) :: contacts(:)  !! Initialised contacts.
     real(mslip_real), intent(inout), target, contiguous :: states(:, :)
@@ -1643,12 +1660,17 @@ contains
     real(mslip_real), intent(inout), optional, target, contiguous :: stiffness(:)
       !! Derivative of the force with respect to the displacement at the end of the step [N/m].
     real(mslip_real), intent(inout), optional, target, contiguous :: dissipated(:)  !! Energy dissipated by the step [J].
+    integer(mslip_size), intent(inout), optional :: failed_item
+      !! On an error the first item at fault, from 1; 0 if the error is not the error of an item. Not written on
+      !! success.
 
     integer(mslip_size) :: n
     integer(mslip_int), allocatable, target :: from_zero(:)
+    integer(mslip_size), target :: failed
     type(c_ptr) :: ptr(6)
 
     n = size(displacement, kind=mslip_size)
+    failed = n
     ptr = c_null_ptr
     call check_index(size(contacts, kind=mslip_size), n, index, from_zero, ptr(1), status)
     if (present(active)) call check_array(active, n, ptr(2), status)
@@ -1657,11 +1679,13 @@ contains
     if (present(stiffness)) call check_array(stiffness, n, ptr(5), status)
     if (present(dissipated)) call check_array(dissipated, n, ptr(6), status)
     if (status == MSLIP_OK) status = c_batch_masing_update(n, size(contacts, kind=mslip_size), contacts, ptr(1), &
-      ptr(2), size(states, 1, mslip_size), ptr(3), displacement, ptr(3), ptr(4), ptr(5), ptr(6))
+      ptr(2), size(states, 1, mslip_size), ptr(3), displacement, ptr(3), ptr(4), ptr(5), ptr(6), c_loc(failed))
+    ! C counts from 0, and gives n if no item is at fault.
+    if (present(failed_item) .and. status /= MSLIP_OK) failed_item = merge(failed + 1, 0_mslip_size, failed < n)
   end subroutine mslip_batch_masing_advance
 
   subroutine mslip_batch_harmonic_force(contacts, workspace, displacement, status, index, active, force, jacobian, &
-    dissipated)
+    dissipated, failed_item)
     !! mslip_harmonic_force for n items with one workspace: displacement and force hold 2H+1 doubles per item, jacobian
     !! (2H+1)^2, dissipated one.
     type(mslip_contact), intent(in) :: contacts(:)  !! Initialised contacts.
@@ -1678,14 +1702,20 @@ contains
     real(mslip_real), intent(inout), optional, target, contiguous :: jacobian(:, :, :)
       !! (k, k, n): Derivatives of the force coefficients with respect to the displacement coefficients [N/m].
     real(mslip_real), intent(inout), optional, target, contiguous :: dissipated(:)  !! Energy dissipated per period [J].
+    integer(mslip_size), intent(inout), optional :: failed_item
+      !! On an error the first item at fault, from 1; 0 if the error is not the error of an item. Not written on
+      !! success.
 
     integer(mslip_size) :: k, n
     integer(mslip_int), allocatable, target :: from_zero(:)
+    integer(mslip_size), target :: failed
     type(c_ptr) :: ptr(5)
 
     call count_coefficients(workspace, k, status)
+    if (present(failed_item) .and. status /= MSLIP_OK) failed_item = 0
     if (status /= MSLIP_OK) return
     n = size(displacement, 2, mslip_size)
+    failed = n
     ptr = c_null_ptr
     call check_index(size(contacts, kind=mslip_size), n, index, from_zero, ptr(1), status)
     if (present(active)) call check_array(active, n, ptr(2), status)
@@ -1694,7 +1724,9 @@ contains
     if (present(dissipated)) call check_array(dissipated, n, ptr(5), status)
     if (size(displacement, 1, mslip_size) /= k) status = MSLIP_BAD_COEFFICIENTS
     if (status == MSLIP_OK) status = c_batch_harmonic_force(n, size(contacts, kind=mslip_size), contacts, ptr(1), &
-      ptr(2), address_of(workspace), displacement, ptr(3), ptr(4), ptr(5))
+      ptr(2), address_of(workspace), displacement, ptr(3), ptr(4), ptr(5), c_loc(failed))
+    ! C counts from 0, and gives n if no item is at fault.
+    if (present(failed_item) .and. status /= MSLIP_OK) failed_item = merge(failed + 1, 0_mslip_size, failed < n)
   end subroutine mslip_batch_harmonic_force
 
   ! ---------------------------------------------------------------------------------------------------------------------
@@ -2164,7 +2196,7 @@ contains
   end subroutine mslip_element_harmonic_force
 
   subroutine mslip_batch_element_update(elements, states_old, displacement, states_new, status, index, active, &
-    force, tangent, dissipated)
+    force, tangent, dissipated, failed_item)
     !! mslip_element_update for n items, all with the same number of tangential directions: states hold state_length
     !! doubles per item, contiguously; with m = 2 components for one direction, 3 for two, displacement and force hold m
     !! doubles per item, tangent m x m, dissipated one; m is that of the first item that is not skipped.
@@ -2190,13 +2222,18 @@ contains
     real(mslip_real), intent(inout), optional, target, contiguous :: tangent(:, :, :)
       !! (m, m, n): Derivative of force component i with respect to displacement component j.
     real(mslip_real), intent(inout), optional, target, contiguous :: dissipated(:)  !! Energy dissipated by the step [J].
+    integer(mslip_size), intent(inout), optional :: failed_item
+      !! On an error the first item at fault, from 1; 0 if the error is not the error of an item. Not written on
+      !! success.
 
     integer(mslip_size) :: m, n
     integer(mslip_int), allocatable, target :: from_zero(:)
+    integer(mslip_size), target :: failed
     type(c_ptr) :: ptr(7)
 
     m = size(displacement, 1, mslip_size)
     n = size(displacement, 2, mslip_size)
+    failed = n
     ptr = c_null_ptr
     call check_index(size(elements, kind=mslip_size), n, index, from_zero, ptr(1), status)
     if (present(active)) call check_array(active, n, ptr(2), status)
@@ -2207,11 +2244,13 @@ contains
     if (present(dissipated)) call check_array(dissipated, n, ptr(7), status)
     if (status == MSLIP_OK) call check_components(elements, m, n, index, active, status)
     if (status == MSLIP_OK) status = c_batch_element_update(n, size(elements, kind=mslip_size), elements, ptr(1), &
-      ptr(2), size(states_old, 1, mslip_size), ptr(3), displacement, ptr(4), ptr(5), ptr(6), ptr(7))
+      ptr(2), size(states_old, 1, mslip_size), ptr(3), displacement, ptr(4), ptr(5), ptr(6), ptr(7), c_loc(failed))
+    ! C counts from 0, and gives n if no item is at fault.
+    if (present(failed_item) .and. status /= MSLIP_OK) failed_item = merge(failed + 1, 0_mslip_size, failed < n)
   end subroutine mslip_batch_element_update
 
   subroutine mslip_batch_element_advance(elements, states, displacement, status, index, active, force, tangent, &
-    dissipated)
+    dissipated, failed_item)
     !! `mslip_batch_element_update` in place: the new state replaces the old one.
     type(mslip_element), intent(in) :: elements(:)  !! Initialised elements.
     real(mslip_real), intent(inout), target, contiguous :: states(:, :)
@@ -2232,13 +2271,18 @@ contains
     real(mslip_real), intent(inout), optional, target, contiguous :: tangent(:, :, :)
       !! (m, m, n): Derivative of force component i with respect to displacement component j.
     real(mslip_real), intent(inout), optional, target, contiguous :: dissipated(:)  !! Energy dissipated by the step [J].
+    integer(mslip_size), intent(inout), optional :: failed_item
+      !! On an error the first item at fault, from 1; 0 if the error is not the error of an item. Not written on
+      !! success.
 
     integer(mslip_size) :: m, n
     integer(mslip_int), allocatable, target :: from_zero(:)
+    integer(mslip_size), target :: failed
     type(c_ptr) :: ptr(6)
 
     m = size(displacement, 1, mslip_size)
     n = size(displacement, 2, mslip_size)
+    failed = n
     ptr = c_null_ptr
     call check_index(size(elements, kind=mslip_size), n, index, from_zero, ptr(1), status)
     if (present(active)) call check_array(active, n, ptr(2), status)
@@ -2248,11 +2292,13 @@ contains
     if (present(dissipated)) call check_array(dissipated, n, ptr(6), status)
     if (status == MSLIP_OK) call check_components(elements, m, n, index, active, status)
     if (status == MSLIP_OK) status = c_batch_element_update(n, size(elements, kind=mslip_size), elements, ptr(1), &
-      ptr(2), size(states, 1, mslip_size), ptr(3), displacement, ptr(3), ptr(4), ptr(5), ptr(6))
+      ptr(2), size(states, 1, mslip_size), ptr(3), displacement, ptr(3), ptr(4), ptr(5), ptr(6), c_loc(failed))
+    ! C counts from 0, and gives n if no item is at fault.
+    if (present(failed_item) .and. status /= MSLIP_OK) failed_item = merge(failed + 1, 0_mslip_size, failed < n)
   end subroutine mslip_batch_element_advance
 
   subroutine mslip_batch_element_harmonic_force(elements, workspace, displacement, status, index, active, force, &
-    jacobian, dissipated, drift)
+    jacobian, dissipated, drift, failed_item)
     !! mslip_element_harmonic_force for n items with one workspace: with m = 2 components for a workspace of one
     !! tangential direction, 3 for one of two, displacement and force hold m(2H+1) doubles per item, jacobian
     !! (m(2H+1))^2, dissipated and drift one.
@@ -2279,14 +2325,20 @@ contains
     real(mslip_real), intent(inout), optional, target, contiguous :: drift(:)
       !! Largest difference of the tangential force between the last two periods, over mu times the largest normal
       !! force.
+    integer(mslip_size), intent(inout), optional :: failed_item
+      !! On an error the first item at fault, from 1; 0 if the error is not the error of an item. Not written on
+      !! success.
 
     integer(mslip_size) :: k, n
     integer(mslip_int), allocatable, target :: from_zero(:)
+    integer(mslip_size), target :: failed
     type(c_ptr) :: ptr(6)
 
     call count_element_coefficients(workspace, k, status)
+    if (present(failed_item) .and. status /= MSLIP_OK) failed_item = 0
     if (status /= MSLIP_OK) return
     n = size(displacement, 2, mslip_size)
+    failed = n
     ptr = c_null_ptr
     call check_index(size(elements, kind=mslip_size), n, index, from_zero, ptr(1), status)
     if (present(active)) call check_array(active, n, ptr(2), status)
@@ -2296,7 +2348,9 @@ contains
     if (present(drift)) call check_array(drift, n, ptr(6), status)
     if (size(displacement, 1, mslip_size) /= k) status = MSLIP_BAD_COEFFICIENTS
     if (status == MSLIP_OK) status = c_batch_element_harmonic_force(n, size(elements, kind=mslip_size), elements, &
-      ptr(1), ptr(2), address_of(workspace), displacement, ptr(3), ptr(4), ptr(5), ptr(6))
+      ptr(1), ptr(2), address_of(workspace), displacement, ptr(3), ptr(4), ptr(5), ptr(6), c_loc(failed))
+    ! C counts from 0, and gives n if no item is at fault.
+    if (present(failed_item) .and. status /= MSLIP_OK) failed_item = merge(failed + 1, 0_mslip_size, failed < n)
   end subroutine mslip_batch_element_harmonic_force
   ! </generated>
 

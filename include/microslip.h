@@ -5,14 +5,15 @@
  * Units       One consistent set; the text names SI. Forces are totals (N), not per unit length.
  * Signs       A positive displacement gives a positive force: the internal force of the contact.
  * Errors      Every function that can fail returns MSLIP_OK (0) or a positive status code; mslip_status_text has the message. On an
- *             error no output is modified. Infinite and NaN inputs are rejected.
+ *             error no output but failed_item of a batch is modified. Infinite and NaN inputs are rejected.
  * Outputs     An output that is NULL is not computed.
  * Memory      Each pointer is NULL or valid for what it stands for: as many items as its text says, [n] or one for each of n; one if
  *             that says nothing; a state or other memory for as many doubles as the length that is passed with it. Contacts,
  *             elements, states and tables may be memory of that size which was never initialised, a workspace must have been.
  * Aliasing    Output buffers must not alias any other argument, except where stated.
  * Batches     Item i uses contacts[index[i]], or contacts[i] if index is NULL; so do elements. If active is not NULL and active[i] is
- *             0, item i is skipped, and its state is not written.
+ *             0, item i is skipped, and its state is not written. On an error no item is modified, and *failed_item (NULL allowed) is the
+ *             first item at fault; it is n if the error is not the error of an item. On success *failed_item is not written.
  * Ownership   All memory is the caller's: contacts, states, workspaces and tables are plain data that may be copied, stored in
  *             restart files and sent through MPI. The fields of mslip_contact may be read; everything else is reserved. A call
  *             recognises memory that was never initialised, is too short, or belongs to another version of this interface; the
@@ -166,7 +167,7 @@
 #define MSLIP_BAD_ALIGNMENT 91
 
 // Version of this interface: incremented whenever a name, a meaning or a size changes.
-#define MSLIP_ABI_VERSION 5
+#define MSLIP_ABI_VERSION 6
 
 // Displacement of the centre point under a line of uniform traction: Eq. 5-10 of the paper.
 #define MSLIP_CENTRE_POINT 0
@@ -861,7 +862,8 @@ int32_t mslip_batch_complex_stiffness(size_t n,
                                       double *k_real,
                                       double *k_imag,
                                       double *dk_real,
-                                      double *dk_imag);
+                                      double *dk_imag,
+                                      size_t *failed_item);
 
 // mslip_masing_update for n items: states hold state_length doubles per item, contiguously; displacement, force, stiffness and
 // dissipated one. states_new may alias states_old.
@@ -878,7 +880,8 @@ int32_t mslip_batch_masing_update(size_t n,
                                   double *states_new,
                                   double *force,
                                   double *stiffness,
-                                  double *dissipated);
+                                  double *dissipated,
+                                  size_t *failed_item);
 
 // mslip_harmonic_force for n items with one workspace: displacement and force hold 2H+1 doubles per item, jacobian (2H+1)^2,
 // dissipated one.
@@ -893,7 +896,8 @@ int32_t mslip_batch_harmonic_force(size_t n,
                                    const double *displacement,
                                    double *force,
                                    double *jacobian,
-                                   double *dissipated);
+                                   double *dissipated,
+                                   size_t *failed_item);
 
 // mslip_element_update for n items, all with the same number of tangential directions: states hold state_length doubles per item,
 // contiguously; with m = 2 components for one direction, 3 for two, displacement and force hold m doubles per item, tangent m x m,
@@ -912,7 +916,8 @@ int32_t mslip_batch_element_update(size_t n,
                                    double *states_new,
                                    double *force,
                                    double *tangent,
-                                   double *dissipated);
+                                   double *dissipated,
+                                   size_t *failed_item);
 
 // mslip_element_harmonic_force for n items with one workspace: with m = 2 components for a workspace of one tangential direction,
 // 3 for one of two, displacement and force hold m(2H+1) doubles per item, jacobian (m(2H+1))^2, dissipated and drift one.
@@ -929,7 +934,8 @@ int32_t mslip_batch_element_harmonic_force(size_t n,
                                            double *force,
                                            double *jacobian,
                                            double *dissipated,
-                                           double *drift);
+                                           double *drift,
+                                           size_t *failed_item);
 
 #ifdef __cplusplus
 }  // extern "C"

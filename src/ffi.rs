@@ -39,7 +39,7 @@ use crate::error::Error;
 use core::ffi::c_char;
 
 /// Version of this interface: incremented whenever a name, a meaning or a size changes.
-pub const MSLIP_ABI_VERSION: i32 = 5;
+pub const MSLIP_ABI_VERSION: i32 = 6;
 
 /// Displacement of the centre point under a line of uniform traction: Eq. 5-10 of the paper.
 pub const MSLIP_CENTRE_POINT: i32 = 0;

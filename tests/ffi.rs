@@ -53,6 +53,52 @@ fn bytes(arguments: &Arguments) -> Vec<Vec<u8>> {
     arguments.memory.iter().flatten().map(|memory| memory.values().to_vec()).collect()
 }
 
+/// A failed item that is not written.
+const UNWRITTEN: usize = usize::from_ne_bytes([FILLED; size_of::<usize>()]);
+
+/// The failed item of a batch, which is set to another value; `None` if it is no argument.
+fn take_failed_item(call: &Call, arguments: &Arguments) -> Option<usize> {
+    let memory = arguments.memory(call.place(FailedItem)?);
+    let failed = memory.values::<usize>()[0];
+    memory.fill(FILLED);
+    Some(failed)
+}
+
+/// The failed item of a batch that was rejected is rejected alone, and those before it are accepted. It is n if the call is rejected
+/// without any item.
+fn check_failed_item(call: &Call, arguments: &Arguments, failed: usize, status: i32, what: &str) {
+    let [active, output, count] = [Active, FailedItem, Count].map(|kind| call.place(kind).expect("an argument"));
+    let (start, n) = (arguments.memory(output).start, arguments.slots[count].get::<usize>());
+    if status == MSLIP_OK || arguments.slots[output].pointer() != Some(start) {
+        assert_eq!(failed, UNWRITTEN, "{}: {what}", call.name);
+        return;
+    }
+    let before = bytes(arguments);
+    let status_of = |is_active: &dyn Fn(usize) -> bool, output_of_item: *mut u8| {
+        let flags = Memory::of(&(0..N).map(|i| i32::from(is_active(i))).collect::<Vec<_>>());
+        let mut slots = arguments.slots.clone();
+        slots[output] = Slot::Pointer(output_of_item);
+        if status != MSLIP_BAD_ALIGNMENT {
+            slots[active] = Slot::Pointer(flags.start);
+        }
+        call.make(&slots)
+    };
+    assert!(failed <= n, "{}: {what}: failed item {failed}", call.name);
+    if failed == n {
+        // The length of states is checked with each state.
+        let status = if status == MSLIP_STATE_TOO_SHORT { MSLIP_OK } else { status };
+        assert_eq!(status_of(&|_| false, null_mut()), status, "{}: {what}: without items", call.name);
+    } else {
+        assert_eq!(status_of(&|i| i == failed, null_mut()), status, "{}: {what}: item {failed}", call.name);
+        assert_eq!(status_of(&|i| i < failed, start), MSLIP_OK, "{}: {what}: before item {failed}", call.name);
+    }
+    for (memory, before) in arguments.memory.iter().flatten().zip(before) {
+        // SAFETY: valid for the bytes.
+        unsafe { memory.start.copy_from_nonoverlapping(before.as_ptr(), before.len()) };
+    }
+    assert!(take_failed_item(call, arguments).is_some());
+}
+
 /// Rejected with this status, and no memory is modified.
 fn rejected_as(call: &Call, arguments: &Arguments, status: i32, what: &str) {
     rejected_in(0..calls::MODES, call, arguments, status, what);
@@ -60,9 +106,13 @@ fn rejected_as(call: &Call, arguments: &Arguments, status: i32, what: &str) {
 
 /// Rejected in these rounding modes.
 fn rejected_in(modes: Range<usize>, call: &Call, arguments: &Arguments, status: i32, what: &str) {
+    take_failed_item(call, arguments);
     let before = bytes(arguments);
     for mode in modes {
         assert_eq!(call.make_rounding(mode, &arguments.slots), status, "{}: {what}, rounding mode {mode}", call.name);
+        if let Some(failed) = take_failed_item(call, arguments) {
+            check_failed_item(call, arguments, failed, status, what);
+        }
     }
     // Whether the normal motion of an element is allowed depends on samples in the workspace.
     let by_samples = call.has(Workspace) && matches!(status, MSLIP_LENGTH_TOO_SHORT | MSLIP_BAD_NORMAL_FORCE);
@@ -329,6 +379,7 @@ fn skipped_items() {
                 });
             }
             assert_eq!(call.make(&arguments.slots), MSLIP_OK, "{}", call.name);
+            assert_eq!(take_failed_item(call, &arguments), Some(UNWRITTEN));
             for place in places(call, Output).chain(places(call, NewState)) {
                 let bytes = arguments.memory(place).values::<u8>();
                 let (written, last) = bytes.split_at(bytes.len() / N * (N - 1));
@@ -341,6 +392,26 @@ fn skipped_items() {
             let law = call.place(Contact).or(call.place(Element)).expect("a batch of laws");
             let status = if with_index { MSLIP_BAD_INDEX } else { call.arguments[law].status };
             rejected_as(call, &arguments, status, "an invalid item");
+        }
+    });
+}
+
+/// Two items are at fault, each in one of its arguments: the first one is reported.
+#[test]
+fn first_item_at_fault() {
+    for_each_call(|call, law| {
+        let Some(index) = call.place(Index) else { return };
+        let of_item = |place: &usize| matches!(call.arguments[*place].kind, Index | Contact | Element | State | Input);
+        let places: Vec<usize> = (0..call.arguments.len()).filter(of_item).collect();
+        for (first, second) in places.iter().flat_map(|first| places.iter().map(move |second| (*first, *second))) {
+            let mut arguments = Arguments::new(call, law, Before::Filled);
+            arguments.memory_mut(index).values_mut().copy_from_slice(&[0, 1, 2]);
+            for (item, place) in [(1, first), (2, second)] {
+                let memory = arguments.memory_mut(place);
+                let share = memory.bytes / N;
+                memory.values_mut::<u8>()[share * item..share * (item + 1)].fill(u8::MAX);
+            }
+            rejected_as(call, &arguments, call.arguments[first].status, "two items at fault");
         }
     });
 }

@@ -218,7 +218,7 @@ fn batch(normal_force: f64, shared: bool, active: i32) -> Batch {
 fn batch_stiffness(b: Batch) -> Call {
     let [p, q, r, s] = outputs(4);
     prepared(move || unsafe {
-        mslip_batch_complex_stiffness(POINTS, b.n_contacts, b.contacts, b.index, b.active, b.u, p, q, r, s)
+        mslip_batch_complex_stiffness(POINTS, b.n_contacts, b.contacts, b.index, b.active, b.u, p, q, r, s, null_mut())
     })
 }
 
@@ -229,7 +229,21 @@ fn batch_update(b: Batch) -> Call {
         unsafe { assert_eq!(mslip_state_init(STATE, old.add(i * STATE)), MSLIP_OK) };
     }
     prepared(move || unsafe {
-        mslip_batch_masing_update(POINTS, b.n_contacts, b.contacts, b.index, b.active, STATE, old, b.u, new, p, q, r)
+        mslip_batch_masing_update(
+            POINTS,
+            b.n_contacts,
+            b.contacts,
+            b.index,
+            b.active,
+            STATE,
+            old,
+            b.u,
+            new,
+            p,
+            q,
+            r,
+            null_mut(),
+        )
     })
 }
 
@@ -240,7 +254,19 @@ fn batch_harmonics(b: Batch) -> Call {
     let [p, q, r] = outputs(3);
     unsafe { assert_eq!(mslip_harmonic_workspace_init(1, 64, UNIFORM, length, workspace), MSLIP_OK) };
     prepared(move || unsafe {
-        mslip_batch_harmonic_force(POINTS, b.n_contacts, b.contacts, b.index, b.active, workspace, motion, p, q, r)
+        mslip_batch_harmonic_force(
+            POINTS,
+            b.n_contacts,
+            b.contacts,
+            b.index,
+            b.active,
+            workspace,
+            motion,
+            p,
+            q,
+            r,
+            null_mut(),
+        )
     })
 }
 
@@ -323,7 +349,7 @@ fn batch_element(shared: bool, active: i32) -> Call {
         }
     }
     prepared(move || unsafe {
-        mslip_batch_element_update(POINTS, n, elements, index, active, ELEMENT_STATE, old, x, new, p, q, r)
+        mslip_batch_element_update(POINTS, n, elements, index, active, ELEMENT_STATE, old, x, new, p, q, r, null_mut())
     })
 }
 

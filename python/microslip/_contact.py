@@ -16,6 +16,7 @@ from ._core import (
     Parameter,
     Value,
     Values,
+    call_batch,
     check,
     doubles,
     elementwise,
@@ -304,6 +305,6 @@ class ContactArray(_LawArray[Contact]):
         """Complex stiffness [N/m] and its derivatives of n items at amplitude[n] [m]."""
         amplitude = doubles(amplitude, "amplitude", (None,))
         out = [np.zeros(len(amplitude)) for _ in range(4)]
-        head = self._head(len(amplitude), index, active)
-        check(lib.mslip_batch_complex_stiffness(*head, pointer(amplitude), *map(pointer, out)))
+        n = len(amplitude)
+        call_batch("complex_stiffness", n, *self._head(n, index, active), pointer(amplitude), *map(pointer, out))
         return ComplexStiffness(*out)

@@ -90,14 +90,17 @@ class Parameter(IntEnum):
 
 
 class Error(ValueError):
-    """A call that the library rejected. The text is the message of the status code; no state has changed."""
+    """A call that the library rejected. The text is the message of the status code; no state has changed. `item` is the first
+    item at fault of a call for many items, None if the error is not the error of an item.
+    """
 
-    def __init__(self, status: int) -> None:
-        super().__init__(status)
-        self.status = Status(status)
+    def __init__(self, status: int, item: int | None = None) -> None:
+        super().__init__(status, item)
+        self.status, self.item = Status(status), item
 
     def __str__(self) -> str:
-        return f"{status_text(self.status)} ({self.status.name})"
+        of_item = "" if self.item is None else f"item {self.item}: "
+        return f"{of_item}{status_text(self.status)} ({self.status.name})"
 
 
 def status_text(status: int) -> str:
@@ -109,6 +112,14 @@ def status_text(status: int) -> str:
 def check(status: int) -> None:
     if status:
         raise Error(status)
+
+
+def call_batch(name: str, n: int, *arguments: Any) -> None:
+    """Calls the function for n items."""
+    failed_item = ffi.new("size_t *")
+    status = getattr(lib, f"mslip_batch_{name}")(n, *arguments, failed_item)
+    if status:
+        raise Error(status, failed_item[0] if failed_item[0] < n else None)
 
 
 T = TypeVar("T")

@@ -19,6 +19,7 @@ from ._core import (
     Values,
     binary,
     boolean,
+    call_batch,
     check,
     choice,
     doubles,
@@ -188,7 +189,7 @@ class _Law(_Components):
     def _harmonic_force(self, workspace: Any, displacement: ArrayLike, jacobian: bool) -> HarmonicForce:
         shape = instance(workspace, self._workspace, "workspace")._shape
         displacement = doubles(displacement, "displacement", shape)
-        return _harmonic_force(f"mslip_{self._harmonic}", [self._c], workspace, displacement, jacobian)
+        return _harmonic_force(self._harmonic, [self._c], workspace, displacement, jacobian)
 
 
 L = TypeVar("L", bound=_Law)
@@ -205,7 +206,10 @@ def _harmonic_force(name: str, head: list[Any], workspace: Any, displacement: Ar
     outputs = (force, matrix, dissipated, drift) if "element" in name else (force, matrix, dissipated)
     arguments = map(pointer, (displacement, *outputs))
     with workspace._lock:
-        check(getattr(lib, name)(*head, workspace._memory, *arguments))
+        if number_of_items:
+            call_batch(name, *number_of_items, *head, workspace._memory, *arguments)
+        else:
+            check(getattr(lib, f"mslip_{name}")(*head, workspace._memory, *arguments))
     return HarmonicForce(force, None if matrix is None else transposed(matrix), dissipated[()], drift[()])
 
 
@@ -246,7 +250,7 @@ class _LawArray(_Components, Generic[L]):
         if index is None and n > len(self):
             raise ValueError(f"{n} items need an index: there are {len(self)} {self._item.__name__.lower()}s")
         chosen = flags(index, "index", n, "iu", "integers"), flags(active, "active", n, "biu", "booleans or integers")
-        return [n, len(self), self._c, *map(pointer, chosen)]
+        return [len(self), self._c, *map(pointer, chosen)]
 
     def _states(self, n: int | None, state: _History) -> Array:
         return np.tile(state.array, (len(self) if n is None else integer(n, "n"), 1))
@@ -275,7 +279,7 @@ class _LawArray(_Components, Generic[L]):
                 raise ValueError(f"out must not overlap {name}")
         force, tangent, dissipated = np.zeros((n, *shape)), np.zeros((n, *shape, *shape)), np.zeros(n)
         arrays = map(pointer, (old, displacement, new, force, tangent, dissipated))
-        check(getattr(lib, f"mslip_batch_{self._item._step}")(*self._head(n, index, active), old.shape[1], *arrays))
+        call_batch(self._item._step, n, *self._head(n, index, active), old.shape[1], *arrays)
         return force, transposed(tangent) if shape else tangent, dissipated, new
 
     def harmonic_force(
@@ -293,4 +297,4 @@ class _LawArray(_Components, Generic[L]):
         shape = instance(workspace, self._item._workspace, "workspace")._shape
         displacement = doubles(displacement, "displacement", (None, *shape))
         head = self._head(len(displacement), index, active)
-        return _harmonic_force(f"mslip_batch_{self._item._harmonic}", head, workspace, displacement, jacobian)
+        return _harmonic_force(self._item._harmonic, head, workspace, displacement, jacobian)

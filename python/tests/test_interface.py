@@ -229,6 +229,20 @@ def test_batches_are_single_calls():
     assert [c.slip_force for c in contacts] == [contact.slip_force, elliptic.slip_force]
 
 
+def test_batches_name_the_item_at_fault():
+    displacement = [[SLIP, 1e-6], [SLIP, np.nan]]
+    with pytest.raises(microslip.Error, match=r"^item 1: a displacement must be finite") as caught:
+        elements.update(elements.states(), displacement)
+    assert caught.value.item == reloaded(caught.value).item == 1
+    with pytest.raises(microslip.Error, match=r"^item 2: .*BAD_INDEX") as caught:
+        contacts.complex_stiffness(np.zeros(3), index=[0, 1, 2])
+    with pytest.raises(microslip.Error, match=r"^item 0: .*BAD_DIRECTIONS") as caught:
+        elements.harmonic_force(microslip.ElementWorkspace(2, 1, 8), np.zeros((2, 3, 3)))
+    with pytest.raises(microslip.Error, match=r"^state_length must") as caught:
+        contacts.update(contacts.states()[:, :0], [0, 0])
+    assert caught.value.item is None
+
+
 def test_plain_data_is_pickled_and_checked():
     state = contact.update(microslip.State(), [SLIP / 2, -SLIP / 4]).state
     for value in [contact, elliptic, element, both, state, pressed(), pressed(2)]:

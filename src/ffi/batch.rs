@@ -1,8 +1,8 @@
-//! Batches of contacts and of elements: all items are checked before the first output is written.
+//! Batches of contacts and of elements: all items are checked, in order, before the first output is written.
 
 use super::pointers::{
-    self, call, check_alignment, check_length, input, item, output, outputs, place, requested, set, state_input,
-    with_law,
+    self, call, check_alignment, check_input, check_length, input, item, output, outputs, place, requested, set,
+    state_input, with_law,
 };
 use super::{mslip_contact, mslip_element};
 use crate::constant_load::ConstantLoad;
@@ -106,6 +106,29 @@ pub(super) unsafe fn path<L: Law>(
     Ok(())
 }
 
+/// An error of a batch and, if it is the error of an item, its number.
+pub(super) struct Failure {
+    pub error: Error,
+    item: Option<usize>,
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Failure {
+        Failure { error, item: None }
+    }
+}
+
+/// The status of a batch of n items. On an error, `failed_item` is the item at fault, or n if the error is not the error of an item.
+unsafe fn call_batch(n: usize, failed_item: *mut size_t, batch: impl FnOnce() -> Result<(), Failure>) -> i32 {
+    call(|| {
+        let failed_item = place(failed_item)?;
+        batch().map_err(|failure| {
+            set(failed_item, || failure.item.unwrap_or(n));
+            failure.error
+        })
+    })
+}
+
 /// Items of a batch: their contacts or elements, and the flags of the active items.
 #[derive(Clone, Copy)]
 pub(super) struct Items<'a, T> {
@@ -136,11 +159,15 @@ impl<'a, T: Copy> Items<'a, T> {
 
     /// Checks the contacts or elements of all active items, and with each what else belongs to the item.
     #[inline(always)]
-    fn check<L: Law<Item = T>>(self, mut item: impl FnMut(usize, &T) -> Result<(), Error>) -> Result<(), Error> {
-        self.active().try_for_each(|i| {
+    fn check<L: Law<Item = T>>(self, mut item: impl FnMut(usize, &T) -> Result<(), Error>) -> Result<(), Failure> {
+        let mut check_item = |i| {
             let law = self.law(i).ok_or(Error::BadIndex)?;
             L::check(law)?;
             item(i, law)
+        };
+        self.active().try_for_each(|i| {
+            // The length is the same for all states.
+            check_item(i).map_err(|error| Failure { error, item: (error != Error::StateTooShort).then_some(i) })
         })
     }
 
@@ -180,14 +207,14 @@ unsafe fn update<L: Law>(
     (state_length, states_old, states_new): States,
     displacement: *const f64,
     outputs: Outputs,
-) -> Result<(), Error> {
+) -> Result<(), Failure> {
     let length = items.n.checked_mul(state_length).ok_or(Error::BadArraySize)?;
     check_length::<L::Tangent>(items.n)?;
     let displacement = input(displacement.cast::<L::Vector>(), items.n)?;
     check_alignment(states_new)?;
     outputs.iter().try_for_each(|output| check_alignment(*output))?;
     if items.n > 0 && states_old.is_null() {
-        return Err(Error::NullPointer);
+        return Err(Error::NullPointer.into());
     }
     {
         // The reference ends before the new states, which may be the same memory, are written.
@@ -248,20 +275,21 @@ unsafe fn harmonic_forces<L: Law, W>(
     [force, jacobian, dissipated, drift]: [*mut f64; 4],
     check: impl Fn(&mut W, &L::Item, &[f64]) -> Result<(), Error>,
     compute: impl Fn(&L::Item, &mut W, &[f64], HarmonicOutput) -> Result<(), Error>,
-) -> Result<(), Error> {
+) -> Result<(), Failure> {
     check_length::<f64>(items.n.checked_mul(one * one).ok_or(Error::BadArraySize)?)?;
     [force, jacobian, dissipated, drift].iter().try_for_each(|output| check_alignment(*output))?;
-    let displacement = input(displacement, items.n * one)?;
-    let displacement_of = |i: usize| displacement.get(i * one..(i + 1) * one);
-    items.check::<L>(|i, law| check(workspace, law, displacement_of(i).unwrap_or(&[])))?;
-    items.with(displacement_of).try_for_each(|(i, law, displacement)| {
+    check_input(displacement, items.n)?;
+    // The arrays of an element with another number of directions are shorter: its coefficients are referenced after its check.
+    let displacement_of = |i: usize| slice::from_raw_parts(displacement.wrapping_add(i * one), one);
+    items.check::<L>(|i, law| check(workspace, law, displacement_of(i)))?;
+    items.with(|i| Some(displacement_of(i))).try_for_each(|(i, law, displacement)| {
         let output = HarmonicOutput {
             force: requested(item_of(force, i * one), one),
             jacobian: requested(item_of(jacobian, i * one * one), one * one),
             dissipated: item_of(dissipated, i).as_mut(),
             drift: item_of(drift, i).as_mut(),
         };
-        compute(law, workspace, displacement, output)
+        Ok(compute(law, workspace, displacement, output)?)
     })
 }
 
@@ -280,8 +308,9 @@ pub unsafe extern "C" fn mslip_batch_complex_stiffness(
     k_imag: *mut f64,
     dk_real: *mut f64,
     dk_imag: *mut f64,
+    failed_item: *mut size_t,
 ) -> i32 {
-    call(|| {
+    call_batch(n, failed_item, || {
         let (items, amplitude, mut outputs) = (
             Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?,
             input(amplitude, n)?,
@@ -314,8 +343,9 @@ pub unsafe extern "C" fn mslip_batch_masing_update(
     force: *mut f64,
     stiffness: *mut f64,
     dissipated: *mut f64,
+    failed_item: *mut size_t,
 ) -> i32 {
-    call(|| {
+    call_batch(n, failed_item, || {
         let items = Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?;
         let states = (state_length, states_old, states_new);
         update::<ConstantLoad>(items, states, displacement, [force, stiffness, dissipated])
@@ -338,8 +368,9 @@ pub unsafe extern "C" fn mslip_batch_harmonic_force(
     force: *mut f64,
     jacobian: *mut f64,
     dissipated: *mut f64,
+    failed_item: *mut size_t,
 ) -> i32 {
-    call(|| {
+    call_batch(n, failed_item, || {
         let items = Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?;
         let (mut workspace, outputs) =
             (pointers::workspace(workspace)?, [force, jacobian, dissipated, ptr::null_mut()]);
@@ -368,8 +399,9 @@ pub unsafe extern "C" fn mslip_batch_element_update(
     force: *mut f64,
     tangent: *mut f64,
     dissipated: *mut f64,
+    failed_item: *mut size_t,
 ) -> i32 {
-    call(|| {
+    call_batch(n, failed_item, || {
         let items = Items::new(n, n_elements, elements.cast::<Element>(), index, active)?;
         let (states, outputs) = ((state_length, states_old, states_new), [force, tangent, dissipated]);
         with_law!(items.directions(), L => update::<L>(items, states, displacement, outputs))
@@ -394,8 +426,9 @@ pub unsafe extern "C" fn mslip_batch_element_harmonic_force(
     jacobian: *mut f64,
     dissipated: *mut f64,
     drift: *mut f64,
+    failed_item: *mut size_t,
 ) -> i32 {
-    call(|| {
+    call_batch(n, failed_item, || {
         let items = Items::new(n, n_elements, elements.cast(), index, active)?;
         element_harmonic_forces(items, workspace, displacement, [force, jacobian, dissipated, drift])
     })
@@ -407,13 +440,11 @@ pub(super) unsafe fn element_harmonic_forces(
     workspace: *mut f64,
     displacement: *const f64,
     outputs: [*mut f64; 4],
-) -> Result<(), Error> {
+) -> Result<(), Failure> {
     let (directions, size, extent) = pointers::element_workspace_size(workspace)?;
     with_law!(directions, L, law => {
         let mut workspace = law::Workspace::open(output(workspace, extent)?.ok_or(Error::BadWorkspace)?)?;
         let one = (directions as usize + 1) * size.coefficients();
-        // The arrays of an element with another number of directions are shorter: no reference to them is created.
-        items.check::<L>(|_, _| Ok(()))?;
         let (check, compute) = (law::Workspace::check, law::harmonic_force);
         harmonic_forces::<L, _>(items, &mut workspace, one, displacement, outputs, check, compute)
     })

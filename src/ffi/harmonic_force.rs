@@ -175,7 +175,10 @@ pub unsafe extern "C" fn mslip_element_harmonic_force(
     drift: *mut f64,
 ) -> i32 {
     let outputs = [force, jacobian, dissipated, drift];
-    call(|| element_harmonic_forces(Items::one(element.cast())?, workspace, displacement, outputs))
+    call(|| {
+        let items = Items::one(element.cast())?;
+        element_harmonic_forces(items, workspace, displacement, outputs).map_err(|failure| failure.error)
+    })
 }
 
 /// Harmonic force in steady state (the second of two periods from the initial, unloaded state), by alternating frequency/time (AFT)
@@ -199,8 +202,8 @@ pub unsafe extern "C" fn mslip_harmonic_force(
     jacobian: *mut f64,
     dissipated: *mut f64,
 ) -> i32 {
-    let (one, all) = (1, ptr::null());
-    mslip_batch_harmonic_force(one, one, contact, all, all, workspace, displacement, force, jacobian, dissipated)
+    let (all, no_item) = (ptr::null(), ptr::null_mut());
+    mslip_batch_harmonic_force(1, 1, contact, all, all, workspace, displacement, force, jacobian, dissipated, no_item)
 }
 
 /// Derivatives of the harmonic force with respect to the parameters at fixed coefficients of the displacement: displacement \[m\] and

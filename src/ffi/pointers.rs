@@ -40,15 +40,17 @@ pub unsafe fn item<'a, T>(pointer: *const T) -> Result<&'a T, Error> {
     pointer.as_ref().ok_or(Error::NullPointer)
 }
 
-/// An input of n items.
-pub unsafe fn input<'a, T>(pointer: *const T, n: usize) -> Result<&'a [T], Error> {
+/// Rejects the pointer to an input of n items: it may be NULL only if n is 0.
+pub fn check_input<T>(pointer: *const T, n: usize) -> Result<(), Error> {
     check_length::<T>(n)?;
     check_alignment(pointer)?;
-    if n == 0 {
-        return Ok(&[]);
-    }
-    not_null(pointer)?;
-    Ok(slice::from_raw_parts(pointer, n))
+    if n == 0 { Ok(()) } else { not_null(pointer) }
+}
+
+/// An input of n items.
+pub unsafe fn input<'a, T>(pointer: *const T, n: usize) -> Result<&'a [T], Error> {
+    check_input(pointer, n)?;
+    Ok(if n == 0 { &[] } else { slice::from_raw_parts(pointer, n) })
 }
 
 /// A state as an input; not NULL.

@@ -33,6 +33,7 @@ pub enum Kind {
     Choice,
     Index,
     Active,
+    FailedItem,
     FoundChoice,
     FoundSize,
     State,
@@ -49,11 +50,11 @@ use Kind::*;
 
 impl Kind {
     pub fn is_written(self) -> bool {
-        matches!(self, NewContact | NewElement | FoundChoice | FoundSize | NewState | Buffer | Output)
+        matches!(self, NewContact | NewElement | FailedItem | FoundChoice | FoundSize | NewState | Buffer | Output)
     }
 
     pub fn is_required(self) -> bool {
-        !matches!(self, Index | Active | FoundChoice | FoundSize | NewState | Output)
+        !matches!(self, Index | Active | FailedItem | FoundChoice | FoundSize | NewState | Output)
     }
 }
 
@@ -615,7 +616,7 @@ impl Arguments {
                 Index => Err(Memory::of::<i32>(&[2, 0, 1])),
                 Active => Err(Memory::of::<i32>(&[1, -1, 255])),
                 FoundChoice => Err(Memory::new::<i32>(1)),
-                FoundSize => Err(Memory::new::<usize>(1)),
+                FailedItem | FoundSize => Err(Memory::new::<usize>(1)),
                 // Of an element only the used part is written.
                 State | NewState => Err(Memory::of(&law.state(call).values::<f64>().repeat(items))),
                 Workspace => Err(law.workspace(call)),

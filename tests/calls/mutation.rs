@@ -71,7 +71,11 @@ pub fn mutated_call(bytes: &mut Bytes) {
     for (place, (argument, (before, after))) in
         call.arguments.iter().zip(before.iter().zip(contents(&arguments))).enumerate()
     {
-        let may_change = argument.kind == Workspace || status == MSLIP_OK && argument.kind.is_written();
+        let may_change = match argument.kind {
+            Workspace => true,
+            FailedItem => status != MSLIP_OK,
+            kind => status == MSLIP_OK && kind.is_written(),
+        };
         assert!(may_change || *before == after, "{}: argument {place} is modified, status {status}", call.name);
     }
     if memory_is_valid && status == MSLIP_OK {

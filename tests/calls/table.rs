@@ -336,7 +336,7 @@ pub const CALLS: &[Call] = &[
         flat: false,
         one_direction: false,
         function: |a| unsafe { mslip_batch_complex_stiffness(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(), a[5].get(),
-     a[6].get(), a[7].get(), a[8].get(), a[9].get()) },
+     a[6].get(), a[7].get(), a[8].get(), a[9].get(), a[10].get()) },
         arguments: &[
             Argument { name: "n", kind: Count, extents: "", status: MSLIP_OK },
             Argument { name: "n_contacts", kind: Laws, extents: "", status: MSLIP_OK },
@@ -348,6 +348,7 @@ pub const CALLS: &[Call] = &[
             Argument { name: "k_imag", kind: Output, extents: "n", status: MSLIP_OK },
             Argument { name: "dk_real", kind: Output, extents: "n", status: MSLIP_OK },
             Argument { name: "dk_imag", kind: Output, extents: "n", status: MSLIP_OK },
+            Argument { name: "failed_item", kind: FailedItem, extents: "", status: MSLIP_OK },
         ],
     },
     Call {
@@ -355,7 +356,7 @@ pub const CALLS: &[Call] = &[
         flat: false,
         one_direction: false,
         function: |a| unsafe { mslip_batch_masing_update(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(), a[5].get(),
-     a[6].get(), a[7].get(), a[8].get(), a[9].get(), a[10].get(), a[11].get()) },
+     a[6].get(), a[7].get(), a[8].get(), a[9].get(), a[10].get(), a[11].get(), a[12].get()) },
         arguments: &[
             Argument { name: "n", kind: Count, extents: "", status: MSLIP_OK },
             Argument { name: "n_contacts", kind: Laws, extents: "", status: MSLIP_OK },
@@ -369,6 +370,7 @@ pub const CALLS: &[Call] = &[
             Argument { name: "force", kind: Output, extents: "n", status: MSLIP_BAD_FORCE },
             Argument { name: "stiffness", kind: Output, extents: "n", status: MSLIP_OK },
             Argument { name: "dissipated", kind: Output, extents: "n", status: MSLIP_OK },
+            Argument { name: "failed_item", kind: FailedItem, extents: "", status: MSLIP_OK },
         ],
     },
     Call {
@@ -376,7 +378,7 @@ pub const CALLS: &[Call] = &[
         flat: false,
         one_direction: false,
         function: |a| unsafe { mslip_batch_harmonic_force(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(), a[5].get(),
-     a[6].get(), a[7].get(), a[8].get(), a[9].get()) },
+     a[6].get(), a[7].get(), a[8].get(), a[9].get(), a[10].get()) },
         arguments: &[
             Argument { name: "n", kind: Count, extents: "", status: MSLIP_OK },
             Argument { name: "n_contacts", kind: Laws, extents: "", status: MSLIP_OK },
@@ -388,6 +390,7 @@ pub const CALLS: &[Call] = &[
             Argument { name: "force", kind: Output, extents: "kn", status: MSLIP_BAD_FORCE },
             Argument { name: "jacobian", kind: Output, extents: "kkn", status: MSLIP_OK },
             Argument { name: "dissipated", kind: Output, extents: "n", status: MSLIP_OK },
+            Argument { name: "failed_item", kind: FailedItem, extents: "", status: MSLIP_OK },
         ],
     },
     Call {
@@ -588,7 +591,7 @@ pub const CALLS: &[Call] = &[
         flat: false,
         one_direction: false,
         function: |a| unsafe { mslip_batch_element_update(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(), a[5].get(),
-     a[6].get(), a[7].get(), a[8].get(), a[9].get(), a[10].get(), a[11].get()) },
+     a[6].get(), a[7].get(), a[8].get(), a[9].get(), a[10].get(), a[11].get(), a[12].get()) },
         arguments: &[
             Argument { name: "n", kind: Count, extents: "", status: MSLIP_OK },
             Argument { name: "n_elements", kind: Laws, extents: "", status: MSLIP_OK },
@@ -602,6 +605,7 @@ pub const CALLS: &[Call] = &[
             Argument { name: "force", kind: Output, extents: "mn", status: MSLIP_BAD_FORCE },
             Argument { name: "tangent", kind: Output, extents: "mmn", status: MSLIP_OK },
             Argument { name: "dissipated", kind: Output, extents: "n", status: MSLIP_OK },
+            Argument { name: "failed_item", kind: FailedItem, extents: "", status: MSLIP_OK },
         ],
     },
     Call {
@@ -609,7 +613,7 @@ pub const CALLS: &[Call] = &[
         flat: false,
         one_direction: false,
         function: |a| unsafe { mslip_batch_element_harmonic_force(a[0].get(), a[1].get(), a[2].get(), a[3].get(), a[4].get(),
-     a[5].get(), a[6].get(), a[7].get(), a[8].get(), a[9].get(), a[10].get()) },
+     a[5].get(), a[6].get(), a[7].get(), a[8].get(), a[9].get(), a[10].get(), a[11].get()) },
         arguments: &[
             Argument { name: "n", kind: Count, extents: "", status: MSLIP_OK },
             Argument { name: "n_elements", kind: Laws, extents: "", status: MSLIP_OK },
@@ -622,6 +626,7 @@ pub const CALLS: &[Call] = &[
             Argument { name: "jacobian", kind: Output, extents: "kkn", status: MSLIP_OK },
             Argument { name: "dissipated", kind: Output, extents: "n", status: MSLIP_OK },
             Argument { name: "drift", kind: Output, extents: "n", status: MSLIP_OK },
+            Argument { name: "failed_item", kind: FailedItem, extents: "", status: MSLIP_OK },
         ],
     },
 ];

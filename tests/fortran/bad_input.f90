@@ -32,6 +32,7 @@ program bad_input
   real(wp), allocatable, target :: x(:), u(:, :), state(:), states(:, :), workspace(:), table(:)
   real(wp), allocatable :: vector(:), vectors(:, :)  ! Displacements of an element.
   integer(mslip_int), allocatable, target :: index(:), active(:), from_zero(:)
+  integer(mslip_size) :: failed_item
   real(wp) :: scalar, nan
   integer(mslip_int) :: status
   integer(mslip_int) :: directions  ! Of the elements.
@@ -147,7 +148,11 @@ contains
     integer :: i
 
     before = [state, states]
+    failed_item = -1
     call perform()
+    if (procedures(p)%batch) call check(trim(procedures(p)%name)//', '//what//': the failed item', (failed_item == 0) .eqv. &
+      any(expected == [MSLIP_BAD_ARRAY_SIZE, MSLIP_BAD_COEFFICIENTS, MSLIP_BAD_WORKSPACE, MSLIP_WORKSPACE_TOO_SHORT, &
+      MSLIP_STATE_TOO_SHORT]))
     call check_status(trim(procedures(p)%name)//': '//what, status, expected)
     call check(trim(procedures(p)%name)//', '//what//': nothing modified', all([(is_untouched(flat(out(i))), i = 1, size(out))]) &
       .and. all(transfer([state, states], [0_c_int64_t]) == transfer(before, [0_c_int64_t])))
@@ -281,6 +286,7 @@ contains
       call set_up()
       index(n) = bad_index(k)
       call rejected('index', MSLIP_BAD_INDEX)
+      call check('the item of a bad index', failed_item == n)
     end do
     do k = 1, 3
       call set_up()
@@ -291,7 +297,9 @@ contains
       if (k == 3) contacts(n) = mslip_contact()
       if (k == 3) elements(n) = mslip_element()
       active(n) = 0
+      failed_item = -1
       call perform()
+      call check(trim(procedures(p)%name)//': no failed item', failed_item == -1)
       call check_status(trim(procedures(p)%name)//': an invalid item is skipped', status, MSLIP_OK)
       do i = 1, size(out)
         associate (values => flat(out(i)))

@@ -28,13 +28,13 @@
     case (22); call mslip_harmonic_force(contacts(1), workspace, u(:, 1), status, out(1)%v, out(2)%m, out(3)%s)
     case (23); call mslip_harmonic_sensitivity(contacts(1), workspace, u(:, 1), status, out(1)%v, out(2)%m)
     case (24); call mslip_batch_complex_stiffness(contacts, x, status, index, active, out(1)%v, out(2)%v, out(3)%v, &
-      out(4)%v)
+      out(4)%v, failed_item)
     case (25); call mslip_batch_masing_update(contacts, states, x, out(5)%m, status, index, active, out(1)%v, &
-      out(2)%v, out(3)%v)
+      out(2)%v, out(3)%v, failed_item)
     case (26); call mslip_batch_masing_advance(contacts, states, x, status, index, active, out(1)%v, out(2)%v, &
-      out(3)%v)
+      out(3)%v, failed_item)
     case (27); call mslip_batch_harmonic_force(contacts, workspace, u, status, index, active, out(1)%m, out(2)%t, &
-      out(3)%v)
+      out(3)%v, failed_item)
     case (28); call mslip_normal_force(elements(1), x, status, out(1)%v, out(2)%v, out(3)%v)
     case (29); call mslip_normal_force(elements(1), scalar, status, out(1)%s, out(2)%s, out(3)%s)
     case (30); call mslip_normal_approach(elements(1), x, status, out(1)%v, out(2)%v, out(3)%v)
@@ -47,11 +47,11 @@
     case (37); call mslip_element_harmonic_force(elements(1), workspace, u(:, 1), status, out(1)%v, out(2)%m, &
       out(3)%s, out(4)%s)
     case (38); call mslip_batch_element_update(elements, states, vectors, out(5)%m, status, index, active, out(1)%m, &
-      out(2)%t, out(3)%v)
+      out(2)%t, out(3)%v, failed_item)
     case (39); call mslip_batch_element_advance(elements, states, vectors, status, index, active, out(1)%m, &
-      out(2)%t, out(3)%v)
+      out(2)%t, out(3)%v, failed_item)
     case (40); call mslip_batch_element_harmonic_force(elements, workspace, u, status, index, active, out(1)%m, &
-      out(2)%t, out(3)%v, out(4)%v)
+      out(2)%t, out(3)%v, out(4)%v, failed_item)
     end select
   end subroutine perform
 
@@ -97,15 +97,17 @@
     case (23); status = c_harmonic_sensitivity(contacts(1), c_loc(workspace), u(:, 1), address(out(1)), &
       address(out(2)))
     case (24); status = c_batch_complex_stiffness(int(n, mslip_size), size(contacts, kind=mslip_size), contacts, &
-      c_loc(from_zero), c_loc(active), x, address(out(1)), address(out(2)), address(out(3)), address(out(4)))
+      c_loc(from_zero), c_loc(active), x, address(out(1)), address(out(2)), address(out(3)), address(out(4)), &
+      c_null_ptr)
     case (25); status = c_batch_masing_update(int(n, mslip_size), size(contacts, kind=mslip_size), contacts, &
       c_loc(from_zero), c_loc(active), size(states, 1, mslip_size), c_loc(states), x, address(out(5)), &
-      address(out(1)), address(out(2)), address(out(3)))
+      address(out(1)), address(out(2)), address(out(3)), c_null_ptr)
     case (26); status = c_batch_masing_update(int(n, mslip_size), size(contacts, kind=mslip_size), contacts, &
       c_loc(from_zero), c_loc(active), size(states, 1, mslip_size), c_loc(states), x, c_loc(states), address(out(1)), &
-      address(out(2)), address(out(3)))
+      address(out(2)), address(out(3)), c_null_ptr)
     case (27); status = c_batch_harmonic_force(int(n, mslip_size), size(contacts, kind=mslip_size), contacts, &
-      c_loc(from_zero), c_loc(active), c_loc(workspace), u, address(out(1)), address(out(2)), address(out(3)))
+      c_loc(from_zero), c_loc(active), c_loc(workspace), u, address(out(1)), address(out(2)), address(out(3)), &
+      c_null_ptr)
     case (28); status = c_normal_force(elements(1), int(n, mslip_size), x, address(out(1)), address(out(2)), &
       address(out(3)))
     case (29); status = c_normal_force(elements(1), 1_mslip_size, [scalar], address(out(1)), address(out(2)), &
@@ -128,13 +130,13 @@
       address(out(2)), address(out(3)), address(out(4)))
     case (38); status = c_batch_element_update(int(n, mslip_size), size(elements, kind=mslip_size), elements, &
       c_loc(from_zero), c_loc(active), size(states, 1, mslip_size), c_loc(states), vectors, address(out(5)), &
-      address(out(1)), address(out(2)), address(out(3)))
+      address(out(1)), address(out(2)), address(out(3)), c_null_ptr)
     case (39); status = c_batch_element_update(int(n, mslip_size), size(elements, kind=mslip_size), elements, &
       c_loc(from_zero), c_loc(active), size(states, 1, mslip_size), c_loc(states), vectors, c_loc(states), &
-      address(out(1)), address(out(2)), address(out(3)))
+      address(out(1)), address(out(2)), address(out(3)), c_null_ptr)
     case (40); status = c_batch_element_harmonic_force(int(n, mslip_size), size(elements, kind=mslip_size), &
       elements, c_loc(from_zero), c_loc(active), c_loc(workspace), u, address(out(1)), address(out(2)), &
-      address(out(3)), address(out(4)))
+      address(out(3)), address(out(4)), c_null_ptr)
     end select
   end subroutine perform_in_c
 

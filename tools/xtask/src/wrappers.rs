@@ -274,6 +274,7 @@ impl Procedure<'_> {
             "n" => "int(n, mslip_size)".to_owned(),
             "index" => "c_loc(from_zero)".to_owned(),
             "active" => "c_loc(active)".to_owned(),
+            "failed_item" => "c_null_ptr".to_owned(),
             name if name.starts_with("n_") => format!("size({}, kind=mslip_size)", &name[2..]),
             name if argument.is_length() => format!("size({}, 1, mslip_size)", memory(name).unwrap_or_default()),
             name if name.ends_with("_new") && self.form != Form::Advance => "address(out(5))".to_owned(),
@@ -456,12 +457,16 @@ impl Procedure<'_> {
             let names: Vec<String> = extents.iter().filter_map(|extent| Some(letter_of(extent)?.to_string())).collect();
             lines.push(format!("    integer(mslip_size) :: {}", names.join(", ")));
         }
-        lines.extend(of_index.then(|| "    integer(mslip_int), allocatable, target :: from_zero(:)".to_owned()));
+        if of_index {
+            lines.push("    integer(mslip_int), allocatable, target :: from_zero(:)".to_owned());
+            lines.push("    integer(mslip_size), target :: failed".to_owned());
+        }
         lines.extend((pointers > 0).then(|| format!("    type(c_ptr) :: ptr({pointers})")));
         if lines.len() > 1 {
             lines.push(String::new());
         }
         lines.extend(extents.iter().flat_map(|extent| extent.split('\n')).map(|line| format!("    {line}")));
+        lines.extend(of_index.then(|| "    failed = n".to_owned()));
         lines.extend((pointers > 0).then(|| "    ptr = c_null_ptr".to_owned()));
         let is_tabulated = self.function.name.contains("tabulated");
         if is_tabulated {
@@ -472,6 +477,13 @@ impl Procedure<'_> {
         lines.extend(checks.iter().flat_map(|check| wrapped("    ", check)));
         let is_checked = is_tabulated || of_workspace || !checks.is_empty();
         lines.extend(wrapped("    ", &format!("{}{call}", if is_checked { "if (status == MSLIP_OK) " } else { "" })));
+        if of_index {
+            lines.push("    ! C counts from 0, and gives n if no item is at fault.".to_owned());
+            lines.push(
+                "    if (present(failed_item) .and. status /= MSLIP_OK) failed_item = merge(failed + 1, 0_mslip_size, failed < n)"
+                    .to_owned(),
+            );
+        }
         lines
     }
 
@@ -488,7 +500,9 @@ impl Procedure<'_> {
             'k' => {
                 let of_element = function.arguments.iter().any(|argument| argument.declaration.base == "mslip_element");
                 let count = if of_element { "count_element_coefficients" } else { "count_coefficients" };
-                Some(format!("call {count}(workspace, k, status)\nif (status /= MSLIP_OK) return"))
+                let no_item = "if (present(failed_item) .and. status /= MSLIP_OK) failed_item = 0\n";
+                let no_item = if function.is_batch() { no_item } else { "" };
+                Some(format!("call {count}(workspace, k, status)\n{no_item}if (status /= MSLIP_OK) return"))
             }
             'm' if !function.is_batch() => Some(format!("m = components(element, {})", given?)),
             _ => Some(format!("{letter} = {}", given?)),
@@ -548,6 +562,7 @@ impl Procedure<'_> {
             "p" => "parameters".to_owned(),
             "n" if self.form == Form::Scalar => "1_mslip_size".to_owned(),
             "rule" => "rule_or_default(rule)".to_owned(),
+            "failed_item" => "c_loc(failed)".to_owned(),
             _ if argument.is_length() && name != "n" => {
                 let array = name.trim_end_matches("_length");
                 let is_array = |argument: &&Argument| {
@@ -570,5 +585,5 @@ fn letter_of(extent: &str) -> Option<char> {
 }
 
 fn is_optional(argument: &Argument) -> bool {
-    matches!(argument.name(), "rule" | "index" | "active") || argument.is_output() && !argument.required
+    matches!(argument.name(), "rule" | "index" | "active" | "failed_item") || argument.is_output() && !argument.required
 }
