@@ -38,8 +38,10 @@ const GENERAL_HELP: &str = concat!(
   Exponents are written 1e-6 or 1d-6, lists 5e-7,1e-6 without blanks or \"5e-7, 1e-6\" in quotes.
 
 Tables:
-  Columns are separated by commas, or by semicolons or tabs, which also allow decimal commas; the first row may be a
-  header. At most 4 million rows and 200 MB are read.
+  Columns are separated by commas, semicolons, tabs or blanks. Text before the first row of numbers, comments (#, %, !, //)
+  and empty lines are not read, except names of the columns, and their units: \"force [kN]\", \"force (kN)\" or a row of units.
+  The decimal mark is a point or, unless commas separate columns, a comma; what may be read in two ways is rejected.
+  At most 4 million rows and 200 MB are read.
 
 Results:
   CSV on standard output or in the file of --out: comments (#) with the command that repeats the result, a header
@@ -292,6 +294,9 @@ pub struct History {
     /// Column of normal forces, 0 if the contact is open [default: normal_force, if there is one and no approach]
     #[arg(long, value_name = "NAME")]
     pub normal_force_column: Option<String>,
+    /// Number of lines at the start of a table that are not read
+    #[arg(long, value_name = "LINES", default_value_t = 0)]
+    pub skip: usize,
     /// Displacements are multiples of the slip displacement, normal forces of normal_force, approaches of the one under it
     #[arg(long)]
     pub relative: bool,
@@ -342,10 +347,14 @@ pub struct Fit {
     /// Column of times, in which gaps are found [default: time, if there is one]
     #[arg(long, value_name = "NAME")]
     pub time_column: Option<String>,
+    /// Number of lines at the start of a table that are not read
+    #[arg(long, value_name = "LINES", default_value_t = 0)]
+    pub skip: usize,
     /// Constant normal force of each table, or of all [default: normal_force of the contact]
     #[arg(long, value_name = "N", value_delimiter = ',', value_parser = parse_number)]
     pub loads: Vec<f64>,
-    /// Units of displacement and forces in the tables: m, mm, um or nm; N, mN or kN [default: those of the contact]
+    /// Units of displacement and forces in the tables, if their headers have none: m, cm, mm, um or nm; N, mN or kN [default: those
+    /// of the contact]
     #[arg(long, value_name = "LENGTH,FORCE", value_parser = DataUnits::parse)]
     pub data_units: Option<DataUnits>,
     /// What is not fitted: friction_coefficient, series_compliance, contact_compliance (a factor on the displacements of the law),

@@ -1,11 +1,12 @@
 //! The commands: each computes a table and a picture.
 
 use crate::args::{Amplitudes, Curve, History, Iwan, Loop, Tractions};
+use crate::columns::{ColumnSpec, InputTable, parse_columns, read_table};
 use crate::contact_spec::ContactSpec;
 use crate::error::{CliError, Result, input, usage};
 use crate::number::{format_list, format_number};
 use crate::plot::{Axis, Line, Panel, Picture, Row, rounded};
-use crate::table::{ColumnSpec, InputTable, Table, read_columns};
+use crate::table::Table;
 use crate::units::Quantity::{self, Energy, Force, Length, Number, Pressure, Stiffness, StiffnessSlope};
 use crate::varying_load;
 use microslip::constant_load::equivalents::{SpringSlider, iwan, jenkins};
@@ -351,27 +352,38 @@ pub fn parts_of_step(rows: usize) -> u32 {
 
 pub fn history(options: &History, spec: &ContactSpec) -> Result<Report> {
     let path = &options.displacements;
-    let [length, force] = [Length, Force].map(|quantity| spec.units.unit(quantity));
-    let column = ColumnSpec::new("--column", &options.column, &["displacement", "displacement_x"], length);
-    let column_y = ColumnSpec::new("--column-y", &options.column_y, &["displacement_y"], length);
+    let new = |option, selected, names, quantity| ColumnSpec::new(option, selected, names, quantity, spec.units);
+    let column = new("--column", &options.column, &["displacement", "displacement_x"], Length);
+    let column_y = new("--column-y", &options.column_y, &["displacement_y"], Length);
     let normal = [
-        ColumnSpec::new("--approach-column", &options.approach_column, &["approach"], length),
-        ColumnSpec::new("--normal-force-column", &options.normal_force_column, &["normal_force"], force),
+        new("--approach-column", &options.approach_column, &["approach"], Length),
+        new("--normal-force-column", &options.normal_force_column, &["normal_force"], Force),
     ];
     // A selected column of normal forces leaves no choice.
     let first = usize::from(options.normal_force_column.is_some());
-    let table = read_columns(path, [&column, &column_y], &normal[first..])?;
+    let table = parse_columns(&read_table(path)?, options.skip, [&column, &column_y], &normal[first..])
+        .map_err(|reason| CliError::in_file(path, reason))?;
     let columns = [&column, &column_y, &normal[0], &normal[1]].map(|column| {
         column.selected.map_or(String::new(), |selected| format!(" {} {}", column.option, quoted(selected)))
     });
     let relative = if options.relative { " --relative" } else { "" };
-    let repeat = format!(" --displacements {}{}{relative}", quoted(&path.to_string_lossy()), columns.concat());
+    let repeat = format!(
+        " --displacements {}{}{}{relative}",
+        quoted(&path.to_string_lossy()),
+        columns.concat(),
+        skipped(options.skip)
+    );
     let input = table.alternative.map(|alternative| [NormalInput::Approach, NormalInput::Force][first + alternative]);
     match input {
         _ if table.has_second => varying_load::history_in_two_directions(options, spec, input, &table, &repeat),
         None => constant_load_history(options, spec, &table, &repeat),
         Some(input) => varying_load::history(options, spec, input, &table, &repeat),
     }
+}
+
+/// The option that leaves out lines, if any.
+pub fn skipped(lines: usize) -> String {
+    if lines > 0 { format!(" --skip {lines}") } else { String::new() }
 }
 
 fn constant_load_history(options: &History, spec: &ContactSpec, table: &InputTable, repeat: &str) -> Result<Report> {

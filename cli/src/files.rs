@@ -11,7 +11,7 @@ pub const PARAMETERS_SIZE: u64 = 1;
 pub const TABLE_SIZE: u64 = 200;
 
 /// Reads a file of at most `limit` MB: a device or a pipe may never end.
-pub fn read_text(path: &Path, limit: u64) -> Result<String> {
+pub fn read_bytes(path: &Path, limit: u64) -> Result<Vec<u8>> {
     let (mut bytes, most) = (Vec::new(), 1_000_000 * limit);
     let outcome = match path.to_str() {
         Some("-") => io::stdin().take(most + 1).read_to_end(&mut bytes),
@@ -21,7 +21,12 @@ pub fn read_text(path: &Path, limit: u64) -> Result<String> {
     if bytes.len() as u64 > most {
         return Err(CliError::in_file(path, format!("longer than {limit} MB; the input is not read further")));
     }
-    String::from_utf8(bytes).map_err(|error| {
+    Ok(bytes)
+}
+
+/// Reads a file of text in UTF-8.
+pub fn read_text(path: &Path, limit: u64) -> Result<String> {
+    String::from_utf8(read_bytes(path, limit)?).map_err(|error| {
         let valid = error.as_bytes().iter().take(error.utf8_error().valid_up_to());
         let line = 1 + valid.filter(|byte| **byte == b'\n').count();
         CliError::in_file(path, format!("line {line}: invalid UTF-8; save the file as UTF-8 text"))

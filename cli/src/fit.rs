@@ -1,14 +1,15 @@
 //! The command `fit`: measured loops in, law out.
 
 use crate::args::{Fit, Fixable, ShapeOption};
-use crate::commands::{Report, panel, quoted};
+use crate::columns::{ColumnSpec, parse_columns, read_table};
+use crate::commands::{Report, panel, quoted, skipped};
 use crate::contact_spec::ContactSpec;
 use crate::error::{CliError, Result, usage};
-use crate::files::{TABLE_SIZE, check_outputs, read_text, write_file};
+use crate::files::{check_outputs, write_file};
 use crate::number::{format_list, format_number};
 use crate::plot::{Axis, Line, Panel, Row, rounded};
-use crate::table::{ColumnSpec, Table, parse_columns};
-use crate::units::Quantity::{Energy, Force, Length, Number, Stiffness};
+use crate::table::Table;
+use crate::units::Quantity::{Energy, Force, Length, Number, Stiffness, Time};
 use crate::units::Units;
 use clap::ValueEnum;
 use microslip_fit::{CauseKind, Estimate, FittedLoop, Measurement, Misfit, NormalForce, Options, ShapeParameter};
@@ -57,37 +58,39 @@ pub fn fit(options: &Fit, spec: &ContactSpec) -> Result<Report> {
 
 /// The measurement of a file, in the units of the contact.
 fn measurement(options: &Fit, spec: &ContactSpec, index: usize, path: &Path) -> Result<Measurement> {
-    let [length, force] = options.data_units.unwrap_or(spec.units.of_data()).to(spec.units);
-    let column = ColumnSpec::new("--column", &options.column, &["displacement"], length.0);
-    let forces = ColumnSpec::new("--force-column", &options.force_column, &["force"], force.0);
-    let normal = [ColumnSpec::new("--normal-force-column", &options.normal_force_column, &["normal_force"], force.0)];
-    let time = ColumnSpec::new("--time-column", &options.time_column, &["time"], "s");
+    let units = options.data_units;
+    let given = |quantity| units.map(|units| if quantity == Length { units.length } else { units.force });
+    let of = |option, selected, names, quantity| ColumnSpec {
+        given: given(quantity).filter(|_| quantity != Time),
+        ..ColumnSpec::new(option, selected, names, quantity, spec.units)
+    };
+    let column = of("--column", &options.column, &["displacement"], Length);
+    let forces = of("--force-column", &options.force_column, &["force"], Force).required();
+    let normal = [of("--normal-force-column", &options.normal_force_column, &["normal_force"], Force)];
+    let time = of("--time-column", &options.time_column, &["time"], Time);
     let normal = if options.loads.is_empty() { &normal[..] } else { &[] };
-    let text = read_text(path, TABLE_SIZE)?;
+    let text = read_table(path)?;
     let columns = |second, others| {
-        parse_columns(&text, [&column, second], others).map_err(|reason| CliError::in_file(path, reason))
+        parse_columns(&text, options.skip, [&column, second], others).map_err(|reason| CliError::in_file(path, reason))
     };
     let (table, times) = (columns(&forces, normal)?, columns(&time, &[])?);
     if options.loads.len() > 1 && options.loads.len() != options.measured.len() {
         return usage(format!("--loads has {} values for {} tables", options.loads.len(), options.measured.len()));
     }
-    if !table.has_second {
-        return usage(format!("{}: --force-column must select a column", path.display()));
-    }
-    let values =
-        |place: usize, factor: f64| table.rows.iter().map(|row| factor * row.values[place]).collect::<Vec<_>>();
+    // Whatever the headers of the tables state.
+    let factor = units.unwrap_or(spec.units.of_data()).force.in_si / spec.units.in_si(Force);
     let load = match options.loads[..] {
-        [] if table.alternative.is_some() => Some(NormalForce::Samples(values(2, force.1))),
+        [] if table.alternative.is_some() => Some(NormalForce::Samples(table.column(2))),
         [] => None,
-        [one] => Some(NormalForce::Constant(force.1 * one)),
-        _ => Some(NormalForce::Constant(force.1 * options.loads.get(index).copied().unwrap_or(f64::NAN))),
+        [one] => Some(NormalForce::Constant(factor * one)),
+        _ => Some(NormalForce::Constant(factor * options.loads.get(index).copied().unwrap_or(f64::NAN))),
     };
     Ok(Measurement {
         name: path.to_string_lossy().into_owned(),
-        displacement: values(0, length.1),
-        force: values(1, force.1),
+        displacement: table.column(0),
+        force: table.column(1),
         normal_force: load,
-        time: times.has_second.then(|| times.rows.iter().map(|row| row.values[1]).collect()),
+        time: times.has_second.then(|| times.column(1)),
     })
 }
 
@@ -122,6 +125,7 @@ fn repeat(options: &Fit) -> String {
     for (option, selected) in columns {
         text += &selected.as_ref().map_or(String::new(), |selected| format!(" {option} {}", quoted(selected)));
     }
+    text += &skipped(options.skip);
     if !options.loads.is_empty() {
         text += &format!(" --loads {}", format_list(&options.loads));
     }

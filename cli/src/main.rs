@@ -1,10 +1,11 @@
 //! The command line program of microslip: properties, curves and hysteresis of a contact, as CSV and as pictures.
 //!
-//! `args` defines the command line, `contact_spec` and `table` read the input, `commands`, `varying_load`, `fit` and `layer` compute, `plot`
+//! `args` defines the command line, `contact_spec` and `columns` read the input, `commands`, `varying_load`, `fit` and `layer` compute, `plot`
 //! draws, and `files` reads and writes.
 
 mod args;
 mod canvas;
+mod columns;
 mod commands;
 mod contact_spec;
 mod error;

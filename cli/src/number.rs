@@ -10,9 +10,16 @@ pub fn format_list(values: &[f64]) -> String {
     values.iter().map(|value| format_number(*value)).collect::<Vec<_>>().join(",")
 }
 
-/// A number, also with the exponent of Fortran: 1.0D-06.
+/// A number, also with the exponents of Fortran: 1.0D-06, 1.0-106.
 pub fn parse_number(text: &str) -> Result<f64, &'static str> {
-    text.trim().replace(['d', 'D'], "e").parse().map_err(|_| match text.trim() {
+    let mut number = text.trim().replace(['d', 'D'], "e");
+    if let Some(place) =
+        number.len().checked_sub(4).filter(|place| *place > 0 && number[*place..].starts_with(['+', '-']))
+    {
+        let has_letter = number.contains(['e', 'E']);
+        number.insert_str(place, if has_letter { "" } else { "e" });
+    }
+    number.parse().map_err(|_| match text.trim() {
         "" => "a number is missing; lists are written without blanks, or in quotes",
         text if text.contains(',') => "not a number; the decimal separator is a point",
         _ => "not a number",

@@ -24,6 +24,8 @@ pub enum Quantity {
     Stiffness,
     StiffnessSlope,
     Energy,
+    /// Of tables of measured data.
+    Time,
 }
 
 impl Units {
@@ -38,6 +40,7 @@ impl Units {
             Quantity::Stiffness => ("N/m", "N/mm", 1e3),
             Quantity::StiffnessSlope => ("N/m^2", "N/mm^2", 1e6),
             Quantity::Energy => ("J", "mJ", 1e-3),
+            Quantity::Time => ("s", "s", 1.0),
         };
         if self == Units::Si { (si, 1.0) } else { (mm, factor) }
     }
@@ -52,42 +55,103 @@ impl Units {
 
     /// The same units of measured data.
     pub fn of_data(self) -> DataUnits {
-        DataUnits { length: LENGTHS[usize::from(self == Units::Mm)], force: FORCES[0] }
+        let unit = |quantity| Unit { name: self.unit(quantity), quantity, in_si: self.in_si(quantity) };
+        DataUnits { length: unit(Quantity::Length), force: unit(Quantity::Force) }
     }
+}
+
+impl Quantity {
+    /// Its units in tables of measured data.
+    pub fn known(self) -> String {
+        let names = UNITS.iter().filter(|unit| unit.quantity == self).map(|unit| unit.name);
+        names.collect::<Vec<_>>().join(", ")
+    }
+}
+
+/// A unit of measured data.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Unit {
+    pub name: &'static str,
+    pub quantity: Quantity,
+    pub in_si: f64,
+}
+
+const UNITS: [Unit; 10] = {
+    const fn of(name: &'static str, quantity: Quantity, in_si: f64) -> Unit {
+        Unit { name, quantity, in_si }
+    }
+    [
+        of("m", Quantity::Length, 1.0),
+        of("cm", Quantity::Length, 1e-2),
+        of("mm", Quantity::Length, 1e-3),
+        of("um", Quantity::Length, 1e-6),
+        of("nm", Quantity::Length, 1e-9),
+        of("N", Quantity::Force, 1.0),
+        of("mN", Quantity::Force, 1e-3),
+        of("kN", Quantity::Force, 1e3),
+        of("s", Quantity::Time, 1.0),
+        of("ms", Quantity::Time, 1e-3),
+    ]
+};
+
+/// A unit by its symbol or its name: `µm`, `micrometres`, `micron`.
+pub fn unit(text: &str) -> Option<Unit> {
+    let mut symbol = text.trim().replace(['µ', 'μ'], "u");
+    if symbol.len() > 3 {
+        let word = symbol
+            .to_lowercase()
+            .replace("meter", "metre")
+            .replace("microns", "micron")
+            .replace("micron", "micrometre");
+        symbol = word.strip_suffix('s').unwrap_or(&word).to_owned();
+        let words = [
+            ("micro", "u"),
+            ("milli", "m"),
+            ("nano", "n"),
+            ("centi", "c"),
+            ("kilo", "k"),
+            ("metre", "m"),
+            ("newton", "N"),
+            ("second", "s"),
+            ("sec", "s"),
+        ];
+        symbol = words.iter().fold(symbol, |symbol, (word, short)| symbol.replace(word, short));
+    }
+    // Capitals of spreadsheets: M and N of other units have another meaning.
+    let symbol = match symbol.as_str() {
+        "MM" | "Mm" => "mm",
+        "UM" | "Um" => "um",
+        "KN" | "Kn" | "kn" => "kN",
+        "sec" | "Sec" => "s",
+        symbol => symbol,
+    };
+    UNITS.into_iter().find(|unit| unit.name == symbol)
 }
 
 /// Units of measured displacements and forces.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DataUnits {
-    /// Name and value in SI units.
-    length: (&'static str, f64),
-    force: (&'static str, f64),
+    pub length: Unit,
+    pub force: Unit,
 }
-
-const LENGTHS: [(&str, f64); 4] = [("m", 1.0), ("mm", 1e-3), ("um", 1e-6), ("nm", 1e-9)];
-const FORCES: [(&str, f64); 3] = [("N", 1.0), ("mN", 1e-3), ("kN", 1e3)];
 
 impl DataUnits {
     /// Two units: `um,N`.
-    pub fn parse(text: &str) -> Result<DataUnits, &'static str> {
-        let find = |units: &[(&'static str, f64)], name: &str| units.iter().copied().find(|unit| unit.0 == name.trim());
-        let text = text.replace(['µ', 'μ'], "u");
+    pub fn parse(text: &str) -> Result<DataUnits, String> {
         let (length, force) = text.split_once(',').ok_or("two units are needed, for example um,N")?;
+        let find = |text: &str, quantity: Quantity, name: &str| {
+            let found = unit(text).filter(|unit| unit.quantity == quantity);
+            found.ok_or_else(|| format!("the {name} is in one of {}", quantity.known()))
+        };
         Ok(DataUnits {
-            length: find(&LENGTHS, length).ok_or("the displacement is in m, mm, um or nm")?,
-            force: find(&FORCES, force).ok_or("the force is in N, mN or kN")?,
+            length: find(length, Quantity::Length, "displacement")?,
+            force: find(force, Quantity::Force, "force")?,
         })
-    }
-
-    /// Names of both units, and the factors that convert to others.
-    pub fn to(self, units: Units) -> [(&'static str, f64); 2] {
-        let convert = |(name, value): (&'static str, f64), quantity| (name, value / units.in_si(quantity));
-        [convert(self.length, Quantity::Length), convert(self.force, Quantity::Force)]
     }
 }
 
 impl std::fmt::Display for DataUnits {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{},{}", self.length.0, self.force.0)
+        write!(f, "{},{}", self.length.name, self.force.name)
     }
 }

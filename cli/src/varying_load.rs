@@ -1,6 +1,7 @@
 //! Commands under a normal force that varies, with separation.
 
 use crate::args::{History, Loop, Normal};
+use crate::columns::InputTable;
 use crate::commands::{
     DISPLACEMENT, ENERGIES, ENERGIES_REMARK, FORCE, Report, STIFFNESS, check_range, grid, pairs, panel, parts_of_step,
     scaled,
@@ -9,7 +10,7 @@ use crate::contact_spec::ContactSpec;
 use crate::error::{CliError, Result};
 use crate::number::{Amount, format_list, format_number};
 use crate::plot::{Axis, Line, Panel, Row, rounded};
-use crate::table::{InputTable, Table};
+use crate::table::Table;
 use crate::units::Quantity::{Angle, Energy, Force, Length, Stiffness};
 use microslip::Error;
 use microslip::element::{Directions, Element, NormalInput};

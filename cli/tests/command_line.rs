@@ -289,22 +289,76 @@ fn histories_equal_those_of_the_library() {
         let last = contact.curve_at_displacement(path[n - 1]).unwrap();
         assert!(n < 10 || expected[n - 1][1..3] == [last.force(), last.stiffness()]);
     }
+    let relative = shell.stdout("printf 'u\n0.5\n-0.25\n' | microslip history flat.toml --relative");
+    assert_eq!(column(&relative, 0), [0.5, -0.25].map(|part| part * contact.slip_displacement));
+}
+
+/// The displacements 1e-6 and -2e-6 as programs write them; if they are in another unit, the table states it.
+#[test]
+fn tables_of_other_programs_are_read() {
+    let shell = Shell::new("tables");
+    let labview = "LabVIEW Measurement\t\nWriter_Version\t2\nSeparator\tTab\nDecimal_Separator\t.\n***End_of_Header***\t\n\t\n\
+                   Channels\t2\t\nSamples\t2\t2\nDate\t2024/03/01\t2024/03/01\nY_Unit_Label\tum\tN\nX0\t0.0\t0.0\n\
+                   ***End_of_Header***\t\t\nX_Value\tdisplacement\tforce\tComment\n0\t1\t5\n1\t-2\t6\n";
+    let mts = "MTS793|MPT|ENU|1|2|.|/|:|1|0|0|A\n\nData Header:\tTime:\t0.19\tSec\t1/23/2014 9:22:22 AM\n\
+               Data Acquisition: Timed\nStation Name: rig 3\nTime\tDisplacement\tForce\nSec\tmm\tkN\n0.1\t0.001\t1\n0.2\t-0.002\t2\n";
+    let meta = "Test,friction 12\nDate,2024-03-01\n17.03.2024,AB\n\n\"displacement\",\"force\"\n\"1e-6\",\"1,200.5\"\n\"-2e-6\",\"3\"\n";
+    let of_blocks = "# u F\n  1.0E-06   3\n\n\n# second block\n -2.0E-06   4\n";
     for (table, options) in [
         ("\u{feff}u\r\n1e-6\r\n\n# c\n-2e-6", ""),
         ("# c\ntime [s], \"displacement [m]\"\n0,1e-6\n1, -2e-6\n", ""),
         ("t,u\n0,1e-6\n1,-2e-6\n", "--column u"),
         (" 1.0D-06\n-2.0d-06\n", ""),
+        ("10000000000.0-016\n-2e-6\n", ""),
         // Decimal commas, also without a header.
         ("t;u\n0;0,000001\n0,5;-2E-06\n", "--column u"),
         ("0,0\t0,000001\n0,5\t-0,2e-5\n", "--column 2"),
         ("t, unit;u\n0.5;1e-6\n1.5;-2e-6\n", "--column u"),
+        ("sep=;\r\nDisplacement (µm);Force (N)\r\n1,0;7\r\n-2,00;8\r\n", ""),
+        ("0,1 0,000001\n0,2 -2e-6\n", "--column 2"),
+        ("a;displacement\n1.234,5;1e-6\n1;-0,000002\n", ""),
+        // Blanks.
+        ("0.0 1e-6\n0.1 -2e-6\n", "--column 2"),
+        ("# time displacement force\n0.0 1e-6 3\n0.1 -2e-6 4\n", ""),
+        ("% displacement,force\n1e-6 3\n-2e-6 4\n", ""),
+        ("! displacement [ um ]  force / N\n  1.0  3\n -2.0  4\n", ""),
+        ("Normal Displacement   displacement   Axial Force\n  1.0 1e-6 3\n -2.0 -2e-6 4\n", ""),
+        (of_blocks, "--column u"),
+        // Units in a row, in brackets, in the name.
+        ("Loop 17\ndisplacement,force\nµm,kN\n1,2\n-2,3\n", ""),
+        ("displacement,force\n[um],[N]\n1,2\n-2,3\n", ""),
+        ("displacement {mm},force {N}\n0.001,2\n-0.002,3\n", ""),
+        ("t_s,x_um,F_N\n0,1,2\n1,-2,3\n", "--column x"),
+        ("t_s,x_um,F_N\n0,1,2\n1,-2,3\n", "--column x_um"),
+        ("t,Displacement / micrometres\n0,1\n1,-2\n", ""),
+        ("m,N\n1e-6,2\n-2e-6,3\n", "--column 1"),
+        ("x_s,displacement\n1,1e-6\n2,-2e-6\n", ""),
+        // Headers of programs, columns of other things, separators at the end of lines.
+        (labview, ""),
+        (mts, ""),
+        (meta, ""),
+        ("displacement,force,\n1e-6,2,\n-2e-6,3,\n", ""),
+        ("displacement,force\n1e-6,2,\n-2e-6,3,\n", ""),
+        (",displacement,force\n0,1e-6,2\n1,-2e-6,3\n", ""),
+        ("date,displacement,state\n2024-03-01 12:00:00,1e-6,ok\n2024-03-01 12:00:01,-2e-6,end\n", ""),
+        ("displacement,force\r1e-6,2\r\u{2212}2e-6,3\r", ""),
+        ("7 rows\n650\ndisplacement\n1e-6\n-2e-6\n", "--skip 2"),
     ] {
         shell.write("table.csv", table);
-        let table = shell.stdout(&format!("microslip history flat.toml --displacements table.csv {options}"));
-        assert_eq!(column(&table, 0), [1e-6, -2e-6]);
+        let command = format!("microslip history flat.toml --displacements table.csv {options}");
+        let result = shell.stdout(&command);
+        for (value, expected) in column(&result, 0).into_iter().zip([1e-6, -2e-6]) {
+            // Two roundings: of the unit, and of the product.
+            assert!((value / expected - 1.0).abs() < 3e-16, "{table}: {value}");
+        }
+        assert_eq!(numbers(&result).len(), 2, "{table}");
+        assert_eq!(shell.stdout(result.lines().nth(1).unwrap().strip_prefix("# ").unwrap()), result);
+        let utf16: Vec<u8> = table.encode_utf16().flat_map(u16::to_le_bytes).collect();
+        shell.write("table.csv", [&b"\xff\xfe"[..], &utf16].concat());
+        assert_eq!(shell.stdout(&command), result);
     }
-    let relative = shell.stdout("printf 'u\n0.5\n-0.25\n' | microslip history flat.toml --relative");
-    assert_eq!(column(&relative, 0), [0.5, -0.25].map(|part| part * contact.slip_displacement));
+    shell.write("table.csv", b"displacement [\xb5m]\n1\n-2\n");
+    assert_eq!(column(&shell.stdout("microslip history flat.toml --displacements table.csv"), 0), [1e-6, -2e-6]);
 }
 
 /// Elements with one and with two directions, by normal force, by approach and, with two, under the force of the parameters.
@@ -503,7 +557,7 @@ fn a_fit_recovers_the_contact_of_its_loops() {
         ("--measured 0.7.csv --data-units um,N", 1, "column displacement is in m, not in um"),
         ("--measured 0.7.csv --fix shape=1", 2, "shape has no value"),
         ("--measured 0.7.csv --loads 1,2", 2, "--loads has 2 values for 1 tables"),
-        ("--measured um0.7.csv --column 2", 2, "--force-column must select a column"),
+        ("--measured um0.7.csv --column 2", 1, "line 1: no column is named force; the 2 columns have no names: select"),
         ("--measured 0.7.csv --fitted 0.7.csv", 2, "is an input and is not overwritten"),
         ("--measured 0.7.csv --fitted same --json same", 2, "cannot be the same file"),
         ("--measured 0.7.csv --column force --force-column displacement", 1, "column force is in N, not in m"),
@@ -751,8 +805,30 @@ fn errors_in_files_name_file_and_line() {
         (
             b"0.0 1e-6\n0.1 2e-6\n",
             "",
-            "line 1: \"0.0 1e-6\": not a number; columns are separated by commas, semicolons or",
+            "line 1: no column is named displacement; the 2 columns have no names: select one by --column NUMBER",
         ),
+        (b"1 2 3\n1 2 3\n1e-6 2e-6\n1 2 3", "--column 3", "line 3: only 2 of 3 columns"),
+        (b"u\n1,234\n", "", "line 2: a comma may separate columns or be the decimal separator"),
+        (
+            b"u;v\n1,234;2\n1,500;3\n",
+            "--column 1",
+            "line 2: \"1,234\" may have a decimal comma or a comma before thousands",
+        ),
+        (
+            b"u;v\n1,5;2\n1,234.5;3\n",
+            "--column 1",
+            "line 2, column u: \"1,5\": not a number; other numbers have decimal points",
+        ),
+        (
+            b"650\n0 1e-6\n1 2e-6\n",
+            "--column 2",
+            "line 1: 1 columns, but line 2 has 2; is a comma the decimal separator? --skip 1",
+        ),
+        (b"u [mil]\n1\n", "", "line 1: column u is in \"mil\", which is no unit of m, cm, mm, um, nm"),
+        (b"u [N]\n1\n", "", "line 1: column u is in N, not in m"),
+        (b"u\n1\n2\nEnd of test\n", "", "line 4: \"End of test\" is no row of the table, which starts in line 2"),
+        (b"u\n1\n2e-\n", "", "line 3: \"2e-\": not a number; is the file cut off?"),
+        (b"\x89PNG\0\0", "", "this is no text"),
         (b"# c\nu\n1e-6\ninf", "", &format!("line 4: {}", Error::BadDisplacement)),
         (b"u\n0\n0,5e-6\n", "", "line 3: 2 columns, but the first row has 1; is a comma the decimal separator?"),
         (b"t,u\n0\n", "--column u", "line 2: only 1 of 2 columns"),
@@ -762,13 +838,19 @@ fn errors_in_files_name_file_and_line() {
             "line 2, column 1: \"0.5\": not a number; other numbers have decimal commas",
         ),
         (b"0,0000001\n0,0000002\n", "", "line 1: a comma may separate columns or be the decimal separator"),
-        (b"t,u\n0,1\n", "", "line 1: --column must select one of the 2 columns"),
-        (b"t,u\n0,1\n", "--column w", "line 1: no column w; the columns are t, u"),
-        (b"u,u [m]\n0,1\n", "--column u", "line 1: several columns are named u: --column must"),
-        (b"0,.1\n", "--column 3", "line 1: no column 3; the columns are 1 to 2"),
-        (b"u [mm]\n1\n", "--column u", "line 1: column u is in mm, not in m (see --units, or --data-units of fit)"),
+        (
+            b"t,u\n0,1\n",
+            "",
+            "line 1: no column is named displacement; the columns are t, u: select one by --column NAME or --column NUMBER",
+        ),
+        (b"t,u\n0,1\n", "--column w", "line 1: no column w; the columns are t, u, by their numbers 1 to 2"),
+        (
+            b"u,u [m]\n0,1\n",
+            "--column u",
+            "line 1: several columns are named u: select one by its number, --column NUMBER",
+        ),
+        (b"0,.1\n", "--column 3", "line 1: no column 3; the 2 columns have no names, by their numbers 1 to 2"),
         (b"", "", "the table has no displacements"),
-        (b"u\n1\n2 # \xb5m\n", "", "line 3: invalid UTF-8"),
         (b"t,u\n0,1\n0,x\n", "--column u", "line 3, column u: \"x\": not a number"),
         (b"displacement,normal_force\n0,1\n0,-2\n", "", "line 3, column normal_force: -2: normal_force must be"),
         (b"displacement,approach\n0,1\n", "", "line 2, column approach: 1: length too small for the half-width"),
