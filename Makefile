@@ -90,7 +90,7 @@ demo: demo-dependencies all
 demo-dependencies:
 	@tools/dependencies.sh --install demo
 
-## parallel: check that OpenMP threads and MPI ranks give the same bits for any number of them
+## parallel: check that OpenMP threads give the same bits for any number of them
 parallel: all
 	@tools/dependencies.sh parallel
 	$(MAKE) -C fortran_examples parallel PREFIX=../dist

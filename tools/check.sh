@@ -45,7 +45,7 @@ installed() {
     step 'Abaqus: user subroutines, called by a driver' make -C examples/abaqus test PREFIX="$prefix"
     step 'ANSYS: bodies of user subroutines, called by a driver' make -C examples/ansys test PREFIX="$prefix"
     step 'Octave and NLvib: the law in harmonic balance' make -C examples/nlvib test PREFIX="$prefix"
-    step 'Fortran on threads and ranks' make -C fortran_examples parallel PREFIX="$prefix"
+    step 'Fortran on threads' make -C fortran_examples parallel PREFIX="$prefix"
     step 'Miri' tools/miri.sh
     step 'instruction counts' target/debug/instructions
     step 'benchmark, quick' make bench QUICK=1 TRUTH="$PWD/target/debug/truth"

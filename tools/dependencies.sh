@@ -33,8 +33,6 @@ python3         bench figures host                                    : command 
 python3-venv    test check docs python host                           : command python3 -c "import ensurepip"
 octave          check octave                                          : command octave-cli
 octave-dev      check octave                                          : command mkoctfile
-openmpi-bin     check parallel                                        : command mpirun
-libopenmpi-dev  check parallel                                        : command mpifort
 dpkg-dev        host                                                  : command dpkg-source
 libspooles-dev  host                                                  : library spooles
 libarpack2-dev  host                                                  : library arpack

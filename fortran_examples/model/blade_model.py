@@ -114,12 +114,12 @@ MODELS = {
 if __name__ == "__main__":
     for name, (description, boundary, parameters) in MODELS.items():
         files = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent)
-        texts = ["mass of %s, kg", "damping of %s, N s/m", "stiffness of %s, contacts open, N/m"]
+        texts = ["mass, kg", "damping, N s/m", "stiffness with open contacts, N/m"]
+        order = f"of each blade {', '.join(boundary)}, {MODES} modes" + (", then damper x and r" if name == "wedge" else "")
         for kind, text, matrix in zip(["mass", "damping", "stiffness"], texts, model(*parameters)):
-            head = f"%%MatrixMarket matrix array real symmetric\n% {text % description}\n{len(matrix)} {len(matrix)}\n"
-            values = "".join(f"{value:.16e}\n" for i in range(len(matrix)) for value in matrix[i:, i])
-            (files / f"{name}_{kind}.mtx").write_text(head + values)
-        names = [f"{dof}_{blade}" for blade in (1, 2) for dof in boundary + [f"mode_{i + 1}" for i in range(MODES)]]
-        names += ["damper_x", "damper_r"] if name == "wedge" else []
-        rows = "".join(f"{i} {dof}\n" for i, dof in enumerate(names, 1))
-        (files / f"{name}_dof.txt").write_text(f"# degrees of freedom of {description}; modes are mass-normalised\n{rows}")
+            scale = np.sqrt(np.diag(matrix))
+            rows = [(i, j, matrix[i, j]) for j in range(len(matrix)) for i in range(j, len(matrix))
+                    if abs(matrix[i, j]) > 1e-12 * scale[i] * scale[j]]  # smaller ones are rounding errors of zeros
+            head = f"%%MatrixMarket matrix coordinate real symmetric\n% {description}: {text}\n% {order}\n"
+            text = "".join(f"{i + 1} {j + 1} {value:.16e}\n" for i, j, value in rows)
+            (files / f"{name}_{kind}.mtx").write_text(f"{head}{len(matrix)} {len(matrix)} {len(rows)}\n{text}")

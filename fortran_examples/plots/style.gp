@@ -7,7 +7,6 @@ set datafile columnheaders
 set encoding utf8
 
 set style line 1 lc rgb '#0072B2' lw 2.2 dt 1     pt 7 ps 0.8    # microslip, cylinder
-set style line 2 lc rgb '#D55E00' lw 2.2 dt (8,4) pt 5 ps 0.8    # microslip, flat with rounded edges
 set style line 3 lc rgb '#222222' lw 1.6 dt (2,3) pt 8 ps 1.0    # spring-slider
 
 set border lw 1.0 lc rgb '#444444'

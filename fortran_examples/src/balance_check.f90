@@ -30,10 +30,10 @@ program balance_check
   call read_case(trim(argument(1, 'balance_check CASE')), data)
   if (size(data%frequencies) == 0) call fail('a group &points is needed')
   do i = 1, size(data%frequencies)
-    call prepare_problem(data, data%point_load_factor, data%harmonics, data%samples, problem, data%point_excitation_factors(i))
-    if (i == 1) allocate (displacement(2 * data%harmonics + 1, size(problem%incidence, 2)))
+    call prepare_problem(data, 1.0_wp, data%point_factors(i), data%harmonics, data%samples, problem)
+    if (i == 1) allocate (displacement(2 * data%harmonics + 1, problem%contacts%components))
     omega = 2.0_wp * pi * data%frequencies(i)
-    call solve_within(problem, 2.0_wp * pi * [data%frequency_from, data%frequency_to], omega, displacement, point, converged)
+    call solve_within(problem, data%range, omega, displacement, point, converged)
     if (.not. converged) call fail('no harmonic balance found at '//text(data%frequencies(i), '(f12.3)')//' Hz')
     energy = energy_difference()
     derivative = derivative_difference()
@@ -42,7 +42,7 @@ program balance_check
                   ', derivatives '//text(derivative, '(es8.1)')//', time steps '//text(steps, '(es8.1)'))
     if (.not. energy <= energy_tolerance) call fail('the energy balance is violated')
     if (.not. derivative <= derivative_tolerance) call fail('the derivatives differ from central differences')
-    if (.not. steps <= merge(alignment_tolerance, step_tolerance, size(problem%contacts%batches(2)%elements) > 0)) &
+    if (.not. steps <= merge(alignment_tolerance, step_tolerance, any(problem%contacts%items%directions == 2))) &
       call fail('the harmonic force differs from that of time steps')
   end do
 

@@ -14,9 +14,6 @@ module basics
     module procedure text_of_integer, text_of_real
   end interface text
 
-  !> Called by `fail` before it ends the process, to end the other processes of a parallel program.
-  procedure(), pointer, public :: before_exit => null()
-
   interface
     ! STOP would also print the pending floating-point flags.
     subroutine c_exit(code) bind(c, name='exit')
@@ -34,7 +31,6 @@ contains
     flush (output_unit)
     write (error_unit, '(2a)') 'error: ', message
     flush (error_unit)
-    if (associated(before_exit)) call before_exit()
     call c_exit(1_c_int)
   end subroutine fail
 

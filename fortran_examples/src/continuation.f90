@@ -11,7 +11,7 @@ module continuation
     structure_response
   implicit none
   private
-  public :: find_peak, follow_response, refine_peak, solve_within
+  public :: follow_response, refine_peak, solve_within
 
   type, public :: response_path
     integer :: points = 0
@@ -249,29 +249,6 @@ contains
     displacement = path%displacement(:, :, path%points)
     call solve_at(problem, omega, displacement, point, converged)
   end subroutine solve_within
-
-  !> The resonance peak of degree of freedom `dof` over a range of frequencies: frequency, amplitude and balance.
-  subroutine find_peak(problem, range, dof, omega, peak, displacement, point)
-    type(balance_problem), intent(inout) :: problem
-    real(wp), intent(in) :: range(2)
-    integer, intent(in) :: dof
-    real(wp), intent(out) :: omega, peak
-    real(wp), intent(out), allocatable :: displacement(:,:)
-    type(balance_point), intent(inout) :: point
-    type(response_path) :: path
-    real(wp), allocatable :: amplitude(:)
-    integer :: i
-
-    call follow_response(problem, range(1), range(2), path)
-    allocate (amplitude(path%points), displacement(2 * problem%harmonics + 1, size(problem%incidence, 2)))
-    do i = 1, path%points
-      call evaluate(problem, path%omega(i), path%displacement(:, :, i), point)
-      amplitude(i) = peak_of(problem, point, dof)
-    end do
-    call refine_peak(problem, path, amplitude, dof, omega, displacement)
-    call evaluate(problem, omega, displacement, point)
-    peak = peak_of(problem, point, dof)
-  end subroutine find_peak
 
   real(wp) function peak_of(problem, point, dof)
     type(balance_problem), intent(in) :: problem

@@ -15,7 +15,6 @@
 !>
 !>     C_0 = B^T (K + B S B^T)^-1 B,    f replaced by f - S u.
 module harmonic_balance
-  use, intrinsic :: iso_fortran_env, only: int64
   use basics, only: wp
   use dense_algebra, only: solve
   use fourier_series, only: get_harmonic, set_harmonic
@@ -33,8 +32,8 @@ module harmonic_balance
     real(wp), allocatable :: static_load(:)       !! for each degree of freedom
     integer :: harmonics = 0
     real(wp) :: tolerance = 0.0_wp                !! of R, relative to the displacement of each contact
-    integer :: evaluations = 0                    !! of R and its derivatives
-    real(wp) :: contact_seconds = 0.0_wp          !! wall time of contacts%harmonic_force
+    real(wp), allocatable :: springs(:)           !! S: of normal components; else 0
+    real(wp), allocatable :: offset(:)            !! of each component without any displacement of the structure
   end type balance_problem
 
   !> The balance at one frequency and one set of displacements.
@@ -68,7 +67,6 @@ contains
     complex(wp) :: residual, residual_rate, force
     real(wp) :: contact_jacobian(size(displacement, 1), size(displacement, 1), max_components, size(displacement, 2))
     real(wp) :: rows(2, size(displacement, 1))
-    integer(int64) :: start, finish, rate_of_clock
     logical :: allowed
     integer :: n, components, m, k, i, j, c, p, row, column
 
@@ -77,22 +75,18 @@ contains
     m = size(displacement, 1)
     if (.not. allocated(point%force)) then
       allocate (point%residual(m, components), point%by_omega(m, components), point%force(m, components))
-      allocate (point%jacobian(m * components, m * components), point%dissipated(size(problem%contacts%first)))
+      allocate (point%jacobian(m * components, m * components), point%dissipated(size(problem%contacts%items)))
       allocate (point%spring_force(components), point%by_force(n, components, 0:problem%harmonics))
       allocate (point%by_load(n, 0:problem%harmonics))
     end if
-    call system_clock(start, rate_of_clock)
     call problem%contacts%harmonic_force(displacement, point%force, contact_jacobian, point%dissipated, allowed)
-    call system_clock(finish)
-    problem%contact_seconds = problem%contact_seconds + real(finish - start, wp) / rate_of_clock
-    problem%evaluations = problem%evaluations + 1
     if (.not. allowed) then
       point%residual = beyond_range
       return
     end if
 
     point%free_size = 0.0_wp
-    associate (springs => problem%contacts%normal_stiffness, offset => problem%contacts%offset)
+    associate (springs => problem%springs, offset => problem%offset)
       point%spring_force = springs * displacement(1, :)
       do k = 0, problem%harmonics
         stiffness = cmplx(problem%model%stiffness - (k * omega)**2 * problem%model%mass, &
@@ -128,8 +122,8 @@ contains
           call set_harmonic(point%by_omega(:, i), k, residual_rate)
 
           row = (i - 1) * m + max(2*k, 1)
-          do c = 1, size(problem%contacts%first)
-            associate (first => problem%contacts%first(c), last => problem%contacts%last(c))
+          do c = 1, size(problem%contacts%items)
+            associate (first => problem%contacts%items(c)%first, last => problem%contacts%items(c)%last)
               do j = first, last
                 rows = 0.0_wp
                 do p = first, last
@@ -261,7 +255,7 @@ contains
 
     full = problem%excitation
     displacement = 0.0_wp
-    if (any(abs(problem%static_load) > 0.0_wp) .or. any(abs(problem%contacts%offset) > 0.0_wp)) then
+    if (any(abs(problem%static_load) > 0.0_wp) .or. any(abs(problem%offset) > 0.0_wp)) then
       problem%excitation = 0.0_wp
       call evaluate(problem, omega, displacement, point)
       trial = displacement
@@ -270,7 +264,7 @@ contains
       call solve_at(problem, omega, displacement, point, converged)
       if (.not. converged) then
         displacement = 0.0_wp
-        where (problem%contacts%normal_stiffness > 0.0_wp) displacement(1, :) = trial(1, :)
+        where (problem%springs > 0.0_wp) displacement(1, :) = trial(1, :)
         call solve_at(problem, omega, displacement, point, converged)
       end if
       problem%excitation = full

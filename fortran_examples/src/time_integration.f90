@@ -41,14 +41,14 @@ contains
     real(wp) :: correction(size(u), 1), fraction, size_before
     integer :: iteration, halving, i
 
-    associate (h => scheme%step, contacts => problem%contacts, model => problem%model)
+    associate (h => scheme%step, model => problem%model, offset => problem%offset)
       displacement = state%displacement + h * state%velocity + 0.25_wp * h**2 * state%acceleration
       velocity = state%velocity + 0.5_wp * h * state%acceleration
       acceleration = matmul(scheme%inverse, excitation - matmul(model%damping, velocity) &
                             - matmul(model%stiffness, displacement))
-      u_free = matmul(displacement + 0.25_wp * h**2 * acceleration, problem%incidence) + contacts%offset
+      u_free = matmul(displacement + 0.25_wp * h**2 * acceleration, problem%incidence) + offset
 
-      u = matmul(displacement + 0.25_wp * h**2 * state%acceleration, problem%incidence) + contacts%offset
+      u = matmul(displacement + 0.25_wp * h**2 * state%acceleration, problem%incidence) + offset
       call try()
       do iteration = 1, newton_steps
         if (all(abs(residual) <= newton_tolerance * scheme%contact_scale)) exit
@@ -117,12 +117,11 @@ end module newmark
 !>
 !>     time_integration CASE DIRECTORY
 !>
-!> Each group &time_integration of CASE lists frequencies and numbers of harmonics. At each frequency the motion starts from
-!> the balance with the most harmonics, so that the transient is small, and is integrated until it is periodic. Written to
-!> DIRECTORY, for a case called NAME:
-!> * NAME_comparison.csv  the differences, for every load factor, frequency and number of harmonics;
-!> * NAME_waveforms.csv   one period of both: the response, and displacement and force of the first contact; those in the normal
-!>   and in the second tangential direction are NaN if it has no such component;
+!> Each group &time_integration of CASE has a frequency and numbers of harmonics. The motion starts from the balance with the most
+!> harmonics, so that the transient is small, and is integrated until it is periodic. Written to DIRECTORY, for a case called NAME:
+!> * NAME_comparison.csv  the differences, for every group and number of harmonics;
+!> * NAME_waveforms.csv   one period of both: the response, and displacement and force of the first contact: tangential, in the second
+!>   tangential direction or again in the first, normal or again tangential;
 !> * NAME_modes.csv       natural frequencies with the contacts at their initial stiffness, over that of the excitation, and the
 !>   displacement of the first contact in each mode, relative to the largest: harmonics near such a mode are amplified;
 !> * NAME_spectrum.csv    amplitude of each harmonic of the force of the first contact by time integration, over the first.
@@ -130,7 +129,6 @@ end module newmark
 !> The exit code is 1 if the peak of the balance of the case itself (&harmonic_balance) differs by more than the
 !> allowed_difference of the group.
 program time_integration
-  use, intrinsic :: ieee_arithmetic, only: ieee_quiet_nan, ieee_value
   use basics, only: argument, csv, fail, open_table, pi, progress, text, wp
   use case_input, only: case_data, integration_input, prepare_problem, read_case
   use continuation, only: solve_within
@@ -142,86 +140,136 @@ program time_integration
   implicit none
 
   character(len=*), parameter :: usage = 'time_integration CASE DIRECTORY'
-  integer, parameter :: shown_contact = 1, waveform_points = 256
+  integer, parameter :: waveform_points = 256
 
-  !> One period of the response, and of displacement and force of the shown contact, (instant, component).
+  !> One period of the response, and of displacements and forces, (instant, component).
   type :: waveform
     real(wp), allocatable :: response(:), displacement(:,:), force(:,:)
   end type waveform
 
   character(len=:), allocatable :: prefix
   type(case_data) :: data
-  integer :: table, waveforms, modes, spectrum, i, k
+  integer :: table, waveforms, modes, spectrum, k
 
   call read_case(trim(argument(1, usage)), data)
   prefix = trim(argument(2, usage))//'/'//trim(data%name)
   if (size(data%integrations) == 0) call fail('a group &time_integration is needed')
-  table = open_table(prefix//'_comparison.csv', 'load_factor,excitation_factor,frequency_hz,harmonics,samples,peak_balance_m,'// &
-    'peak_time_integration_m,peak_difference,response_difference,displacement_difference,force_difference,'// &
-    'normal_force_difference,periods,steps_per_period,change_per_period,remaining_transient')
-  waveforms = open_table(prefix//'_waveforms.csv', &
-    'load_factor,excitation_factor,frequency_hz,source,harmonics,points,phase_rad,response_m,contact_displacement_m,'// &
-    'contact_approach_m,contact_force_N,contact_normal_force_N,contact_displacement_y_m,contact_force_y_N')
-  modes = open_table(prefix//'_modes.csv', 'load_factor,frequency_hz,order,participation')
-  spectrum = open_table(prefix//'_spectrum.csv', 'load_factor,frequency_hz,harmonic,contact_force')
+  table = open_table(prefix//'_comparison.csv', 'load_factor,excitation_factor,harmonics,samples,peak_balance_m,'// &
+    'peak_time_integration_m,peak_difference,response_difference,displacement_difference,force_difference')
+  waveforms = open_table(prefix//'_waveforms.csv', 'load_factor,excitation_factor,harmonics,samples,phase_rad,'// &
+    'response_m,displacement_m,displacement_2_m,normal_displacement_m,force_N,force_2_N,normal_force_N')
+  modes = open_table(prefix//'_modes.csv', 'load_factor,excitation_factor,order,participation')
+  spectrum = open_table(prefix//'_spectrum.csv', 'load_factor,excitation_factor,harmonic,contact_force')
   do k = 1, size(data%integrations)
-    do i = 1, size(data%integrations(k)%frequencies)
-      call compare_at(data%integrations(k), data%integrations(k)%frequencies(i))
-    end do
+    call compare(data%integrations(k))
   end do
-  close (table)
-  close (waveforms)
-  close (modes)
-  close (spectrum)
 
 contains
 
-  !> Integrates until the remaining transient is below the tolerance of the group, relative to the response.
-  subroutine integrate(input, frequency, problem, contact_displacement, response, waves, periods, change, remaining)
+  !> The balances of the group, and first that of the case itself.
+  subroutine compare(input)
     type(integration_input), intent(in) :: input
-    real(wp), intent(in) :: frequency, contact_displacement(:,:), response(:,:)
-    type(balance_problem), intent(in) :: problem
+    type(balance_problem) :: problem
+    type(waveform) :: balances(1 + size(input%harmonics)), integrated
+    real(wp), allocatable :: displacement(:,:), response(:,:)
+    integer, dimension(size(balances)) :: harmonics, samples
+    real(wp) :: peak(size(balances)), integrated_peak, difference(4)
+    integer :: k, most
+
+    harmonics = [data%harmonics, input%harmonics]
+    samples = input%samples
+    samples(1) = data%samples
+    most = maxloc(harmonics, dim=1)
+    do k = 1, size(harmonics)
+      if (k /= most) call solve_balance(input, harmonics(k), samples(k), problem, displacement, response, balances(k), peak(k))
+    end do
+    call solve_balance(input, harmonics(most), samples(most), problem, displacement, response, balances(most), peak(most))
+    call integrate(input, problem, displacement, response, integrated)
+    integrated_peak = maxval(abs(integrated%response - sum(integrated%response) / size(integrated%response)))
+    call write_waveform(input, problem, 0, 0, integrated)
+    call write_harmonics(input, problem, integrated%force(:, 1))
+    do k = 1, size(balances)
+      difference = [abs(peak(k) / integrated_peak - 1.0_wp), &
+                    relative_difference(balances(k)%response, integrated%response), &
+                    relative_difference(balances(k)%displacement(:, 1), integrated%displacement(:, 1)), &
+                    relative_difference(balances(k)%force(:, 1), integrated%force(:, 1))]
+      write (table, '(a)') text(input%load_factor, '(es24.16e3)')//csv([input%excitation_factor])//','//text(harmonics(k))//','// &
+        text(samples(k))//csv([peak(k), integrated_peak, difference])
+      call write_waveform(input, problem, harmonics(k), samples(k), balances(k))
+      call progress('  '//text(harmonics(k))//' harmonics, '//text(samples(k))//' samples: peak '// &
+                    text(1.0e6_wp * peak(k), '(f10.4)')//' um, time integration '// &
+                    text(1.0e6_wp * integrated_peak, '(f10.4)')//' um, waveform '//text(difference(2), '(es8.1)')// &
+                    ', contact '//text(difference(3), '(es8.1)'))
+    end do
+    if (.not. abs(peak(1) / integrated_peak - 1.0_wp) <= input%allowed_difference) &
+      call fail('balance and time integration differ by more than '//text(input%allowed_difference, '(es8.1)'))
+  end subroutine compare
+
+  !> Steady state by harmonic balance: displacements of the contacts, of the structure, and the waveforms. On entry `displacement`
+  !> may have those of another number of harmonics.
+  subroutine solve_balance(input, harmonics, samples, problem, displacement, response, waves, peak)
+    type(integration_input), intent(in) :: input
+    integer, intent(in) :: harmonics, samples
+    type(balance_problem), intent(out) :: problem
+    real(wp), allocatable, intent(inout) :: displacement(:,:)
+    real(wp), allocatable, intent(out) :: response(:,:)
     type(waveform), intent(out) :: waves
-    integer, intent(out) :: periods
-    real(wp), intent(out) :: change, remaining
+    real(wp), intent(out) :: peak
+    real(wp), allocatable :: neighbour(:,:)
+    type(balance_point) :: point
+    type(contact_history) :: history
+    real(wp) :: basis(input%steps_per_period, 2 * harmonics + 1)
+    logical :: converged
+
+    call prepare_problem(data, input%load_factor, input%excitation_factor, harmonics, samples, problem)
+    if (allocated(displacement)) call move_alloc(displacement, neighbour)
+    allocate (displacement(2 * harmonics + 1, problem%contacts%components))
+    ! An array that is not allocated is an argument that is not present.
+    call solve_within(problem, data%range, 2.0_wp * pi * input%frequency, displacement, point, converged, neighbour)
+    if (.not. converged) call fail('no harmonic balance with '//text(harmonics)//' harmonics found')
+    response = structure_response(problem, point)
+    peak = series_peak(response(:, data%response_dof))
+    basis = series_basis(harmonics, input%steps_per_period)
+    waves%displacement = matmul(basis, displacement)
+    waves%force = waves%displacement
+    call problem%contacts%steady_cycle(waves%displacement, history, waves%force)
+    waves%response = matmul(basis, response(:, data%response_dof))
+  end subroutine solve_balance
+
+  !> Integrates until the remaining transient is below the tolerance of the group, relative to the response.
+  subroutine integrate(input, problem, contact_displacement, response, waves)
+    type(integration_input), intent(in) :: input
+    type(balance_problem), intent(in) :: problem
+    real(wp), intent(in) :: contact_displacement(:,:), response(:,:)
+    type(waveform), intent(out) :: waves
     type(newmark_scheme) :: scheme
     type(motion) :: state
-    real(wp) :: excitation(size(response, 2), input%steps_per_period), before(input%steps_per_period), decay, force_error
-    integer :: j, k
+    real(wp) :: excitation(size(response, 2), input%steps_per_period), before(input%steps_per_period), decay, remaining
+    integer :: j, k, period
 
-    call prepare_newmark(problem, 1.0_wp / (frequency * input%steps_per_period), &
+    call prepare_newmark(problem, 1.0_wp / (input%frequency * input%steps_per_period), &
                          [(norm2(contact_displacement(:, k)), k=1, size(contact_displacement, 2))], scheme)
-    call start_motion(2.0_wp * pi * frequency, problem, contact_displacement, response, state, excitation)
+    call start_motion(2.0_wp * pi * input%frequency, problem, contact_displacement, response, state, excitation)
     allocate (waves%response(input%steps_per_period), source=0.0_wp)
-    associate (first => problem%contacts%first(shown_contact), last => problem%contacts%last(shown_contact))
-      allocate (waves%displacement(input%steps_per_period, last - first + 1))
-    end associate
+    allocate (waves%displacement(input%steps_per_period, problem%contacts%components))
     allocate (waves%force, mold=waves%displacement)
-    decay = exp(-slowest_decay(problem) / frequency)
-    do periods = 1, input%max_periods
+    decay = exp(-slowest_decay(problem) / input%frequency)
+    do period = 1, input%max_periods
       before = waves%response
       do j = 1, input%steps_per_period
         k = modulo(j, input%steps_per_period) + 1
         call newmark_step(scheme, problem, excitation(:, k), state)
         waves%response(k) = state%displacement(data%response_dof)
-        associate (first => problem%contacts%first(shown_contact), last => problem%contacts%last(shown_contact))
-          waves%displacement(k, :) = state%contact_displacement(first:last)
-          waves%force(k, :) = state%contact_force(first:last) / data%contacts(shown_contact)%count
-        end associate
+        waves%displacement(k, :) = state%contact_displacement
+        waves%force(k, :) = state%contact_force
       end do
-      change = relative_difference(before, waves%response)
       ! The sum of all further changes by a transient that shrinks by the factor `decay` in each period.
-      remaining = change * decay / (1.0_wp - decay)
+      remaining = relative_difference(before, waves%response) * decay / (1.0_wp - decay)
       if (remaining <= input%steady_tolerance) exit
     end do
-    if (periods > input%max_periods) call fail('not periodic after '//text(input%max_periods)//' periods, change '// &
-                                               text(change, '(es8.1)')//': raise max_periods or steady_tolerance')
-    ! Each period of a slowly decaying motion lies within the one before: more reversals than a state holds.
-    force_error = maxval([(problem%contacts%force_error(state%contacts, j), j=1, size(data%contacts))])
-    call progress(text(frequency, '(f10.2)')//' Hz: periodic after '//text(periods)//' periods of '// &
-                  text(input%steps_per_period)//' steps, change in the last '//text(change, '(es8.1)')// &
-                  ', remaining transient '//text(remaining, '(es8.1)')//', force error of merged reversals '// &
-                  text(force_error, '(es8.1)')//' N')
+    if (period > input%max_periods) call fail('not periodic after '//text(input%max_periods)//' periods')
+    call progress(trim(data%name)//', '//text(input%frequency, '(f10.2)')//' Hz: periodic after '//text(period)//' periods of '// &
+                  text(input%steps_per_period)//' steps, remaining transient '//text(remaining, '(es8.1)'))
   end subroutine integrate
 
   !> The motion of a balance at t = 0, and the excitation at the instants of the steps: excitation(:, 1) is at t = 0.
@@ -246,7 +294,7 @@ contains
     end do
     state%displacement = matmul(basis(1, :), response)
     state%velocity = matmul(rate, response)
-    ! Two periods of the contacts that end at t = 0.
+    ! Periods of the contacts that end at t = 0.
     call problem%contacts%steady_cycle(cshift(matmul(basis, contact_displacement), 1, dim=1), state%contacts, force)
     state%contact_force = force(size(force, 1), :)
     ! Acceleration from the equation of motion.
@@ -261,156 +309,64 @@ contains
   !> D x = lambda M x, for any stiffness. Friction can only increase it.
   real(wp) function slowest_decay(problem) result(rate)
     type(balance_problem), intent(in) :: problem
-    real(wp) :: root(size(problem%excitation)), modes(size(problem%excitation), size(problem%excitation))
+    real(wp) :: root(size(problem%excitation)), shapes(size(problem%excitation), size(problem%excitation))
 
-    call symmetric_modes(problem%model%damping, problem%model%mass, root, modes)
+    call symmetric_modes(problem%model%damping, problem%model%mass, root, shapes)
     rate = 0.5_wp * root(1)**2
     if (rate <= 0.0_wp) call fail('time integration needs a damping matrix that is positive definite')
   end function slowest_decay
 
-  !> The balances of the group, and first that of the case itself.
-  subroutine compare_at(input, frequency)
-    type(integration_input), intent(in) :: input
-    real(wp), intent(in) :: frequency
-    type(balance_problem) :: problem
-    type(waveform) :: balances(1 + size(input%harmonics)), integrated
-    real(wp), allocatable :: displacement(:,:), response(:,:)
-    integer, dimension(size(balances)) :: harmonics, samples
-    real(wp) :: peak(size(balances)), change, remaining, integrated_peak, difference(5)
-    integer :: j, k, most, periods
-
-    harmonics = [data%harmonics, input%harmonics]
-    samples = [data%samples, input%samples]
-    most = maxloc(harmonics, dim=1)
-    do k = 1, size(harmonics)
-      if (k /= most) call solve_balance(input, frequency, harmonics(k), samples(k), problem, displacement, response, &
-                                        balances(k), peak(k))
-    end do
-    call solve_balance(input, frequency, harmonics(most), samples(most), problem, displacement, response, &
-                       balances(most), peak(most))
-    call integrate(input, frequency, problem, displacement, response, integrated, periods, change, remaining)
-
-    integrated_peak = maxval(abs(integrated%response - sum(integrated%response) / size(integrated%response)))
-    call write_waveform(input, frequency, 'time_integration', 0, input%steps_per_period, integrated)
-    call write_harmonics(input, frequency, problem, integrated%force(:, 1))
-    do k = 1, size(balances)
-      difference = [abs(peak(k) / integrated_peak - 1.0_wp), &
-                    relative_difference(balances(k)%response, integrated%response), &
-                    relative_difference(balances(k)%displacement(:, 1), integrated%displacement(:, 1)), &
-                    relative_difference(balances(k)%force(:, 1), integrated%force(:, 1)), &
-                    ieee_value(1.0_wp, ieee_quiet_nan)]
-      associate (force => balances(k)%force, reference => integrated%force)
-        j = size(force, 2)
-        if (j > 1) difference(5) = relative_difference(force(:, j), reference(:, j))
-      end associate
-      write (table, '(a)') text(input%load_factor, '(es24.16e3)')//csv([input%excitation_factor, frequency])//','// &
-        text(harmonics(k))//','// &
-        text(samples(k))//csv([peak(k), integrated_peak, difference])//','//text(periods)//','// &
-        text(input%steps_per_period)//csv([change, remaining])
-      call write_waveform(input, frequency, 'balance', harmonics(k), samples(k), balances(k))
-      call progress('  '//text(harmonics(k))//' harmonics, '//text(samples(k))//' samples: peak '// &
-                    text(1.0e6_wp * peak(k), '(f10.4)')//' um, time integration '// &
-                    text(1.0e6_wp * integrated_peak, '(f10.4)')//' um, difference '//text(difference(1), '(es8.1)')// &
-                    ', waveform '//text(difference(2), '(es8.1)')//', contact '//text(difference(3), '(es8.1)'))
-    end do
-    if (.not. abs(peak(1) / integrated_peak - 1.0_wp) <= input%allowed_difference) then
-      call fail('the peak of the balance with '//text(harmonics(1))//' harmonics differs from that of time integration by more'// &
-                ' than '//text(input%allowed_difference, '(es8.1)'))
-    end if
-  end subroutine compare_at
-
-  !> Steady state by harmonic balance: displacements of the contacts, of the structure, and the waveforms. On entry `displacement`
-  !> may have those of another number of harmonics.
-  subroutine solve_balance(input, frequency, harmonics, samples, problem, displacement, response, waves, peak)
-    type(integration_input), intent(in) :: input
-    real(wp), intent(in) :: frequency
-    integer, intent(in) :: harmonics, samples
-    type(balance_problem), intent(out) :: problem
-    real(wp), allocatable, intent(inout) :: displacement(:,:)
-    real(wp), allocatable, intent(out) :: response(:,:)
-    type(waveform), intent(out) :: waves
-    real(wp), intent(out) :: peak
-    real(wp), allocatable :: neighbour(:,:)
-    type(balance_point) :: point
-    type(contact_history) :: history
-    real(wp) :: basis(input%steps_per_period, 2 * harmonics + 1)
-    real(wp), allocatable :: u(:,:), force(:,:)
-    logical :: converged
-
-    call prepare_problem(data, input%load_factor, harmonics, samples, problem, input%excitation_factor)
-    if (allocated(displacement)) call move_alloc(displacement, neighbour)
-    allocate (displacement(2 * harmonics + 1, size(problem%incidence, 2)))
-    ! An array that is not allocated is an argument that is not present.
-    call solve_within(problem, 2.0_wp * pi * [data%frequency_from, data%frequency_to], 2.0_wp * pi * frequency, displacement, &
-                      point, converged, neighbour)
-    if (.not. converged) call fail('no harmonic balance with '//text(harmonics)//' harmonics found')
-    response = structure_response(problem, point)
-    peak = series_peak(response(:, data%response_dof))
-    basis = series_basis(harmonics, input%steps_per_period)
-    u = matmul(basis, displacement)
-    allocate (force, mold=u)
-    call problem%contacts%steady_cycle(u, history, force)
-    waves%response = matmul(basis, response(:, data%response_dof))
-    associate (first => problem%contacts%first(shown_contact), last => problem%contacts%last(shown_contact))
-      waves%displacement = u(:, first:last)
-      waves%force = force(:, first:last) / data%contacts(shown_contact)%count
-    end associate
-  end subroutine solve_balance
-
-  !> `points` are the samples of a balance, or the steps of time integration.
-  subroutine write_waveform(input, frequency, source, harmonics, points, waves)
-    type(integration_input), intent(in) :: input
-    real(wp), intent(in) :: frequency
-    character(len=*), intent(in) :: source
-    integer, intent(in) :: harmonics, points
-    type(waveform), intent(in) :: waves
-    real(wp) :: contact(6)
-    integer :: j, k, m
-
-    contact = ieee_value(1.0_wp, ieee_quiet_nan)
-    m = size(waves%force, 2)
-    do j = 0, input%steps_per_period, max(1, input%steps_per_period / waveform_points)
-      k = modulo(j, input%steps_per_period) + 1
-      contact([1, 3]) = [waves%displacement(k, 1), waves%force(k, 1)]
-      if (m > 1) contact([2, 4]) = [waves%displacement(k, m), waves%force(k, m)]
-      if (m > 2) contact(5:) = [waves%displacement(k, 2), waves%force(k, 2)]
-      write (waveforms, '(a)') text(input%load_factor, '(es24.16e3)')//csv([input%excitation_factor, frequency])//','// &
-        source//','//text(harmonics)//','//text(points)// &
-        csv([2.0_wp * pi * j / input%steps_per_period, waves%response(k), contact])
-    end do
-  end subroutine write_waveform
-
   !> What decides how many harmonics a balance needs: the modes with sticking contacts, and the harmonics of the contact force.
-  subroutine write_harmonics(input, frequency, problem, force)
+  subroutine write_harmonics(input, problem, force)
     type(integration_input), intent(in) :: input
-    real(wp), intent(in) :: frequency, force(:)
+    real(wp), intent(in) :: force(:)
     type(balance_problem), intent(in) :: problem
     integer, parameter :: most = 61
-    real(wp) :: stiffness(size(problem%excitation), size(problem%excitation)), amplitude(0:most)
-    real(wp), dimension(size(problem%excitation)) :: omega, shown
-    real(wp) :: shapes(size(omega), size(omega)), k
+    real(wp) :: stiffness(size(problem%excitation), size(problem%excitation)), amplitude(0:most), spring
+    real(wp) :: omega(size(problem%excitation)), shown(size(problem%excitation)), shapes(size(omega), size(omega))
     integer :: i, j
 
     stiffness = problem%model%stiffness
     do i = 1, size(data%contacts)
-      k = data%contacts(i)%count * problem%contacts%prepared(i)%initial_stiffness
-      associate (direction => problem%incidence(:, problem%contacts%first(i)))
+      associate (c => problem%contacts%items(i), direction => problem%incidence(:, problem%contacts%items(i)%first))
+        spring = c%count * c%contact%initial_stiffness
         do j = 1, size(omega)
-          stiffness(:, j) = stiffness(:, j) + k * direction(j) * direction
+          stiffness(:, j) = stiffness(:, j) + spring * direction(j) * direction
         end do
       end associate
     end do
     call symmetric_modes(stiffness, problem%model%mass, omega, shapes)
-    shown = abs(matmul(problem%incidence(:, problem%contacts%first(shown_contact)), shapes))
+    shown = abs(matmul(problem%incidence(:, 1), shapes))
     do i = 1, size(omega)
-      write (modes, '(a)') text(input%load_factor, '(es24.16e3)')//csv([frequency, omega(i) / (2.0_wp * pi * frequency), &
-                                                                        shown(i) / maxval(shown)])
+      write (modes, '(a)') text(input%load_factor, '(es24.16e3)')//csv([input%excitation_factor, &
+        omega(i) / (2.0_wp * pi * input%frequency), shown(i) / maxval(shown)])
     end do
     amplitude = harmonic_amplitude(matmul(force, series_basis(most, size(force))))
     do i = 1, most
-      write (spectrum, '(a)') text(input%load_factor, '(es24.16e3)')//csv([frequency, real(i, wp), amplitude(i) / amplitude(1)])
+      write (spectrum, '(a)') text(input%load_factor, '(es24.16e3)')//csv([input%excitation_factor, real(i, wp), &
+                                                                           amplitude(i) / amplitude(1)])
     end do
   end subroutine write_harmonics
+
+  !> `harmonics` is 0 for time integration.
+  subroutine write_waveform(input, problem, harmonics, samples, waves)
+    type(integration_input), intent(in) :: input
+    type(balance_problem), intent(in) :: problem
+    integer, intent(in) :: harmonics, samples
+    type(waveform), intent(in) :: waves
+    integer :: j, k, shown(3)
+
+    associate (c => problem%contacts%items(1))
+      shown = [1, min(2, int(c%directions)), c%last]
+      shown(2) = max(shown(2), 1)
+      do j = 0, input%steps_per_period, max(1, input%steps_per_period / waveform_points)
+        k = modulo(j, input%steps_per_period) + 1
+        write (waveforms, '(a)') text(input%load_factor, '(es24.16e3)')//csv([input%excitation_factor])//','//text(harmonics)// &
+          ','//text(samples)//csv([2.0_wp * pi * j / input%steps_per_period, waves%response(k), &
+          waves%displacement(k, shown), waves%force(k, shown) / c%count])
+      end do
+    end associate
+  end subroutine write_waveform
 
   !> Largest difference over the period, relative to the largest value.
   pure real(wp) function relative_difference(a, reference)
