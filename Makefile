@@ -119,7 +119,7 @@ audit:
 verify:
 	@tools/dependencies.sh verify
 	$(CARGO) run --locked --package verify -- \
-		--points $(or $(POINTS),1e7) --replay docs/accuracy.csv --regions docs/accuracy.csv --promises docs/promises.csv
+		--points $(or $(POINTS),1e7) --replay verification/accuracy.csv --regions verification/accuracy.csv --promises docs/promises.csv
 
 ## instructions: count the instructions of each call and check the relations between the counts
 instructions:

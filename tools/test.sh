@@ -20,7 +20,7 @@ rust() {
 
 programs() {
     step 'archive: symbols and sections' tools/symbols.sh "$prefix"
-    step 'accuracy and histories: short, and the worst cases' target/debug/verify --points 1e4 --replay docs/accuracy.csv
+    step 'accuracy and histories: short, and the worst cases' target/debug/verify --points 1e4 --replay verification/accuracy.csv
     step 'paper: figures and claims' target/debug/paper --check
     step 'validation: boundary elements, measurements' target/debug/validation --check
     step 'C header and Fortran module: generated from the source' target/debug/xtask header --check

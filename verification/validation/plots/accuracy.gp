@@ -1,11 +1,11 @@
-# The worst error in each region of docs/accuracy.csv over its condition number, and the errors that are promised.
+# The worst error in each region of verification/accuracy.csv over its condition number, and the errors that are promised.
 load 'plots/style.gp'
 wide = 1000; high = 470
 
 @set_terminal
 set multiplot layout 1,2
 set datafile separator comma
-table = '../../docs/accuracy.csv'
+table = '../accuracy.csv'
 set logscale xy
 set format xy '10^{%T}'
 set key top left samplen 2
