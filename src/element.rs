@@ -172,9 +172,9 @@ impl Element {
     fn init_of(&mut self, shape: &Shape, parameters: &Common, (directions, input): Components) -> Result<(), Error> {
         let Common { normal_force, friction_coefficient, .. } = *parameters;
         let layer = &shape.layer;
-        let [w, largest] = sizes(shape, normal_force, directions)?;
-        let compliances = [Quantity::Approach, Quantity::Shift].map(|quantity| shape.compliance(quantity, w));
-        let [approach, shift] = [Quantity::Approach, Quantity::Shift].map(|quantity| shape.value(quantity, w));
+        let [size, largest] = sizes(shape, normal_force, directions)?;
+        let compliances = [Quantity::Approach, Quantity::Shift].map(|quantity| shape.compliance(quantity, size));
+        let [approach, shift] = [Quantity::Approach, Quantity::Shift].map(|quantity| shape.value(quantity, size));
         for value in [approach, shift, normal_force] {
             // The element accepts its own load and approach.
             if !in_0_to(MAX_DISPLACEMENT, value) {
@@ -199,7 +199,7 @@ impl Element {
         self.friction_coefficient = friction_coefficient;
         self.per_two_mu = if friction_coefficient > 0.0 { 0.5 / friction_coefficient.max(TINY) } else { 0.0 };
         self.normal_force = normal_force;
-        self.half_width = shape.half_width(w);
+        self.half_width = shape.half_width(size);
         self.approach = approach;
         [self.normal_stiffness, self.tangential_stiffness] = compliances.map(f64::recip);
         (self.directions, self.normal_input) = (directions as i32, input as i32);
@@ -210,7 +210,7 @@ impl Element {
         let own = [shape.per_load[1] - ratio * shape.per_load[0], (1.0 - ratio) * layer.compliance(0.0)];
         let per_load = if layer.is_linear() { own[0] + own[1] } else { own[0] };
         self.lateral = [ratio, per_load];
-        self.key = key_of(&[normal_force, friction_coefficient, w, approach, shift, shape.flat, ratio, per_load]);
+        self.key = key_of(&[normal_force, friction_coefficient, size, approach, shift, shape.flat, ratio, per_load]);
         self.fill_tables(shape, input, [normal_force, approach, shift]);
         Ok(())
     }
@@ -222,9 +222,9 @@ impl Element {
         let regular = |value: f64, largest: f64| value.min(largest / 2.25);
         let mut potentials = self.potential.0.iter_mut();
         Table::fill([&mut self.load_of_shift], regular(shift, self.largest_shift), &mut |x| {
-            let w = shape.size_at(Quantity::Shift, x);
-            potentials.next().into_iter().for_each(|value| *value = shape.potential(w));
-            let [load, ..] = shape.series(w, Quantity::Shift);
+            let size = shape.size_at(Quantity::Shift, x);
+            potentials.next().into_iter().for_each(|value| *value = shape.potential(size));
+            let [load, ..] = shape.series(size, Quantity::Shift);
             [load]
         });
         // The load of the parameters without the rounding error of its size.
@@ -304,9 +304,9 @@ impl Element {
             // A point is infinitely compliant.
             return (0.0, if argument == Quantity::Load { f64::INFINITY } else { 0.0 });
         }
-        let w = if x > 0.0 { shape.size_at(argument, x) } else { 0.0 };
-        let [value, compliance] = shape.value_and_compliance(quantity, w);
-        (value, compliance / shape.compliance(argument, w))
+        let size = if x > 0.0 { shape.size_at(argument, x) } else { 0.0 };
+        let [value, compliance] = shape.value_and_compliance(quantity, size);
+        (value, compliance / shape.compliance(argument, size))
     }
 
     /// N, U or S of the smallest size that is distinguished.
@@ -563,9 +563,9 @@ const fn tag_of(directions: Directions) -> u64 {
 /// Errors: those of [`Layer::check_share`]; `LengthTooShort` if the first one is not smaller.
 fn sizes(shape: &Shape, normal_force: f64, directions: Directions) -> Result<[f64; 2], Error> {
     let mut largest = if directions == Directions::Two { shape.largest } else { shape.largest_size() };
-    let w = shape.at_load(normal_force);
+    let size = shape.at_load(normal_force);
     if !shape.layer.is_none() {
-        let compliances = [Quantity::Approach, Quantity::Shift].map(|quantity| shape.compliance(quantity, w));
+        let compliances = [Quantity::Approach, Quantity::Shift].map(|quantity| shape.compliance(quantity, size));
         shape.layer.check_share(normal_force, compliances)?;
         // The contact stiffens with the load, so that a layer has energies of the order of N² where those of a contact are smaller.
         let most = normal_force * MOST_LOAD_WITH_LAYER;
@@ -573,7 +573,7 @@ fn sizes(shape: &Shape, normal_force: f64, directions: Directions) -> Result<[f6
             largest = shape.at_load(most);
         }
     }
-    if w >= largest { Err(Error::LengthTooShort) } else { Ok([w, largest]) }
+    if size >= largest { Err(Error::LengthTooShort) } else { Ok([size, largest]) }
 }
 
 /// A number from 1 to 2 that depends on the bits of all values.

@@ -81,9 +81,9 @@ pub(crate) fn normalise(sums: &mut [f64], weight: f64) {
     }
 }
 
-/// The work of the tangential forces in a period \[J\]: `π Σ k (a_k B_k - b_k A_k)` from the n coefficients `[a_0, a_1, b_1, ...]` of
-/// the force in each tangential direction, and those of the displacement. In the steady state it is the energy dissipated, which is not
-/// negative; rounding below 0 counts as 0.
+/// The work of the tangential forces in a period \[J\]: `π Σ k (c_k s'_k - s_k c'_k)` from the n coefficients
+/// `[c_0, c_1, s_1, ...]` of the force in each tangential direction, and those of the displacement. In the steady state it is the
+/// energy dissipated, which is not negative; rounding below 0 counts as 0.
 pub(crate) fn work(n: usize, displacement: &[f64], force: &[f64]) -> f64 {
     let mut work = 0.0;
     for (displacement, force) in displacement.chunks_exact(n.max(1)).zip(force.chunks_exact(n.max(1))) {

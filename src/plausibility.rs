@@ -69,7 +69,7 @@ impl Parameters {
             Parameters { displacement_reference: CENTRE_POINT, ..*self }.checked().ok()?;
             let (b, punch) = size_under_load(self, Pair::new(&self.material).composite_modulus).ok()?;
             // b - a from w² = b² - a², free of cancellation.
-            Some((b, b * (punch.w * punch.w / (1.0 + punch.flat))))
+            Some((b, b * (punch.leg * punch.leg / (1.0 + punch.flat))))
         };
         let Some((b, edge)) = size() else { return [None; 3] };
         [

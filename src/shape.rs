@@ -13,11 +13,11 @@
 //! The monotonic curve, hysteresis and energies follow from N and S alone (Jäger 1998; Ciavarella 1998), without the geometry.
 //! Under a constant load only the sizes below the present one are involved: its stick zones.
 //!
-//! With the load g of a size in units of the shape, and β and γ the means of the compliance K beyond that of the size and of its product
-//! with the load, both shapes have the same sums,
+//! With the load g of a size in units of the shape, and β and γ the means of the compliance Λ beyond that of the size and of its
+//! product with the load, both shapes have the same sums,
 //!
 //! ```text
-//! N ~ g,     U, S = N (K + β),     M = N² (K + γ)/2,
+//! N ~ g,     U, S = N (Λ + β),     M = N² (Λ + γ)/2,
 //! ```
 //!
 //! to which a layer in series adds its own.
@@ -83,8 +83,8 @@ pub(crate) trait Geometry {
     fn check_element(&self, modulus: f64) -> Result<(), Error>;
 }
 
-/// A nested family of contact sizes, with a layer in series. A size is given by a parameter w \[m\] that is 0 for the smallest one: the
-/// semi-axis x of an ellipse, `sqrt(s² - a²)` of a flat with rounded edges.
+/// A nested family of contact sizes, with a layer in series. A size is given by its leg \[m\], which is 0 for the smallest one:
+/// the semi-axis x of an ellipse, `sqrt(s² - a²)` of a flat with rounded edges.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Shape {
@@ -94,9 +94,9 @@ pub(crate) struct Shape {
     length: f64,
     /// N/g.
     load_scale: f64,
-    /// K_t/K \[m/N\]; 1 for an ellipse.
+    /// K_t/Λ \[m/N\]; 1 for an ellipse.
     compliance_scale: f64,
-    /// κ of U and of S, or C_n and C_t.
+    /// χ of U and of S, or C_n and C_t.
     constants: [f64; 2],
     /// Without the layer, S = `per_approach` U + `per_load` N in each direction of the plane of contact.
     pub per_approach: [f64; 2],
@@ -112,7 +112,7 @@ pub(crate) struct Shape {
     pub layer: Layer,
 }
 
-/// Smallest K for which the laws are inverted: the approach is largest where its K is 0.
+/// Smallest Λ for which the laws are inverted: the approach is largest at Λ = 0.
 const SMALLEST_COMPLIANCE: f64 = 1.0 / 16.0;
 
 /// 2^498: the largest load \[N\], approach and shift \[m\] of an ellipse or of a layer.
@@ -129,18 +129,18 @@ impl Shape {
     }
 
     /// The punch of a size; of an ellipse over that of the parameters.
-    fn punch_at(&self, w: f64) -> RoundedPunch {
-        if self.is_elliptic() { RoundedPunch::ellipse(w / self.length) } else { RoundedPunch::new(self.flat, w) }
+    fn punch_at(&self, leg: f64) -> RoundedPunch {
+        if self.is_elliptic() { RoundedPunch::ellipse(leg / self.length) } else { RoundedPunch::new(self.flat, leg) }
     }
 
     /// Half-width s \[m\]; for an ellipse the semi-axis x.
-    pub fn half_width(&self, w: f64) -> f64 {
-        if self.is_elliptic() { w } else { self.punch_at(w).half_width }
+    pub fn half_width(&self, leg: f64) -> f64 {
+        if self.is_elliptic() { leg } else { self.punch_at(leg).half_width }
     }
 
     /// N \[N\].
-    pub fn load(&self, w: f64) -> f64 {
-        self.load_scale * self.punch_at(w).load()
+    pub fn load(&self, leg: f64) -> f64 {
+        self.load_scale * self.punch_at(leg).load()
     }
 
     /// K_n or K_t \[m/N\] without the layer, or 1 for N.
@@ -148,7 +148,7 @@ impl Shape {
     fn own_compliance(&self, quantity: Quantity, punch: &RoundedPunch) -> f64 {
         match quantity {
             Quantity::Load => 1.0,
-            _ if self.is_elliptic() => self.constant(quantity) / punch.w.max(TINY),
+            _ if self.is_elliptic() => self.constant(quantity) / punch.leg.max(TINY),
             _ => self.compliance_scale * self.log_compliance(punch.half_width, self.constant(quantity)),
         }
     }
@@ -170,19 +170,19 @@ impl Shape {
     }
 
     /// N, U or S \[N, m\].
-    pub fn value(&self, quantity: Quantity, w: f64) -> f64 {
-        self.value_and_compliance(quantity, w)[0]
+    pub fn value(&self, quantity: Quantity, leg: f64) -> f64 {
+        self.value_and_compliance(quantity, leg)[0]
     }
 
     /// The derivative of N, U or S by N: 1, K_n, K_t \[m/N\].
-    pub fn compliance(&self, quantity: Quantity, w: f64) -> f64 {
-        let (own, unloaded) = (self.own_compliance(quantity, &self.punch_at(w)), self.layer.unloaded(quantity));
-        if unloaded > 0.0 { own + unloaded * self.layer.softness(self.load(w)) } else { own }
+    pub fn compliance(&self, quantity: Quantity, leg: f64) -> f64 {
+        let (own, unloaded) = (self.own_compliance(quantity, &self.punch_at(leg)), self.layer.unloaded(quantity));
+        if unloaded > 0.0 { own + unloaded * self.layer.softness(self.load(leg)) } else { own }
     }
 
     /// N, U or S and its derivative by N.
-    pub fn value_and_compliance(&self, quantity: Quantity, w: f64) -> [f64; 2] {
-        self.sums(quantity, &self.punch_at(w))
+    pub fn value_and_compliance(&self, quantity: Quantity, leg: f64) -> [f64; 2] {
+        self.sums(quantity, &self.punch_at(leg))
     }
 
     #[inline(always)]
@@ -198,8 +198,8 @@ impl Shape {
     }
 
     /// M = ∫ N dS \[J\].
-    pub fn potential(&self, w: f64) -> f64 {
-        let punch = self.punch_at(w);
+    pub fn potential(&self, leg: f64) -> f64 {
+        let punch = self.punch_at(leg);
         let (load, compliance) = (punch.load(), self.own_compliance(Quantity::Shift, &punch));
         let mean = if self.is_elliptic() { 0.2 * compliance } else { self.compliance_scale * punch.gamma(load) };
         let load = self.load_scale * load;
@@ -209,8 +209,8 @@ impl Shape {
     }
 
     /// N, and S in both directions.
-    pub fn load_and_shifts(&self, w: f64) -> [f64; 3] {
-        let punch = self.punch_at(w);
+    pub fn load_and_shifts(&self, leg: f64) -> [f64; 3] {
+        let punch = self.punch_at(leg);
         let (load, compliance) = (punch.load(), self.own_compliance(Quantity::Approach, &punch));
         let approach = self.own_value(Quantity::Approach, &punch, load, compliance);
         let load = self.load_scale * load;
@@ -226,29 +226,30 @@ impl Shape {
     }
 
     /// The pressure that a size adds, times sqrt(s² - x²)/s and in any unit: dp/d(s²).
-    pub fn pressure_weight(&self, w: f64) -> f64 {
-        if self.is_elliptic() { 1.0 } else { self.punch_at(w).psi }
+    pub fn pressure_weight(&self, leg: f64) -> f64 {
+        if self.is_elliptic() { 1.0 } else { self.punch_at(leg).psi }
     }
 
-    /// The size w under a normal force \[N\], and d(w²)/dN \[m²/N\].
+    /// The size under a normal force \[N\], and d(leg²)/dN \[m²/N\].
     pub fn size_under(&self, load: f64) -> [f64; 2] {
         let load = load / self.load_scale;
         if self.is_elliptic() {
-            let w = self.length * load.cbrt();
-            let load = self.load(w).max(TINY);
-            return [w, 2.0 / 3.0 * (w / load) * w];
+            let leg = self.length * load.cbrt();
+            let load = self.load(leg).max(TINY);
+            return [leg, 2.0 / 3.0 * (leg / load) * leg];
         }
         let punch = RoundedPunch::from_load(self.flat, load);
-        [punch.w, 0.5 / (self.load_scale * punch.psi).max(TINY)]
+        [punch.leg, 0.5 / (self.load_scale * punch.psi).max(TINY)]
     }
 
-    /// The size w under a normal force \[N\].
+    /// The size under a normal force \[N\].
     pub fn at_load(&self, load: f64) -> f64 {
         self.size_under(load)[0]
     }
 
-    /// The size w at which N, U or S has a value: Newton's method in the logarithms. The size at which the contact alone has the value and
-    /// that at which the layer alone has it are both too large; at the smaller one of both the sum is at most twice the value.
+    /// The size at which N, U or S has a value: Newton's method in the logarithms. The size at which the contact alone has the
+    /// value and that at which the layer alone has it are both too large; at the smaller one of both the sum is at most twice the
+    /// value.
     pub fn size_at(&self, quantity: Quantity, value: f64) -> f64 {
         if quantity == Quantity::Load || value <= 0.0 {
             return self.at_load(value.max(0.0));
@@ -258,7 +259,7 @@ impl Shape {
             self.length * (value / (1.5 * constant * self.load_scale)).sqrt()
         } else {
             let compliance = self.compliance_scale * self.log_compliance(self.reference.0, constant).max(1.0);
-            RoundedPunch::initial_guess_w(self.flat, value / (self.load_scale * compliance))
+            RoundedPunch::initial_guess_leg(self.flat, value / (self.load_scale * compliance))
         };
         let unloaded = self.layer.unloaded(quantity);
         if self.is_elliptic() && unloaded <= 0.0 {
@@ -270,20 +271,21 @@ impl Shape {
             let of_layer = self.layer.load_of_extent(value / unloaded);
             start = if of_layer < self.load(start) { self.at_load(of_layer) } else { start };
         }
-        logarithmic_newton(value, start, |w| {
-            let punch = self.punch_at(w);
+        logarithmic_newton(value, start, |leg| {
+            let punch = self.punch_at(leg);
             let [sum, compliance] = self.sums(quantity, &punch);
             if compliance <= 0.0 {
                 // Beyond the largest size, half of it. The steps from below do not overshoot, because the logarithm is concave.
                 return [2.0 * value, 1.0];
             }
-            // dN/d(ln w).
+            // dN/d(ln leg).
             [sum, self.load_scale * punch.load_slope() * compliance / sum]
         })
     }
 
-    /// The largest size for which the laws hold: for a flat with rounded edges that at which the smaller one of both K is 1/16, and both
-    /// vanish near s = 2L; for an ellipse, and with a layer, by loads and displacements up to 2^498. Negative if that is less than a.
+    /// The largest size for which the laws hold: for a flat with rounded edges that at which the smaller one of both Λ is 1/16, and
+    /// both vanish near s = 2L; for an ellipse, and with a layer, by loads and displacements up to 2^498. Negative if that is less
+    /// than a.
     pub fn largest_size(&self) -> f64 {
         let [normal, tangential] = self.constants;
         let largest = if self.is_elliptic() {
@@ -305,15 +307,16 @@ impl Shape {
         if self.is_elliptic() { self.largest_size() } else { self.largest_size().min(self.size_of_half_width(-bound)) }
     }
 
-    /// The size w with the half-width 2L exp(bound); negative if that is less than a.
+    /// The size with the half-width 2L exp(bound); negative if that is less than a.
     fn size_of_half_width(&self, bound: f64) -> f64 {
         let half_width = 2.0 * self.length * bound.exp();
         let (less, more) = (half_width - self.flat, half_width + self.flat);
         less.signum() * (less.abs() * more).sqrt()
     }
 
-    /// Pressure \[Pa\] at x \[m\] along the width that the sizes from `from` to `to` carry (Eq. 17: `dp = E* ψ w dw/(πR sqrt(s² - x²))`);
-    /// 0 outside the contact. For an ellipse on the x axis: differences of `(3/2) N0/(π b² l) sqrt(s² - x²)`, the pressure of the size s.
+    /// Pressure \[Pa\] at x \[m\] along the width that the sizes from `from` to `to` carry (Eq. 17:
+    /// `dp = E* ψ leg d leg/(πR sqrt(s² - x²))`); 0 outside the contact. For an ellipse on the x axis: differences of
+    /// `(3/2) N0/(π b² l) sqrt(s² - x²)`, the pressure of the size s.
     pub fn pressure_between(&self, from: f64, to: f64, x: f64) -> f64 {
         if self.is_elliptic() {
             // The squares of distant points are not representable.

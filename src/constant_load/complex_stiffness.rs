@@ -1,24 +1,24 @@
 //! Complex stiffness `K = K' + iK''` of a cycle of prescribed displacement amplitude (section 3.4), and its derivatives.
 //!
-//! With T the monotonic curve and δ0 the amplitude, K is the ratio of force to displacement in rotating-vector form:
+//! With T the monotonic curve and δ_0 the amplitude, K is the ratio of force to displacement in rotating-vector form:
 //!
 //! ```text
-//! K'  = (8/π) ∫ sqrt(t (1-t)) T'(δ0 t) dt,     0 <= t <= 1, up to gross slip,          K'' = E/(π δ0²)
+//! K'  = (8/π) ∫ sqrt(t (1-t)) T'(δ_0 t) dt,     0 <= t <= 1, up to gross slip,          K'' = W/(π δ_0²)
 //! ```
 //!
-//! with E the dissipated energy. K' has no closed form. Up to 2/5 of the displacement of gross slip, or 11/20, T(δ) is one polynomial,
-//! and so is K': the integrals of the powers are known. Beyond, with displacement x and amplitude ξ over that of gross slip, `ρ = 1 - x`
-//! and `e = 1 - ξ`,
+//! with W the dissipated energy. K' has no closed form. Up to 2/5 of the displacement of gross slip, or 11/20, T(δ) is one
+//! polynomial, and so is K': the integrals of the powers are known. Beyond, with displacement x and amplitude x_0 over that of
+//! gross slip, `ρ = 1 - x` and `ρ_0 = 1 - x_0`,
 //!
 //! ```text
-//! K' = (8/π) F/ξ²,     F = ∫ sqrt(x (ρ-e)) k dρ,     dF/dξ = ½ ∫ sqrt(x/(ρ-e)) k dρ     from max(e, 0) to 1.
+//! K' = (8/π) F/x_0²,     F = ∫ sqrt(x (ρ-ρ_0)) k dρ,     dF/dx_0 = ½ ∫ sqrt(x/(ρ-ρ_0)) k dρ     from max(ρ_0, 0) to 1.
 //! ```
 //!
-//! The tangent stiffness k is singular at ρ = 0, like a power of `q = ρ^(1/3)`, the size of a stick zone under a flat, or a logarithm; the
-//! root at ρ = e, on either side. The distance of that is the scale s of `q = q0 + s sinh²(u/2)`, which moves all of these singularities
-//! to |Im u| >= π/4 and makes the root at q0 smooth; `sinh(u/8) = (1 - ζ²) sinh(u_end/8)` does the same for that at x = 0. Two doublings
-//! of the angle give `sinh²(u/2)` as a polynomial. For Λ near 0, k is nearly singular there, too: ζ is a hyperbolic sine then. Gauss's rule
-//! converges for all amplitudes.
+//! The tangent stiffness k is singular at ρ = 0, like a power of `y = ρ^(1/3)`, the size of a stick zone under a flat, or a
+//! logarithm; the root at ρ = ρ_0, on either side. The distance of that is the scale of `y = y_0 + scale sinh²(z/2)`, which moves
+//! all of these singularities to |Im z| >= π/4 and makes the root at y_0 smooth; `sinh(z/8) = (1 - t²) sinh(z_end/8)` does the same
+//! for that at x = 0. Two doublings of the angle give `sinh²(z/2)` as a polynomial. For Λ near 0, k is nearly singular there, too:
+//! t is a hyperbolic sine then. Gauss's rule converges for all amplitudes.
 
 use crate::constant_load::contact::{BLOCKS_IN_SLIP, Contact};
 use crate::error::Error;
@@ -45,26 +45,26 @@ pub struct ComplexStiffness {
     pub dissipated: f64,
 }
 
-/// Gauss's rule within 1e-3 below gross slip, where 40 nodes have an error of 1e-15 of F and 1e-12 of dF/dξ, and beyond it up to
-/// `e = -0.05`, from where the contact has weights: 1e-15 and 1e-13. The last rule is that for all amplitudes of a curve without an
-/// interpolant, too, which has a knee or is nearly singular: 5e-15 and 6e-13.
+/// Gauss's rule within 1e-3 below gross slip, where 40 nodes have an error of 1e-15 of F and 1e-12 of dF/dx_0, and beyond it up to
+/// `ρ_0 = -0.05`, from where the contact has weights: 1e-15 and 1e-13. The last rule is that for all amplitudes of a curve without
+/// an interpolant, too, which has a knee or is nearly singular: 5e-15 and 6e-13.
 static RULE_BELOW: [[[f64; 4]; 2]; 12] = gauss_legendre();
 static RULE_BEYOND: [[[f64; 4]; 2]; 23] = gauss_legendre();
 const IN_SLIP: f64 = -0.05;
 
-/// Smallest scale of the rule: the cube root of the rounding of ξ.
+/// Smallest scale of the rule: the cube root of the rounding of x_0.
 const SMALLEST_SCALE: f64 = 1e-5;
 
-/// In gross slip, with `q = y²` and `y = 1 - ζ²`: blocks of ρ, x, and the weights of an integral over ρ.
+/// In gross slip, with `y = root²` and `root = 1 - t²`: blocks of ρ, x, and the weights of an integral over ρ.
 static RULE_IN_SLIP: [[[f64; 4]; 3]; BLOCKS_IN_SLIP] = {
     let rule = gauss_legendre::<BLOCKS_IN_SLIP>();
     let (mut blocks, mut i) = ([[[0.0; 4]; 3]; _], 0);
     while i < 4 * rule.len() {
-        let [zeta, weight] = [rule[i / 4][0][i % 4], rule[i / 4][1][i % 4]];
-        let (square, y) = (zeta * zeta, 1.0 - zeta * zeta);
-        blocks[i / 4][0][i % 4] = (y * y * y) * (y * y * y);
-        blocks[i / 4][1][i % 4] = square * (2.0 - square) * (1.0 + y * y + (y * y) * (y * y));
-        blocks[i / 4][2][i % 4] = weight * (12.0 * zeta * (y * y * y) * (y * y));
+        let [t, weight] = [rule[i / 4][0][i % 4], rule[i / 4][1][i % 4]];
+        let (square, root) = (t * t, 1.0 - t * t);
+        blocks[i / 4][0][i % 4] = (root * root * root) * (root * root * root);
+        blocks[i / 4][1][i % 4] = square * (2.0 - square) * (1.0 + root * root + (root * root) * (root * root));
+        blocks[i / 4][2][i % 4] = weight * (12.0 * t * (root * root * root) * (root * root));
         i += 1;
     }
     blocks
@@ -81,7 +81,7 @@ fn two_doublings(mut square: f64) -> (f64, f64) {
     (square, rate)
 }
 
-/// F and dF/dξ from the terms of F and of 2 dF/dξ at blocks of nodes.
+/// F and dF/dx_0 from the terms of F and of 2 dF/dx_0 at blocks of nodes.
 #[inline(always)]
 fn sum<B>(blocks: impl Iterator<Item = B>, at: impl Fn(B) -> [[f64; 4]; 2]) -> [f64; 2] {
     let mut sums = [[0.0; 4]; 2];
@@ -123,22 +123,22 @@ impl Contact {
         Ok(ComplexStiffness { real, imaginary, d_real, d_imag, dissipated: self.energy_of_cycle(amplitude).0 })
     }
 
-    /// F and dF/dξ at ξ = 1 - e, in units of the initial stiffness.
-    pub(crate) fn real_stiffness_integrals(&self, xi: f64, e: f64) -> [f64; 2] {
+    /// F and dF/dx_0 at x_0 = 1 - ρ_0, in units of the initial stiffness.
+    pub(crate) fn real_stiffness_integrals(&self, x_0: f64, rho_0: f64) -> [f64; 2] {
         dispatch!({
             if !self.has_weights_in_slip() {
-                return self.integrals(&RULE_BEYOND, xi, e);
+                return self.integrals(&RULE_BEYOND, x_0, rho_0);
             }
-            if e > IN_SLIP {
+            if rho_0 > IN_SLIP {
                 // 20, 24 and 32 nodes have an error of 2e-15.
-                let rule = match e {
+                let rule = match rho_0 {
                     0.25.. => gauss_rule(5),
                     0.05.. => gauss_rule(6),
                     1e-3.. => gauss_rule(8),
                     0.0.. => &RULE_BELOW,
                     _ => &RULE_BEYOND,
                 };
-                return self.integrals(rule, xi, e);
+                return self.integrals(rule, x_0, rho_0);
             }
             sum(
                 self.weights_in_slip.iter().zip(&RULE_IN_SLIP),
@@ -146,7 +146,7 @@ impl Contact {
                 |(weights, [rho, ..])| {
                     let [mut terms, mut rates] = [*weights; 2];
                     // As in `integrals`.
-                    let roots = *black_box(&rho.map(|rho| (rho - e).sqrt()));
+                    let roots = *black_box(&rho.map(|rho| (rho - rho_0).sqrt()));
                     for k in 0..4 {
                         terms[k] *= roots[k];
                         rates[k] /= roots[k];
@@ -157,44 +157,44 @@ impl Contact {
         })
     }
 
-    /// F and dF/dξ by Gauss's rule.
+    /// F and dF/dx_0 by Gauss's rule.
     #[inline(always)]
-    fn integrals(&self, rule: &[[[f64; 4]; 2]], xi: f64, e: f64) -> [f64; 2] {
-        let (below, excess) = (e.max(0.0), (-e).max(0.0));
-        let distance = e.abs().cbrt();
-        let (q0, scale) = (if e > 0.0 { distance } else { 0.0 }, distance.clamp(SMALLEST_SCALE, 1.0));
-        // The largest x; sinh²(u/8) at x = 0, by two half-angle formulas.
-        let top = xi.min(1.0);
-        let mut end = top / (1.0 + q0 * (1.0 + q0)) / scale;
+    fn integrals(&self, rule: &[[[f64; 4]; 2]], x_0: f64, rho_0: f64) -> [f64; 2] {
+        let (below, excess) = (rho_0.max(0.0), (-rho_0).max(0.0));
+        let distance = rho_0.abs().cbrt();
+        let (y_0, scale) = (if rho_0 > 0.0 { distance } else { 0.0 }, distance.clamp(SMALLEST_SCALE, 1.0));
+        // The largest x; sinh²(z/8) at x = 0, by two half-angle formulas.
+        let top = x_0.min(1.0);
+        let mut end = top / (1.0 + y_0 * (1.0 + y_0)) / scale;
         for _ in 0..2 {
             end /= 2.0 + 2.0 * (1.0 + end).sqrt();
         }
-        // x is its product with ζ² at first.
+        // x is its product with t² at first.
         let bend = (self.relative_distance_of_zero_compliance() / (6.0 * scale * end * two_doublings(end).1)).sqrt();
         let largest = if bend < 0.4 { (1.0 / bend).asinh() } else { 0.0 };
         sum(
             rule.iter(),
             #[inline(always)]
             |[nodes, weights]| {
-                let (mut zeta, mut weights) = (*nodes, *weights);
+                let (mut t, mut weights) = (*nodes, *weights);
                 if bend < 0.4 {
                     for k in 0..4 {
-                        let sinh = (largest * zeta[k]).sinh();
+                        let sinh = (largest * t[k]).sinh();
                         weights[k] *= bend * largest * (1.0 + sinh * sinh).sqrt();
-                        zeta[k] = bend * sinh;
+                        t[k] = bend * sinh;
                     }
                 }
                 let [mut x, mut rho, mut rates] = [[0.0; 4]; 3];
                 for k in 0..4 {
-                    let fraction = 1.0 - zeta[k] * zeta[k];
+                    let fraction = 1.0 - t[k] * t[k];
                     let (square, rate) = two_doublings(end * (fraction * fraction));
                     let step = scale * square;
-                    let q = q0 + step;
+                    let y = y_0 + step;
                     // ρ less its smallest value.
-                    let rise = step * (q * q + q * q0 + q0 * q0);
+                    let rise = step * (y * y + y * y_0 + y_0 * y_0);
                     let rest = rise + excess;
                     (x[k], rho[k]) = ((top - rise).max(0.0), below + rise);
-                    weights[k] *= (x[k] * rest).sqrt() * (12.0 * q * q) * (scale * end * rate * fraction * zeta[k]);
+                    weights[k] *= (x[k] * rest).sqrt() * (12.0 * y * y) * (scale * end * rate * fraction * t[k]);
                     rates[k] = weights[k] / rest;
                 }
                 // The compiler combines values in vectors where they are stored.
@@ -272,10 +272,11 @@ impl Contact {
             return (initial * real, (initial * self.inner_scale * slope).min(0.0));
         }
         let per_slip = self.per_slip_displacement;
-        let xi = amplitude * per_slip;
-        let [integral, rate] = self.real_stiffness_integrals(xi, (self.slip_displacement - amplitude) * per_slip);
+        let x_0 = amplitude * per_slip;
+        let [integral, rate] = self.real_stiffness_integrals(x_0, (self.slip_displacement - amplitude) * per_slip);
         // In this order for amplitudes whose square overflows.
-        let [real, slope] = [integral, rate - 2.0 * integral / xi].map(|value| 8.0 / PI * initial * (value / xi / xi));
+        let [real, slope] =
+            [integral, rate - 2.0 * integral / x_0].map(|value| 8.0 / PI * initial * (value / x_0 / x_0));
         (real, (slope * per_slip).min(0.0))
     }
 

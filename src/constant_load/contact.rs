@@ -59,7 +59,7 @@ pub struct Contact {
     zones: StickZones,
     /// mu N over each parameter; over b instead of a.
     pub(crate) sensitivity_scales: Sensitivity,
-    /// dκ/d(ln b): 0 unless the displacement reference depends on b/L.
+    /// dχ/d(ln b): 0 unless the displacement reference depends on b/L.
     pub(crate) reference_slope: f64,
     /// Makes the sum of all words 0, in a contact that was written by the C interface.
     pub(crate) checksum: u64,

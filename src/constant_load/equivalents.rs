@@ -22,8 +22,8 @@ pub struct SpringSlider {
 
 /// The spring-slider with the contact's K' and K'' at a displacement amplitude \[m\].
 ///
-/// A loop of amplitude A with slider force F and stiffness k has, with `cos Θ = 1 - 2 F/(kA)`,
-/// `K' = (k/π) (Θ - sin Θ cos Θ)` and `K'' = (k/π) sin² Θ`: their quotient gives Θ. At amplitude 0 the slip force
+/// A loop of amplitude δ_0 with slip force T_s and stiffness k has, with `cos θ = 1 - 2 T_s/(k δ_0)`,
+/// `K' = (k/π) (θ - sin θ cos θ)` and `K'' = (k/π) sin² θ`: their quotient gives θ. At amplitude 0 the slip force
 /// is arbitrary, and the result is the initial stiffness with mu N; for a contact without friction both are 0.
 /// Errors: `BadAmplitude`.
 pub fn jenkins(contact: &Contact, amplitude: f64) -> Result<SpringSlider, Error> {
@@ -39,7 +39,7 @@ pub fn jenkins(contact: &Contact, amplitude: f64) -> Result<SpringSlider, Error>
         let slip_force = if amplitude > 0.0 { real * amplitude } else { contact.slip_force };
         return Ok(SpringSlider { stiffness: real, slip_force });
     }
-    // With t = tan Θ/2 the inverse of the quotient grows as 4t/3 for small t, as π t²/4 for large ones.
+    // With t = tan θ/2 the inverse of the quotient grows as 4t/3 for small t, as π t²/4 for large ones.
     let start = if ratio > 1.0 { 0.75 / ratio } else { (4.0 / (PI * ratio)).sqrt() };
     let sine_and_cosine = |t: f64| (2.0 * t / (1.0 + t * t), (1.0 - t * t) / (1.0 + t * t));
     let t = logarithmic_newton(1.0 / ratio, start, |t| {

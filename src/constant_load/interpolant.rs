@@ -5,12 +5,12 @@
 //!
 //! - `x <= 2/5 x_s`: one polynomial in x for the secant stiffness
 //!   (11/20 x_s with a layer that bends the curve too strongly for this, and correspondingly below);
-//! - beyond: polynomials in `v = sqrt(ρ)`, `ρ = (x_s - x)/(3/5 x_s)`, one per dyadic interval 2⁻ʲ⁻¹ < v <= 2⁻ʲ, j = 0 to 4. The curve is
-//!   singular at v = 0 (any power of ρ^(1/3), or a logarithm), which lies three half-lengths from every interval, so that all
+//! - beyond: polynomials in sqrt(ρ), `ρ = (x_s - x)/(3/5 x_s)`, one per dyadic interval 2⁻ʲ⁻¹ < √ρ <= 2⁻ʲ, j = 0 to 4. The curve is
+//!   singular at ρ = 0 (any power of ρ^(1/3), or a logarithm), which lies three half-lengths from every interval, so that all
 //!   converge at the same rate;
-//! - the last 1/1707 of x_s: no interpolant; the closed form is inverted by Halley's method. For integrals, to which this range adds
-//!   little, polynomials in `u = (1024 ρ)^(1/8)` for (1-τ)/ρ, with an error of 1e-13 in the worst case, a flat of b/100. On a dyadic
-//!   interval of u, ρ falls by 256: six of them reach 2e-18 x_s.
+//! - the last 1/1707 of x_s: no interpolant; the closed form is inverted by Halley's method. For integrals, to which this range
+//!   adds little, polynomials in `z = (1024 ρ)^(1/8)` for (1-τ)/ρ, with an error of 1e-13 in the worst case, a flat of b/100. On a
+//!   dyadic interval of z, ρ falls by 256: six of them reach 2e-18 x_s.
 //!
 //! The decrease of the tangent stiffness is interpolated and the force obtained by integration, so that the rounding errors of both
 //! scale with the curvature of the curve and not with the stiffness.
@@ -27,7 +27,7 @@ pub(crate) const INNER_FRACTION: f64 = 0.4;
 /// The same with a layer that bends the curve strongly beyond: with 0.5 fewer curves converge.
 pub(crate) const KNEE_FRACTION: f64 = 0.55;
 
-/// Number of dyadic intervals of v and of u.
+/// Number of dyadic intervals of √ρ and of its fourth root.
 const PIECES: usize = 5;
 const LAST_PIECES: usize = 6;
 /// The smallest ρ of the first ones.
@@ -66,7 +66,7 @@ pub(crate) fn weighted(polynomial: &Polynomial, weights: &Polynomial) -> Polynom
 pub(crate) struct ForceInterpolant {
     /// Λ τ/x over y = x/(2/5 x_s), or of the other fraction: the secant stiffness over the initial one.
     inner: Polynomial,
-    /// 1 - τ over z = 2ʲ⁺² v - 3, from -1 to 1.
+    /// 1 - τ over 2ʲ⁺² √ρ - 3, from -1 to 1.
     pieces: [Polynomial; PIECES],
     /// (1 - τ)/ρ over z of a [`DyadicPlace`].
     last: [Polynomial; LAST_PIECES],
@@ -101,8 +101,8 @@ impl ForceInterpolant {
         let mut scale = 0.25;
         for piece in &mut pieces {
             let mut at = |z: f64| {
-                let v = scale * (3.0 + z);
-                at_remaining(remaining * v * v)
+                let root = scale * (3.0 + z);
+                at_remaining(remaining * root * root)
             };
             let unit = 2.0 * remaining * scale * scale;
             // The rounding error of the stiffness grows by 4 from interval to interval.
@@ -139,28 +139,28 @@ impl ForceInterpolant {
         self.is_converged().then(|| sum(weighted(&self.inner, &ENERGY_WEIGHTS).into_iter(), y))
     }
 
-    /// 1 - τ and, if requested, its derivative with respect to ρ at places v of one interval, if converged; any value at other v and
-    /// intervals.
+    /// 1 - τ and, if requested, its derivative with respect to ρ at roots √ρ of one interval, if converged; any value at other
+    /// roots and intervals.
     #[inline(always)]
     pub fn complements_and_slopes<const L: usize, const SLOPES: bool>(
         &self,
         Interval(exponent): Interval,
-        v: &[f64; L],
+        root: &[f64; L],
     ) -> ([f64; L], [f64; L]) {
         let scale = power_of(exponent);
         let mut z = [0.0; L];
         for k in 0..L {
-            z[k] = 4.0 * (scale * v[k]) - 3.0;
+            z[k] = 4.0 * (scale * root[k]) - 3.0;
         }
         let piece = self.pieces.get((1022 - exponent) as usize).unwrap_or(&self.inner);
         let (remaining, mut slopes) = values_and_slopes::<_, L, SLOPES>(piece, &z);
         for k in 0..L {
-            slopes[k] = if SLOPES { 2.0 * scale * slopes[k] / v[k] } else { 0.0 };
+            slopes[k] = if SLOPES { 2.0 * scale * slopes[k] / root[k] } else { 0.0 };
         }
         (remaining, slopes)
     }
 
-    /// The derivatives at places below the last interval of v, for integrals, if converged.
+    /// The derivatives at places below the last interval of √ρ, for integrals, if converged.
     #[inline(always)]
     pub fn last_slopes<const N: usize>(&self, rho: &[f64; N]) -> [f64; N] {
         // Roots of several take the time of one.
@@ -178,29 +178,29 @@ impl ForceInterpolant {
     }
 }
 
-/// The piece and the argument on it of a small distance, by its eighth root u: pieces are the dyadic intervals 2⁻ʲ⁻¹ <= u <= 2⁻ʲ.
+/// The piece and the argument on it of a small distance, by its eighth root z: pieces are the dyadic intervals 2⁻ʲ⁻¹ <= z <= 2⁻ʲ.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct DyadicPlace {
     pub piece: usize,
-    /// 4 2ʲ u - 3, from -1 to 1.
+    /// 4 2ʲ times the eighth root, less 3: from -1 to 1.
     pub z: f64,
 }
 
 impl DyadicPlace {
-    /// The place of u on one of some pieces, that of the end of the last one if u is below.
+    /// The place of an eighth root on one of some pieces, that of the end of the last one if it is below.
     #[inline(always)]
-    pub fn of(u: f64, pieces: usize) -> DyadicPlace {
-        let u = u.max(f64::from_bits((1023 - pieces as u64) << 52));
-        let Interval(exponent) = Interval::of(u);
-        DyadicPlace { piece: (1022 - exponent) as usize, z: 4.0 * (power_of(exponent) * u) - 3.0 }
+    pub fn of(root: f64, pieces: usize) -> DyadicPlace {
+        let root = root.max(f64::from_bits((1023 - pieces as u64) << 52));
+        let Interval(exponent) = Interval::of(root);
+        DyadicPlace { piece: (1022 - exponent) as usize, z: 4.0 * (power_of(exponent) * root) - 3.0 }
     }
 
-    /// u.
+    /// The eighth root.
     pub fn root(&self) -> f64 {
         0.25 * (3.0 + self.z) * f64::from_bits((1023 - self.piece as u64) << 52)
     }
 
-    /// u⁸.
+    /// Its eighth power.
     pub fn distance(&self) -> f64 {
         let square = self.root() * self.root();
         (square * square) * (square * square)
@@ -218,21 +218,21 @@ pub(crate) fn eighth_root(x: f64) -> f64 {
     x.max(0.0).sqrt().sqrt().sqrt()
 }
 
-/// The root v of ρ, at least a positive one.
+/// The root of ρ, at least a positive one.
 #[inline(always)]
 pub(crate) fn root_of(rho: f64) -> f64 {
     rho.max(TINY).sqrt()
 }
 
-/// A dyadic interval of v, by its exponent.
+/// A dyadic interval of √ρ, by its exponent.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Interval(u64);
 
 impl Interval {
-    /// 2⁻ʲ is the next power of 2 above v; v = 1 belongs to the first interval.
+    /// 2⁻ʲ is the next power of 2 above the root; 1 belongs to the first interval.
     #[inline(always)]
-    pub fn of(v: f64) -> Interval {
-        Interval((v.to_bits() >> 52).min(1022))
+    pub fn of(root: f64) -> Interval {
+        Interval((root.to_bits() >> 52).min(1022))
     }
 
     /// Whether it has a polynomial.
@@ -248,7 +248,7 @@ fn power_of(exponent: u64) -> f64 {
     f64::from_bits((2047 - 2 - exponent) << 52)
 }
 
-/// (1 - τ)/ρ beyond the dyadic intervals of v.
+/// (1 - τ)/ρ beyond the dyadic intervals of √ρ.
 fn last_pieces(
     compliance: f64,
     remaining: f64,

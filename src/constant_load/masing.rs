@@ -1,6 +1,6 @@
 //! Masing's rule (Eq. 11, 12): force, tangent stiffness and dissipated energy along any history of displacements.
 //!
-//! A branch that leaves a reversal is the monotonic curve twice as large, `|δ-δ_r| = 2 M(|T-T_r|/2)`, measured from its reversal.
+//! A branch that leaves a reversal is the monotonic curve twice as large, `|δ-δ_r| = 2 δ_m(|T-T_r|/2)`, measured from its reversal.
 
 use crate::constant_load::ConstantLoad;
 use crate::constant_load::contact::Contact;

@@ -1,25 +1,27 @@
 //! Derivatives of the force with respect to the parameters of the contact, at a fixed displacement.
 //!
-//! With `s = 1 - τ = g_c/g_b`, a displacement u fixes the integral of K over the loads between stick zone and contact, and the force
+//! With `1 - τ = g_c/g_b`, a displacement u fixes the integral of Λ over the loads between stick zone and contact, and the force
 //! follows from the same loads:
 //!
 //! ```text
-//! 2πR u/μ = ∫ K dg, g from g_c to g_b,     T = μN τ,     g_b = 4RN/(LE*),     K = ln(2L/c) + κ,     dc/da = w/(c ψ) at constant g.
+//! 2πR u/μ = ∫ Λ(c) dg, g from g_c to g_b,   T = μN τ,   g_b = 4RN/(LE*),   Λ(c) = ln(2L/c) + χ,   dc/da = sin ψ/ψ at constant g.
 //! ```
 //!
-//! The differential of both, divided by μN, with K_c = Λ + λ, K_b = Λ and the moments of the curvature h'' from 0 to τ:
+//! The differential of both, divided by μN, with Λ_c = Λ + λ, `χ' = dχ/d(ln b)`, `β = d(ln b)/d(ln g_b)` and the moments of the
+//! curvature h'' from 0 to τ:
 //!
 //! ```text
-//! N dT/dN   = [λ - ρ] / K_c                               ρ = σ β τ: σ = dκ/d(ln b), β = d(ln b)/d(ln g_b)
-//! μ dT/dμ   = [∫ t h'' dt] / K_c
-//! b dT/da   = [∫ (4 b w/g_b) h'' dt - τ σ w_b/(b ψ_b)] / K_c
-//! R dT/dR   = [∫ (1-t) h'' dt - ρ] / K_c
-//! L dT/dL   = [τ (Λ - 1 + σ (1 + β)) - s λ] / K_c
-//! E* dT/dE* = [τ Λ - s λ + ρ] / K_c
+//! N dT/dN   = [λ - β τ χ'] / Λ_c
+//! μ dT/dμ   = [∫ t h'' dt] / Λ_c
+//! b dT/da   = [∫ (4 b c sin ψ/g_b) h'' dt - τ χ' sin ψ_b/ψ_b] / Λ_c
+//! R dT/dR   = [∫ (1-t) h'' dt - β τ χ'] / Λ_c
+//! L dT/dL   = [τ (Λ - 1 + χ' (1 + β)) - (1-τ) λ] / Λ_c
+//! E* dT/dE* = [τ Λ - (1-τ) λ + β τ χ'] / Λ_c
 //! ```
 //!
-//! No term is a difference of larger ones, so small displacements keep their accuracy. σ is 0 for `MSLIP_CENTRE_POINT`. For an ellipse
-//! of bodies with given shapes b scales as (NR/E*)^(1/3); N, μ, R and E* then have the same derivatives, with the moments of the ellipse.
+//! No term is a difference of larger ones, so small displacements keep their accuracy. χ' is 0 for `MSLIP_CENTRE_POINT`. For an
+//! ellipse of bodies with given shapes b scales as (NR/E*)^(1/3); N, μ, R and E* then have the same derivatives, with the moments
+//! of the ellipse.
 
 use crate::constant_load::contact::Contact;
 use crate::constant_load::evaluator::sign_of;

@@ -1,21 +1,22 @@
 //! Table of the complex stiffness over the displacement amplitude: a few polynomials, for all amplitudes.
 //!
-//! In units of the initial stiffness and of the displacement of gross slip, with amplitude ξ, `e = 1 - ξ`, and F, E those of a cycle,
+//! In units of the initial stiffness and of the displacement of gross slip, with amplitude x_0, `ρ_0 = 1 - x_0`, and F, W those of
+//! a cycle,
 //!
 //! ```text
-//! K'  = (8/(π ξ²)) (F(1) - e G(e))        G = (1/e) ∫ dF/dξ de'      from 0 to e
-//! K'' = (1/(π ξ²)) (E(1) - e R(e))        R = (1/e) ∫ dE/dξ de'
+//! K'  = (8/(π x_0²)) (F(1) - ρ_0 G(ρ_0))        G = (1/ρ_0) ∫ dF/dx_0 dρ_0'      from 0 to ρ_0
+//! K'' = (1/(π x_0²)) (W(1) - ρ_0 V(ρ_0))        V = (1/ρ_0) ∫ dW/dx_0 dρ_0'
 //! ```
 //!
-//! Both are singular at gross slip: a power 3/2 of |e| times a series in e^(2/3) (flat) or in 1/ln e (cylinder). In this form
-//! no digit is lost next to gross slip, and one polynomial in `u = (|e|/0.6)^(1/8)` represents G or R on each dyadic interval of u,
-//! down to the rounding of ξ:
+//! Both are singular at gross slip: a power 3/2 of |ρ_0| times a series in ρ_0^(2/3) (flat) or in 1/ln ρ_0 (cylinder). In this form
+//! no digit is lost next to gross slip, and one polynomial in `z = (|ρ_0|/0.6)^(1/8)` represents G or V on each dyadic interval of
+//! z, down to the rounding of x_0:
 //!
-//! - ξ <= 2/5: the first polynomial of the curve, integrated for each power;
-//! - 2/5 < ξ <= 1: G and R in u; 1 < ξ <= 1.56: G in u, with |e| and its sign;
-//! - beyond: `K' ξ^(3/2)` as a polynomial in 1/ξ. E is linear beyond 1.
+//! - x_0 <= 2/5: the first polynomial of the curve, integrated for each power;
+//! - 2/5 < x_0 <= 1: G and V in z; 1 < x_0 <= 1.56: G in z, with |ρ_0| and its sign;
+//! - beyond: `K' x_0^(3/2)` as a polynomial in 1/x_0. W is linear beyond 1.
 //!
-//! dF/dξ and dE/dξ, those of a single call, are interpolated first.
+//! dF/dx_0 and dW/dx_0, those of a single call, are interpolated first.
 
 use crate::constant_load::complex_stiffness::{StiffnessOutputs, ValueAndSlope, requested, write_values};
 use crate::constant_load::contact::Contact;
@@ -28,26 +29,26 @@ use crate::shape::Complement;
 use crate::tag::Kind;
 use core::f64::consts::PI;
 
-/// Dyadic intervals of u: the last ends below the distance of any other amplitude from that of gross slip.
+/// Dyadic intervals of z: the last ends below the distance of any other amplitude from that of gross slip.
 const PIECES: usize = 7;
 /// Interpolation points.
 const POINTS: usize = 32;
-/// Rows of G below and beyond gross slip and of R on all pieces but the first, which is the closest to singularities beyond zero
+/// Rows of G below and beyond gross slip and of V on all pieces but the first, which is the closest to singularities beyond zero
 /// displacement.
 const ROWS_BELOW: usize = 5;
 const ROWS_ABOVE: usize = 4;
 const ROWS_OF_ENERGY: usize = 6;
-/// Largest e of the first piece.
+/// Largest ρ_0 of the first piece.
 const TOP: f64 = 1.0 - INNER_FRACTION;
 /// Λ from which the polynomials are accurate: a singularity at a displacement of about -Λ² approaches the first ones.
 const SMALLEST_COMPLIANCE: f64 = 0.9;
-/// Smallest ξ of the last polynomial, and its terms: the derivative of those that are left out is n² times as large.
+/// Smallest x_0 of the last polynomial, and its terms: the derivative of those that are left out is n² times as large.
 const FAR: f64 = 1.5;
 const FAR_TERMS: usize = 24;
 /// The first polynomial is used somewhat beyond its interval, where its error has hardly grown, the last one from within its own: at
 /// the end of a piece, the derivative is least accurate, by up to n² times the error of the interpolated values.
 const OVERLAP: f64 = 0.02;
-/// Largest ξ of the pieces beyond gross slip.
+/// Largest x_0 of the pieces beyond gross slip.
 const NEAR: f64 = 1.0 + TOP - 2.0 * OVERLAP;
 
 /// The polynomials of one shape.
@@ -61,17 +62,17 @@ pub(crate) struct StiffnessTable {
     /// (8/π) F(1) and (8/π) G(0).
     moment: f64,
     slope_at_slip: f64,
-    /// E(1)/π and 4 T(1)/π.
+    /// W(1)/π and 4 T(1)/π.
     slip_energy: f64,
     gross_slip_rate: f64,
-    /// K' and K'' over y = ξ/(2/5).
+    /// K' and K'' over x_0/(2/5).
     inner: [Polynomial; 2],
-    /// K' ξ^(3/2) over 1.5/ξ.
+    /// K' x_0^(3/2) over 1.5/x_0.
     far: Rows<{ FAR_TERMS / 4 }>,
-    /// (8/π) G over z = 4 2ʲ u - 3.
+    /// (8/π) G over 4 2ʲ z - 3.
     below: Pieces<ROWS_BELOW>,
     above: Pieces<ROWS_ABOVE>,
-    /// R/π.
+    /// V/π.
     energy: Pieces<ROWS_OF_ENERGY>,
 }
 
@@ -134,10 +135,10 @@ fn mean_on(piece: usize, mean_below: &mut Option<f64>, rate: &dyn Fn(f64) -> f64
     let rates: Rows<{ POINTS / 4 }> = powers(Interpolant::<POINTS>::through(&rates).terms());
     let rate = |z| sum(rates.into_iter(), z);
     let below = mean_below.unwrap_or_else(|| rate(-1.0));
-    // The part below the piece, and ∫ 8 y⁷ f(d y⁸) dy from its end to 1.
+    // The part below the piece, and ∫ 8 t⁷ f(d t⁸) dt from its end to 1.
     let mean = Interpolant::<POINTS>::through(&Interpolant::<POINTS>::at_points(|z| {
         let end = 2.0 / (3.0 + z);
-        let on_piece = |y: f64| 8.0 * (y * (y * y) * (y * y) * (y * y)) * rate((3.0 + z) * y - 3.0);
+        let on_piece = |t: f64| 8.0 * (t * (t * t) * (t * t) * (t * t)) * rate((3.0 + z) * t - 3.0);
         end.powi(8) * below + gauss(1.0 - end, |from_end| on_piece(end + from_end))
     }));
     *mean_below = Some(mean.terms().iter().sum());
@@ -160,9 +161,10 @@ impl StiffnessTable {
 
     fn fill(&mut self, contact: &Contact) {
         let (slip, initial) = (contact.slip_displacement, contact.initial_stiffness);
-        let integrals = |e: f64| contact.real_stiffness_integrals(1.0 - e, e).map(|integral| 8.0 / PI * integral);
-        let amplitude = |e: f64| Complement { consumed: slip * (1.0 - e), remaining: slip * e };
-        let energy_rate = |e: f64| contact.cycle_energy(amplitude(e)).1 / (PI * initial * slip);
+        let integrals =
+            |rho_0: f64| contact.real_stiffness_integrals(1.0 - rho_0, rho_0).map(|integral| 8.0 / PI * integral);
+        let amplitude = |rho_0: f64| Complement { consumed: slip * (1.0 - rho_0), remaining: slip * rho_0 };
+        let energy_rate = |rho_0: f64| contact.cycle_energy(amplitude(rho_0)).1 / (PI * initial * slip);
         let secant = *contact.interpolant().secant();
         self.inner = [weighted(&secant, &CYCLE_WEIGHTS), weighted(&secant, &ENERGY_WEIGHTS)];
         self.inner[1].as_flattened_mut().iter_mut().for_each(|power| *power /= PI);
@@ -170,13 +172,13 @@ impl StiffnessTable {
         self.slip_energy = contact.slip_energy / (PI * initial * slip * slip);
         self.gross_slip_rate = 4.0 / PI * contact.slip_force / (initial * slip);
         let far = Interpolant::<POINTS>::through(&Interpolant::<POINTS>::at_points(|z| {
-            let xi = 2.0 * FAR / (1.0 + z);
-            integrals(1.0 - xi)[0] / xi.sqrt()
+            let x_0 = 2.0 * FAR / (1.0 + z);
+            integrals(1.0 - x_0)[0] / x_0.sqrt()
         }));
         self.far = rows(far.powers_from_end().first_chunk::<FAR_TERMS>().unwrap_or(&[0.0; _]));
-        self.below = Pieces::mean_of(PIECES, &|e| integrals(e)[1]);
+        self.below = Pieces::mean_of(PIECES, &|rho_0| integrals(rho_0)[1]);
         // Beyond the last piece, this rate changes like the root of the distance, that of the energy of a cylinder like 1/ln.
-        self.above = Pieces::mean_of(PIECES + 1, &|e| integrals(-e)[1]);
+        self.above = Pieces::mean_of(PIECES + 1, &|rho_0| integrals(-rho_0)[1]);
         self.energy = Pieces::mean_of(PIECES + 4, &energy_rate);
     }
 
@@ -220,63 +222,63 @@ impl StiffnessTable {
     ) {
         let (requested, unit, per_slip) =
             (requested(outputs), contact.initial_stiffness, contact.per_slip_displacement);
-        let e = amplitude.map(|amplitude| (contact.slip_displacement - amplitude) * per_slip);
+        let rho_0 = amplitude.map(|amplitude| (contact.slip_displacement - amplitude) * per_slip);
         // Roots of several take the time of one.
-        let u = e.map(|e| eighth_root(e.abs() * (1.0 / TOP)));
+        let roots = rho_0.map(|rho_0| eighth_root(rho_0.abs() * (1.0 / TOP)));
         for i in 0..N {
-            let [real, imaginary] = self.at_fraction(requested, amplitude[i] * per_slip, e[i], u[i]);
+            let [real, imaginary] = self.at_fraction(requested, amplitude[i] * per_slip, rho_0[i], roots[i]);
             let scaled = |(value, slope): ValueAndSlope| (unit * value, unit * per_slip * slope);
             write_values([scaled(real), scaled(imaginary)], first + i, outputs);
         }
     }
 
-    /// At ξ = 1 - e, in units of the initial stiffness.
+    /// At x_0 = 1 - ρ_0, in units of the initial stiffness.
     #[inline(always)]
-    fn at_fraction(&self, [has_real, has_imaginary]: [bool; 2], xi: f64, e: f64, u: f64) -> [ValueAndSlope; 2] {
-        if xi <= 1.0 - TOP + OVERLAP {
+    fn at_fraction(&self, [has_real, has_imaginary]: [bool; 2], x_0: f64, rho_0: f64, root: f64) -> [ValueAndSlope; 2] {
+        if x_0 <= 1.0 - TOP + OVERLAP {
             let scale = const { 1.0 / (1.0 - TOP) };
             let part = |requested: bool, polynomial: &Polynomial| {
                 if !requested {
                     return (0.0, 0.0);
                 }
-                let (value, slope) = value_and_slope(polynomial, scale * xi);
+                let (value, slope) = value_and_slope(polynomial, scale * x_0);
                 (value, scale * slope)
             };
             let [real, imaginary] = &self.inner;
             [part(has_real, real), part(has_imaginary, imaginary)]
         } else {
             // The compiler may divide before the comparison.
-            let (per_xi, place) = (1.0 / xi.max(1.0 - TOP), DyadicPlace::of(u, PIECES));
-            let real = if has_real { self.outer_real(xi, per_xi, e, &place) } else { (0.0, 0.0) };
-            [real, if has_imaginary { self.outer_imaginary(per_xi, e, &place) } else { (0.0, 0.0) }]
+            let (per_x_0, place) = (1.0 / x_0.max(1.0 - TOP), DyadicPlace::of(root, PIECES));
+            let real = if has_real { self.outer_real(x_0, per_x_0, rho_0, &place) } else { (0.0, 0.0) };
+            [real, if has_imaginary { self.outer_imaginary(per_x_0, rho_0, &place) } else { (0.0, 0.0) }]
         }
     }
 
     /// K' beyond the first polynomial.
     #[inline(always)]
-    fn outer_real(&self, xi: f64, per_xi: f64, e: f64, place: &DyadicPlace) -> ValueAndSlope {
-        if xi > NEAR {
-            let (value, slope) = value_and_slope(&self.far, FAR * per_xi);
-            let factor = per_xi * per_xi.sqrt();
-            return (factor * value, -factor * per_xi * (1.5 * value + FAR * per_xi * slope));
+    fn outer_real(&self, x_0: f64, per_x_0: f64, rho_0: f64, place: &DyadicPlace) -> ValueAndSlope {
+        if x_0 > NEAR {
+            let (value, slope) = value_and_slope(&self.far, FAR * per_x_0);
+            let factor = per_x_0 * per_x_0.sqrt();
+            return (factor * value, -factor * per_x_0 * (1.5 * value + FAR * per_x_0 * slope));
         }
-        let g = if e > 0.0 { self.below.value_and_slope(place) } else { self.above.value_and_slope(place) };
-        let (value, rate) = if e == 0.0 { (0.0, self.slope_at_slip) } else { (g.0, place.product_slope(g)) };
-        let real = (self.moment - e * value) * per_xi * per_xi;
-        (real, (rate * per_xi - 2.0 * real) * per_xi)
+        let g = if rho_0 > 0.0 { self.below.value_and_slope(place) } else { self.above.value_and_slope(place) };
+        let (value, rate) = if rho_0 == 0.0 { (0.0, self.slope_at_slip) } else { (g.0, place.product_slope(g)) };
+        let real = (self.moment - rho_0 * value) * per_x_0 * per_x_0;
+        (real, (rate * per_x_0 - 2.0 * real) * per_x_0)
     }
 
     /// K'' beyond the first polynomial.
     #[inline(always)]
-    fn outer_imaginary(&self, per_xi: f64, e: f64, place: &DyadicPlace) -> ValueAndSlope {
-        let (value, rate) = if e > 0.0 {
+    fn outer_imaginary(&self, per_x_0: f64, rho_0: f64, place: &DyadicPlace) -> ValueAndSlope {
+        let (value, rate) = if rho_0 > 0.0 {
             let r = self.energy.value_and_slope(place);
             (r.0, place.product_slope(r))
         } else {
             (self.gross_slip_rate, self.gross_slip_rate)
         };
-        let imaginary = (self.slip_energy - e * value) * per_xi * per_xi;
-        (imaginary, (rate * per_xi - 2.0 * imaginary) * per_xi)
+        let imaginary = (self.slip_energy - rho_0 * value) * per_x_0 * per_x_0;
+        (imaginary, (rate * per_x_0 - 2.0 * imaginary) * per_x_0)
     }
 }
 
@@ -340,7 +342,7 @@ mod tests {
                     let values = pieces.value_and_slope(&place);
                     (values.0, place.product_slope(values))
                 });
-                // Functions of order 1, of which K' and K'' contain e times the value and, from 20 terms, the derivative.
+                // Functions of order 1, of which K' and K'' contain ρ_0 times the value and, from 20 terms, the derivative.
                 let value = TOP * 256f64.powi(-(piece as i32)) * (one.0 - other.0);
                 assert!(value.abs() < 1e-16 && (one.1 - other.1).abs() < 4e-13, "{piece} {one:?} {other:?}");
             }

@@ -1,7 +1,7 @@
 //! A smooth, monotone function on (0, ∞) as polynomials on quarters of an octave, found by the exponent and two leading bits of
 //! the mantissa of the argument: neither a root nor a logarithm is evaluated.
 //!
-//! `y(x) = x Q(t)` with one polynomial Q for each quarter and t in [-1, 1) the position in it. The functions of a contact are
+//! `f(x) = x p(t)` with one polynomial p for each quarter and t in [-1, 1) the position in it. The functions of a contact are
 //! singular at x = 0 only, which lies at least 9 half-lengths from the middle of each quarter: so the Taylor series about the
 //! middle has 16 terms, of which Chebyshev economization leaves 12. With a layer they are singular at complex x too, where the
 //! compliance is zero; for N_c far below N the nearest ones are 4 half-lengths from the middle.
@@ -56,7 +56,7 @@ pub(crate) struct Position {
 
 impl Table {
     /// Fills tables of several functions of one argument up to (at least) the argument `largest`, a normal number, from their Taylor
-    /// series about the middle x of each quarter in powers of ρ, for the argument x (1 + ρ), in the order of the quarters.
+    /// series about the middle x of each quarter in powers of ε, for the argument x (1 + ε), in the order of the quarters.
     pub fn fill<const K: usize>(
         tables: [&mut Table; K],
         largest: f64,

@@ -1,8 +1,9 @@
 //! Fourier synthesis and sums over uniformly spaced samples, folded by symmetry.
 //!
-//! With `t = 2π n/N`, cosines keep and sines change their sign under n -> N - n. If N is even, moreover, even orders keep and odd
-//! orders change their sign under n -> n + N/2. So four (two if N is odd or 4) partial series over the positions 0 <= n <= N/4 (N/2)
-//! give all samples, and four folded sums of the samples give all Fourier sums. All blocks of four positions are inside the arrays.
+//! With `t = 2π n/samples`, cosines keep and sines change their sign under n -> samples - n. If their number is even, moreover,
+//! even orders keep and odd orders change their sign under n -> n + samples/2. So four (two if it is odd or 4) partial series over
+//! the positions 0 <= n <= samples/4 (samples/2) give all samples, and four folded sums of the samples give all Fourier sums. All
+//! blocks of four positions are inside the arrays.
 //!
 //! Arrays of samples have [`sample_length`] values: some beyond the period, where they are continued periodically.
 

@@ -1,10 +1,12 @@
-//! The Jacobian of a force at uniformly spaced samples: Fourier sums of weights, `Σ w φ ⊗ φ`, and outer products `Σ Y_j ⊗ φ_j`.
+//! The Jacobian of a force at uniformly spaced samples: Fourier sums of weights, `Σ weight φ ⊗ φ`, and outer products
+//! `Σ Y_j ⊗ φ_j`.
 //!
-//! A product of two harmonics is composed of the sum and the difference of their orders. With the pairs `Z_k = Σ w (cos kt, sin kt)` for
-//! all orders k of either sign, and `W_k = Σ w (sin kt, -cos kt)` of the same sums, the rows of the pair p of `Σ w φ ⊗ φ` are
+//! A product of two harmonics is composed of the sum and the difference of their orders. With the pairs
+//! `Z_k = Σ weight (cos kt, sin kt)` for all orders k of either sign, and `X_k = Σ weight (sin kt, -cos kt)` of the same sums, the
+//! rows of the pair p of `Σ weight φ ⊗ φ` are
 //!
 //! ```text
-//! column cos qt:  (Z_{p+q} + Z_{p-q})/2        column sin qt:  (W_{p+q} - W_{p-q})/2
+//! column cos qt:  (Z_{p+q} + Z_{p-q})/2        column sin qt:  (X_{p+q} - X_{p-q})/2
 //! ```
 
 use super::rows::{OuterProducts, row_blocks};
@@ -56,7 +58,7 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    /// Writes `Σ w φ ⊗ φ`, normalised, to the rows from `offset` on of columns that are `stride` apart.
+    /// Writes `Σ weight φ ⊗ φ`, normalised, to the rows from `offset` on of columns that are `stride` apart.
     #[inline(always)]
     pub fn write_sums(&mut self, columns: &mut [f64], stride: usize, offset: usize) {
         dispatch!({
@@ -80,8 +82,8 @@ impl<'a> Assembly<'a> {
         });
     }
 
-    /// Writes `Σ w φ ⊗ φ` and the outer products to the first rows of the columns. Under half-wave symmetry the products are those of
-    /// half a period, and only rows and columns of equal (+1) or opposite (-1) parity remain.
+    /// Writes `Σ weight φ ⊗ φ` and the outer products to the first rows of the columns. Under half-wave symmetry the products are
+    /// those of half a period, and only rows and columns of equal (+1) or opposite (-1) parity remain.
     #[inline(always)]
     pub fn write(&mut self, symmetry: Option<f64>, columns: &mut [f64], stride: usize) {
         self.write_sums(columns, stride, 0);
@@ -93,7 +95,7 @@ impl<'a> Assembly<'a> {
         dispatch!(outer.sum(index, self.products));
     }
 
-    /// Adds `a ⊗ x - b ⊗ y` to the outer products: rows x and y, columns a and b.
+    /// Adds two products, the second with the opposite sign, of rows with columns, to the outer products.
     #[inline(always)]
     pub fn add_products(&mut self, [a, b]: [&[f64]; 2], [x, y]: [&Blocks; 2]) {
         dispatch!({

@@ -1,6 +1,6 @@
 //! The memory diagram in characteristic coordinates, and the step of Coulomb's law in it.
 //!
-//! With `P(S) = o + ∫ D dS` from the centre of the contact to S, the coordinates `ξ = P - mu S` and `η = P + mu S` turn the
+//! With `u(S) = o + ∫ D dS` from the centre of the contact to S, the coordinates `ξ = u(S) - mu S` and `η = u(S) + mu S` turn the
 //! diagram into a curve from (o, o) to the point of the whole contact, (u - mu S_b, u + mu S_b), on which ξ does not rise and η
 //! does not fall because |D| <= mu. It is a polygon: its knots are stored from the centre outwards. A step to the point (ξ1, η1)
 //! removes all knots outside the quadrant ξ > ξ1, η < η1:

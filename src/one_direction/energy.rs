@@ -1,14 +1,14 @@
 //! Energy dissipated in a step.
 //!
-//! Along the straight path from (S0, u0) to (S1, u1), with λ from 0 to 1, the boundary of the slip zone moves inwards at the rate
-//! `dS_c/dλ = (Δu - σ mu ΔS)/(D - σ mu)` through a piece D of the old diagram; a falling contact size may overtake it. While it
+//! Along the straight path from (S0, u0) to (S1, u1), with t from 0 to 1, the boundary of the slip zone moves inwards at the rate
+//! `dS_c/dt = (Δu - σ mu ΔS)/(D - σ mu)` through a piece D of the old diagram; a falling contact size may overtake it. While it
 //! moves from S_c0 to S_c1,
 //!
 //! ```text
-//! E = mu |mu - σD| ∫ H |dN_c| = mu |mu - σD| ∫ R |dS_c|,      R = N(S_b) - N(S_c) - N'(S_c)(S_b - S_c),
+//! W = mu |mu - σD| ∫ [N(S_b) - N(S_c) - N'(S_c)(S_b - S_c)] |dS_c|,
 //! ```
 //!
-//! because H, the integral of K_t(c) - K_t(s) from S_c to S_b, is K_t(c) times the remainder R.
+//! because the integral of K_t(c) - K_t(s) over N from c to b is K_t(c) times the remainder in brackets.
 
 use crate::element::{Curvature, Element};
 use crate::numerics::quadrature::{MAX_GAUSS_BLOCKS, gauss_legendre, gauss_rule};
@@ -151,7 +151,7 @@ fn mean_load(element: &Element, [from, to]: [f64; 2]) -> f64 {
 fn mean_load_near_the_largest_size(element: &Element, low: f64, high: f64) -> f64 {
     let blocks = LONGEST_RULE.iter().map(|block| {
         let [places, weights] = squared(*block);
-        let (loads, _) = element.loads_at::<false, 4>(&places.map(|y| high - y * (high - low)));
+        let (loads, _) = element.loads_at::<false, 4>(&places.map(|t| high - t * (high - low)));
         dot(&weights, &loads)
     });
     blocks.sum()
@@ -160,8 +160,8 @@ fn mean_load_near_the_largest_size(element: &Element, low: f64, high: f64) -> f6
 impl Slip {
     /// `∫∫ (S_b - S) N''(S) dS |dS_c|`.
     ///
-    /// The inner integral is `R = N(S_b) - N(S_c) - N'(S_c)(S_b - S_c)`. Unless the slip zone is too narrow for this difference, the mean of
-    /// R along the path follows from N and N', or by parts from N and M.
+    /// The inner integral is the remainder `N(S_b) - N(S_c) - N'(S_c)(S_b - S_c)`. Unless the slip zone is too narrow for this
+    /// difference, the mean of the remainder along the path follows from N and N', or by parts from N and M.
     fn integral(&self, element: &Element) -> f64 {
         dispatch!({
             let [c0, c1] = self.inner;
@@ -212,8 +212,8 @@ impl Slip {
         (b0 - c0) + fraction * ((b1 - b0) + (c0 - c1))
     }
 
-    /// The same with R as an integral of N'' > 0, free of cancellation: `R = w² ∫ y N''(S_b - w y) dy`, y from 0 to 1, for the width w of
-    /// the slip zone.
+    /// The integral with the remainder as an integral of N'' > 0, free of cancellation: the square of the width of the slip zone
+    /// times `∫ t N''(S_b - width t) dt`, t from 0 to 1.
     #[inline(always)]
     fn integral_of_curvature(&self, element: &Element, [path_rule, zone_rule]: [&[Block]; 2]) -> f64 {
         let [b0, b1] = self.outer;
@@ -227,10 +227,10 @@ impl Slip {
             }
             let mut remainders = [0.0; 4];
             for [places, parts] in zone_rule {
-                for (y, part) in places.iter().zip(parts) {
+                for (t, part) in places.iter().zip(parts) {
                     let mut shifts = [0.0; 4];
                     for k in 0..4 {
-                        shifts[k] = edges[k] - y * widths[k];
+                        shifts[k] = edges[k] - t * widths[k];
                     }
                     let curvatures = element.four_curvatures(&shifts, &mut quarter);
                     for k in 0..4 {
@@ -246,12 +246,12 @@ impl Slip {
 }
 
 /// Where the compliance of a short contact is about to vanish. The integrand is singular at that distance from the end of the zone, and so, as
-/// a function of the fraction f, from both ends: y = z², f = z² (3 - 2z).
+/// a function of the fraction of the path, from both ends: t = z², and z² (3 - 2z) is the fraction.
 #[cold]
 #[inline(never)]
 fn rules_near_the_largest_size() -> [[Block; MAX_GAUSS_BLOCKS]; 2] {
     let path_rule = LONGEST_RULE.map(|block| substituted(block, |z| [z * z * (3.0 - 2.0 * z), 6.0 * z * (1.0 - z)]));
-    [path_rule, LONGEST_RULE.map(squared).map(with_y)]
+    [path_rule, LONGEST_RULE.map(squared).map(with_t)]
 }
 
 /// Four nodes and their weights.
@@ -263,7 +263,7 @@ static LONGEST_RULE: [Block; MAX_GAUSS_BLOCKS] = gauss_legendre();
 /// Gauss's rule with four nodes.
 const PATH_RULE: [Block; 1] = gauss_legendre();
 
-/// The same for `∫ y f(y) dy`.
+/// The same for `∫ t f(t) dt`.
 const ZONE_RULE: [Block; 1] = [[
     [0.13975986434378055, 0.41640956763108317, 0.7231569863618762, 0.9428958038854823],
     [0.03118097095000808, 0.12984754760823244, 0.20346456801027136, 0.13550691343148812],
@@ -272,21 +272,21 @@ const ZONE_RULE: [Block; 1] = [[
 /// The rule of eight nodes for the same.
 const WIDE_ZONE_RULE: [Block; 2] = {
     let [one, two] = gauss_legendre();
-    [with_y(one), with_y(two)]
+    [with_t(one), with_t(two)]
 };
 
-const fn with_y([nodes, weights]: Block) -> Block {
+const fn with_t([nodes, weights]: Block) -> Block {
     let [a, b, c, d] = nodes;
     let [e, f, g, h] = weights;
     [nodes, [a * e, b * f, c * g, d * h]]
 }
 
-/// The rule for `∫ f(y) dy` from one for z, by y and dy/dz.
+/// The rule for `∫ f(t) dt` from one for z, by t and dt/dz.
 fn substituted([nodes, weights]: Block, of: impl Fn(f64) -> [f64; 2]) -> Block {
     let mut rule = [[0.0; 4]; 2];
     for k in 0..4 {
-        let [y, slope] = of(nodes[k]);
-        rule[0][k] = y;
+        let [t, slope] = of(nodes[k]);
+        rule[0][k] = t;
         rule[1][k] = slope * weights[k];
     }
     rule

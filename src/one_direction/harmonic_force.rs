@@ -1,6 +1,6 @@
 //! Harmonic force of a periodic motion with varying normal force and separation, by uniform sampling.
 //!
-//! The motion is u and the normal component (the approach w or the normal force N), each `c0 + Σ (a_k cos kt + b_k sin kt)`, at N
+//! The motion is u and the normal component (the approach w or the normal force N), each `a_0 + Σ (a_k cos kt + b_k sin kt)`, at
 //! uniformly spaced instants from t = 0. Between the samples the path is that of a step of the element. Steady state: the element is
 //! pressed by the normal force of the sample at which that is largest (the first such sample) with no tangential displacement, is
 //! displaced to that sample at constant normal force, and advanced along two periods from there; the second one counts. It is known

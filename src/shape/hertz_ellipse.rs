@@ -1,10 +1,10 @@
 //! Elliptical Hertz contact (section 3.3) in absolute terms, a sphere if both semi-axes are equal.
 //!
-//! Both semi-axes grow as w, the semi-axis along the force. With the compliances C_n and C_t of a flat elliptical punch of the
-//! semi-axes b and l under the normal force N0 of the parameters, and `n = N/N0 = (w/b)³`,
+//! Both semi-axes grow as leg, the semi-axis along the force. With the compliances C_n and C_t of a flat elliptical punch of the
+//! semi-axes b and l under the normal force N0 of the parameters, and `n = N/N0 = (leg/b)³`,
 //!
 //! ```text
-//! U = (3/2) C_n N0 n^(2/3),   S = (3/2) C_t N0 n^(2/3),   K = C n^(-1/3),   M = (2/5) N S.
+//! U = (3/2) C_n N0 n^(2/3),   S = (3/2) C_t N0 n^(2/3),   Λ = C n^(-1/3),   M = (2/5) N S.
 //! ```
 //!
 //! The displacement at the centre under `T/(2πbl) (1 - x²/b² - y²/l²)^(-1/2)` (Boussinesq, and Cerruti's Eq. 5) gives sums over both
@@ -12,7 +12,7 @@
 //!
 //! ```text
 //! C_n = Σ (1-ν²)/(πE) J,      C_t = Σ (1+ν)/(πE) [(1-ν) J + ν J_cos],
-//! J = ∫ dθ/W,   J_cos = ∫ cos²θ dθ/W,     W² = l² cos²θ + b² sin²θ,     θ from 0 to π/2,
+//! J = ∫ dθ/root,   J_cos = ∫ cos²θ dθ/root,     root² = l² cos²θ + b² sin²θ,     θ from 0 to π/2,
 //! ```
 //!
 //! complete elliptic integrals that the arithmetic-geometric mean evaluates.
@@ -100,6 +100,6 @@ fn cerruti_integrals(along: f64, across: f64) -> (f64, f64) {
     }
     let all = FRAC_PI_2 / (0.5 * (mean + geometric)) / large;
     let fraction = 0.5 * sum;
-    // sin² belongs to the smaller axis: W² = large² (1 - k² sin²) for b < l, and with cos and sin exchanged for b > l.
+    // sin² belongs to the smaller axis: root² = large² (1 - k² sin²) for b < l, and with cos and sin exchanged for b > l.
     (all, if along <= across { all * (1.0 - fraction) } else { all * fraction })
 }

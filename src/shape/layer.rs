@@ -6,12 +6,12 @@
 //! stiffness grows in proportion to N + N_c:
 //!
 //! ```text
-//! U2 = c_n f,   S2 = c_t f,   M2 = c_t m,   f = (N_r + N_c) ln(1 + N/N_c),   m = ∫ N df = (N_r + N_c) [N - N_c ln(1 + N/N_c)]
+//! U2 = c_n (N_r + N_c) ln(1 + N/N_c),   S2 = (c_t/c_n) U2,   M2 = ∫ N dS2 = c_t (N_r + N_c) [N - N_c ln(1 + N/N_c)]
 //! ```
 //!
-//! N_c infinite: f = N, m = N²/2. A shape has the sums at a size, `stick_zone` those between two sizes. Of the laws, `contact` brings the
-//! layer into its units, `interpolant` and `curve` follow the knee of a small N_c, `sensitivity` differentiates by the layer, and `element`
-//! adds it along y.
+//! N_c infinite: U2 = c_n N, M2 = c_t N²/2. A shape has the sums at a size, `stick_zone` those between two sizes. Of the laws,
+//! `contact` brings the layer into its units, `interpolant` and `curve` follow the knee of a small N_c, `sensitivity`
+//! differentiates by the layer, and `element` adds it along y.
 
 use crate::error::Error;
 use crate::limits::in_range;
@@ -123,7 +123,7 @@ impl Layer {
         load * (self.tangential * load) * logarithm_remainder(self.stiffening * load)
     }
 
-    /// Taylor coefficients of the extent about a load N, for the load N (1 + ρ): those of `N_c ln(1 + qρ)`, q = N/(N + N_c).
+    /// Taylor coefficients of the extent about a load N, for the load N (1 + ε): those of `N_c ln(1 + ωε)`, `ω = N/(N + N_c)`.
     pub fn series(&self, load: f64) -> Series {
         let mut series = [0.0; ORDER];
         let ratio = self.stiffening * load * self.softness(load);
@@ -138,14 +138,14 @@ impl Layer {
     }
 }
 
-/// The layer in the curve under a constant normal force, which is the unit of loads: the stick zone with `s = 1 - τ` leaves, with
-/// `σ = N/N_c` and `z = τ/(1 + σ s)`, the ratio of the load that it has lost to `1 + σ s`,
+/// The layer in the curve under a constant normal force, which is the unit of loads: with the consumed load
+/// `z = τ/(1 + (1-τ) N/N_c)` in the unit of that which the layer carries at the stick zone,
 ///
 /// ```text
-/// x2 = S2(1) - S2(s) = S2(z),      x_s - x2 = S2(s),      λ2 = c σ z/(1 + σ),      ∫ t dλ2 = σ M2(z)
+/// x2 = S2(1) - S2(1-τ) = S2(z),      x_s - x2 = S2(1-τ),      λ2 = c_t ω z,      ∫ t dλ2 = (N/N_c) M2(z)
 /// ```
 ///
-/// free of cancellation, with the compliance c without load in units of that for which Λ + λ is 1.
+/// free of cancellation, with the compliance c_t without load in units of that for which Λ + λ is 1.
 impl Layer {
     /// [`Layer::new`] in units of the stick zones, in which the compliance 1 is the inverse of `stiffness_scale`, given the compliance of
     /// the contact in these units.
@@ -195,7 +195,7 @@ impl Layer {
     /// `4 ∫ t (τ-t) dλ2`.
     pub fn dissipation(&self, load: Complement) -> f64 {
         let y = self.stiffening * self.softness(1.0) * load.consumed;
-        // [(2-y) ln(1/(1-y)) - 2y]/y³, with ln(1/(1-y)) = ln(1 + σz) = 2 artanh(y/(2-y)).
+        // [(2-y) ln(1/(1-y)) - 2y]/y³, with ln(1/(1-y)) = ln(1 + z N/N_c) = 2 artanh(y/(2-y)).
         let factor = if y > 0.6 {
             ((2.0 - y) * (self.stiffening * self.lost(load)).ln_1p() - 2.0 * y) / (y * y * y)
         } else {

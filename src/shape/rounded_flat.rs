@@ -1,16 +1,16 @@
 //! Flat with rounded edges, cylinder included: the geometry of Allara (2009) in absolute terms, free of the load.
 //!
-//! A size s is given by `w = sqrt(s² - a²)`, which is free of cancellation for nearly flat contacts. With g, β and γ of the rounded
-//! punch and `K = ln(2L/s) + κ`,
+//! A size s is given by `leg = sqrt(s² - a²)`, which is free of cancellation for nearly flat contacts. With g, β and γ of the
+//! rounded punch and `Λ = ln(2L/s) + χ`,
 //!
 //! ```text
 //! N = L E* g/(4R)                               Eq. 1
-//! K_t = 2 K/(π E* L)                            Eq. 8, with κ = ν/(1-ν); K_n the same with κ = 0
-//! S = g (K + β)/(2πR)                           U the same with κ = 0
-//! M = L E* g² (K + γ)/(16πR²)
+//! K_t = 2 Λ/(π E* L)                            Eq. 8, with χ = ν/(1-ν); K_n the same with χ = 0
+//! S = g (Λ + β)/(2πR)                           U the same with χ = 0
+//! M = L E* g² (Λ + γ)/(16πR²)
 //! ```
 //!
-//! For unlike bodies κ is the mean weighted by their compliances. With `MSLIP_RIGID_STRIP` a constant is taken off both κ: the one
+//! For unlike bodies χ is the mean weighted by their compliances. With `MSLIP_RIGID_STRIP` a constant is taken off both χ: the one
 //! that three-dimensional contact mechanics gives at the size under the normal force of the parameters.
 
 use crate::error::Error;
@@ -45,14 +45,14 @@ impl Geometry for Parameters {
             // The kernels of Boussinesq and of Cerruti have the same mean over a rigid patch if ν = 0.
             _ => [1.0, pair.mean(cerruti_factor)].map(|factor| strip_correction(factor / slenderness)),
         };
-        let kappa = pair.mean(|nu| nu / (1.0 - nu));
+        let chi = pair.mean(|nu| nu / (1.0 - nu));
         let end_correction = if self.displacement_reference == CENTRE_POINT { 0.0 } else { ACROSS / slenderness };
         let compliance_scale = 2.0 / (PI * modulus * length);
-        let constants = [-normal, kappa - tangential];
-        // Along the line, the kernel of Cerruti `(1-ν)/r + ν y²/r³` is `1/r - ν x²/r³`: with the mean of 1/r over a line of length L, that
-        // of Boussinesq, and that of x²/r³, which is 1, `K_y = (1+κ) K_n - κ` in units of `2/(πE*L)`. `MSLIP_RIGID_STRIP` lowers the
-        // second mean by the end correction.
-        let along = -kappa * (1.0 - end_correction);
+        let constants = [-normal, chi - tangential];
+        // Along the line, the kernel of Cerruti has `ν y²` in place of `ν x²`: with the mean of 1/sqrt(x² + y²) over a line of
+        // length L, that of Boussinesq, and that of x²/(x² + y²)^(3/2), which is 1, `Λ_y = (1+χ) Λ_n - χ` in units of `2/(πE*L)`.
+        // `MSLIP_RIGID_STRIP` lowers the second mean by the end correction.
+        let along = -chi * (1.0 - end_correction);
         let load_scale = length * modulus / (4.0 * edge_radius);
         let shape = Shape {
             flat,
@@ -60,7 +60,7 @@ impl Geometry for Parameters {
             load_scale,
             compliance_scale,
             constants,
-            per_approach: [1.0, 1.0 + kappa],
+            per_approach: [1.0, 1.0 + chi],
             per_load: [constants[1] - constants[0], along].map(|part| compliance_scale * part),
             pressure_scale: 4.0 / PI * (load_scale / length),
             reference,
@@ -82,7 +82,7 @@ impl Geometry for Parameters {
 }
 
 impl Shape {
-    /// Λ of Eq. 10: K at b.
+    /// Λ of Eq. 10: that of b.
     pub fn full_stick(&self) -> f64 {
         (2.0 * (self.length / self.reference.0)).ln() + self.constants[1]
     }
@@ -106,14 +106,14 @@ pub(crate) fn size_under_load(parameters: &Parameters, modulus: f64) -> Result<(
     let unit = flat.max((load / PI).sqrt());
     let punch = RoundedPunch::from_load(flat / unit, load / unit / unit);
     let size = punch.half_width;
-    let scaled = RoundedPunch { flat: punch.flat / size, w: punch.w / size, half_width: 1.0, ..punch };
+    let scaled = RoundedPunch { flat: punch.flat / size, leg: punch.leg / size, half_width: 1.0, ..punch };
     Ok((unit * size, scaled))
 }
 
 /// `MSLIP_RIGID_STRIP`: mean of a displacement that grows as the square across the strip, over b/L.
 const ACROSS: f64 = 8.0 / (PI * PI);
 
-/// dκ/d(ln b) of S: 0 unless κ depends on b/L.
+/// dχ/d(ln b) of S: 0 unless χ depends on b/L.
 pub(crate) fn reference_slope(parameters: &Parameters, half_width: f64) -> f64 {
     match parameters.displacement_reference {
         CENTRE_POINT => 0.0,
@@ -126,7 +126,7 @@ fn cerruti_factor(nu: f64) -> f64 {
     (1.0 - 2.0 * nu) / (1.0 - nu)
 }
 
-/// Reduction of κ by three-dimensional contact mechanics: the mean instead of the centre of the displacement along and across the
+/// Reduction of χ by three-dimensional contact mechanics: the mean instead of the centre of the displacement along and across the
 /// strip (1 - ln 2, and `across`, b/L times a function of Poisson's ratio), and the redistribution of traction along it (0.093,
 /// fitted to boundary-element results for 16 strips, which scatter from 0.081 to 0.102).
 fn strip_correction(across: f64) -> f64 {
@@ -140,7 +140,8 @@ mod tests {
     use crate::constant_load::contact::tests::{FLATS, parameters};
     use crate::parameters::RIGID_STRIP;
 
-    /// The kernels of Cerruti in x and y sum to (2-ν)/r: S_x + S_y = (2+κ) U, with no term in N but the rounding of three constants.
+    /// The kernels of Cerruti in x and y sum to (2-ν)/sqrt(x² + y²): S_x + S_y = (2+χ) U, with no term in N but the rounding of
+    /// three constants.
     #[test]
     fn the_shifts_in_both_directions_have_the_sum_of_their_kernels() {
         for (flat, displacement_reference) in
@@ -148,8 +149,8 @@ mod tests {
         {
             let parameters = Parameters { displacement_reference, ..parameters(flat) };
             let Shape { per_approach, per_load, compliance_scale, .. } = parameters.shape().unwrap();
-            let kappa = Pair::new(&parameters.material).mean(|nu| nu / (1.0 - nu));
-            assert!((per_approach[0] + per_approach[1] - (2.0 + kappa)).abs() < 1e-15);
+            let chi = Pair::new(&parameters.material).mean(|nu| nu / (1.0 - nu));
+            assert!((per_approach[0] + per_approach[1] - (2.0 + chi)).abs() < 1e-15);
             assert!((per_load[0] + per_load[1]).abs() < 1e-15 * compliance_scale, "{displacement_reference}");
         }
     }

@@ -1,9 +1,10 @@
 //! Load and size of a punch with a flat and rounded edges (Eq. 1, 19, 24), or of an ellipse.
 //!
-//! The contact with rounded edges has half-width c, the flat a. With `w = sqrt(c² - a²)` and `ψ = atan2(w, a)` the load is
+//! The contact with rounded edges has half-width c, the flat a. With `leg = sqrt(c² - a²) = c sin ψ` and `ψ = atan2(leg, a)` the
+//! load is
 //!
 //! ```text
-//! g(w) = 2 c² ψ - 2 a w  =  4 R P(c) / E*          Eq. 1, corrected
+//! g(leg) = 2 c² ψ - 2 a leg  =  4 R P(c) / E*          Eq. 1, corrected
 //! ```
 //!
 //! Shift and energy depend on the means of the load and of its square over ln c:
@@ -14,11 +15,11 @@
 //!
 //! Both are functions of ψ: they increase from ψ²/5 and ψ²/8 for the flat to 1/2 and 1/4 for the cylinder.
 //!
-//! The closed forms in ψ suffer cancellation for a nearly flat contact (g ~ w³, βg ~ w⁵, γg² ~ w⁸). Up to ψ = π/3, power series in
-//! `χ = tan²(ψ/2) = (w/(a+c))² ≤ 1/3` are used instead; they converge for χ < 1 and lose at most one bit.
+//! The closed forms in ψ suffer cancellation for a nearly flat contact (g ~ leg³, βg ~ leg⁵, γg² ~ leg⁸). Up to ψ = π/3, power
+//! series in `t = tan²(ψ/2) = (leg/(a+c))² ≤ 1/3` are used instead; they converge for t < 1 and lose at most one bit.
 //!
-//! An ellipse, in units of one of its family, has `g = w³`, `β = 1/(2w)` and `γ = 1/(5w)`: means over its compliance 1/w, as ln c is that
-//! of the others. With `ψ = 3w/4` the load of both has the derivative `dg/dw = 4 w ψ`.
+//! An ellipse, in units of one of its family, has `g = leg³`, `β = 1/(2 leg)` and `γ = 1/(5 leg)`: means over its compliance 1/leg,
+//! as ln c is that of the others. With `ψ = 3 leg/4` the load of both has the derivative `dg/d leg = 4 leg ψ`.
 
 use crate::numerics::const_math::tabulate;
 use crate::numerics::polynomial::{self, Rows, rows};
@@ -32,7 +33,7 @@ pub(crate) const TINY: f64 = 1e-300;
 
 type Table = Rows<{ TERMS / 4 }>;
 
-/// `g = 8 w³/(a+c) Σ l_k χ^k`; from `(1+χ)² (ψ - sin ψ cos ψ)` with ψ = 2 atan √χ.
+/// `g = 8 leg³/(a+c) Σ l_k t^k`; from `(1+t)² (ψ - sin ψ cos ψ)` with ψ = 2 atan √t.
 static LOAD: Table = rows(&tabulate!(TERMS, |k| {
     let n = 2.0 * k as f64;
     sign(k + 1) / ((n + 3.0) * (n + 1.0) * (n - 1.0))
@@ -43,10 +44,10 @@ const fn sign(k: usize) -> f64 {
     if k.is_multiple_of(2) { 1.0 } else { -1.0 }
 }
 
-/// Coefficients of β (`order` 1) or γ (`order` 2) divided by χ.
+/// Coefficients of β (`order` 1) or γ (`order` 2) divided by t.
 ///
-/// As functions of ln c both satisfy `df/d ln c = 1 - f d ln g^order / d ln c`. In terms of χ this is
-/// `χ (1 - χ²) P f' + order A f = 2 χ P` with `A = ψ/(2 √χ)` and `P = (ψ - sin ψ cos ψ)/(8 χ √χ)`.
+/// As functions of ln c both satisfy `df/d ln c = 1 - f d ln g^order / d ln c`. In terms of t this is
+/// `t (1 - t²) load f' + order arc f = 2 t load` with `arc = ψ/(2 √t)` and `load = (ψ - sin ψ cos ψ)/(8 t √t)`.
 const fn mean_over_ln_c(order: f64) -> Table {
     let atan = tabulate!(TERMS + 1, |k| sign(k) / (2.0 * k as f64 + 1.0));
     let load = tabulate!(TERMS + 1, |k| {
@@ -74,45 +75,46 @@ const fn mean_over_ln_c(order: f64) -> Table {
 static BETA: Table = mean_over_ln_c(1.0);
 static GAMMA: Table = mean_over_ln_c(2.0);
 
-fn sum(table: &Table, chi: f64) -> f64 {
-    let used = table.get(..polynomial::rows_for(chi, TERMS / 4)).unwrap_or(table);
-    polynomial::sum(used.iter().copied(), chi)
+fn sum(table: &Table, t: f64) -> f64 {
+    let used = table.get(..polynomial::rows_for(t, TERMS / 4)).unwrap_or(table);
+    polynomial::sum(used.iter().copied(), t)
 }
 
-/// A contact, given by the half-width a of the flat and by w: lengths in any one unit, those of an ellipse in units of its family.
+/// A contact, given by the half-width a of the flat and by leg: lengths in any one unit, those of an ellipse in units of its
+/// family.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct RoundedPunch {
     pub flat: f64,
-    pub w: f64,
+    pub leg: f64,
     /// Half-width c of the contact.
     pub half_width: f64,
-    /// ψ = atan2(w, a), between 0 and π/2; of an ellipse 3w/4.
+    /// ψ = atan2(leg, a), between 0 and π/2; of an ellipse 3 leg/4.
     pub psi: f64,
     /// 1 for an ellipse.
     pub elliptic: u64,
 }
 
 impl RoundedPunch {
-    pub fn new(flat: f64, w: f64) -> RoundedPunch {
-        // For a cylinder ψ = π/2 even at w = 0.
+    pub fn new(flat: f64, leg: f64) -> RoundedPunch {
+        // For a cylinder ψ = π/2 even at leg = 0.
         RoundedPunch {
             flat,
-            w,
-            half_width: (flat * flat + w * w).sqrt(),
-            psi: w.max(if flat > 0.0 { 0.0 } else { TINY }).atan2(flat),
+            leg,
+            half_width: (flat * flat + leg * leg).sqrt(),
+            psi: leg.max(if flat > 0.0 { 0.0 } else { TINY }).atan2(flat),
             elliptic: 0,
         }
     }
 
     /// An ellipse.
-    pub const fn ellipse(w: f64) -> RoundedPunch {
-        RoundedPunch { flat: 0.0, w, half_width: w, psi: 0.75 * w, elliptic: 1 }
+    pub const fn ellipse(leg: f64) -> RoundedPunch {
+        RoundedPunch { flat: 0.0, leg, half_width: leg, psi: 0.75 * leg, elliptic: 1 }
     }
 
     /// Another contact of the same family.
-    pub fn resized(&self, w: f64) -> RoundedPunch {
-        if self.is_elliptic() { RoundedPunch::ellipse(w) } else { RoundedPunch::new(self.flat, w) }
+    pub fn resized(&self, leg: f64) -> RoundedPunch {
+        if self.is_elliptic() { RoundedPunch::ellipse(leg) } else { RoundedPunch::new(self.flat, leg) }
     }
 
     /// Whether it is an ellipse.
@@ -121,66 +123,66 @@ impl RoundedPunch {
         self.elliptic != 0
     }
 
-    /// χ = tan²(ψ/2) if the series apply.
-    fn chi(&self) -> Option<f64> {
-        let root = self.w / (self.flat + self.half_width).max(TINY);
-        (self.w * self.w <= 3.0 * self.flat * self.flat).then_some(root * root)
+    /// t = tan²(ψ/2) if the series apply.
+    fn series_argument(&self) -> Option<f64> {
+        let root = self.leg / (self.flat + self.half_width).max(TINY);
+        (self.leg * self.leg <= 3.0 * self.flat * self.flat).then_some(root * root)
     }
 
-    /// `w - a ψ`. In terms of this difference the closed forms suffer the least cancellation near ψ = π/3.
-    fn w_minus_arc(&self) -> f64 {
-        self.w - self.flat * self.psi
+    /// `leg - a ψ`. In terms of this difference the closed forms suffer the least cancellation near ψ = π/3.
+    fn leg_minus_arc(&self) -> f64 {
+        self.leg - self.flat * self.psi
     }
 
-    /// g = 4RP/E* \[length²\], or w³.
+    /// g = 4RP/E* \[length²\], or leg³.
     pub fn load(&self) -> f64 {
-        let (a, w, c) = (self.flat, self.w, self.half_width);
-        match self.chi() {
-            _ if self.is_elliptic() => w * w * w,
-            Some(chi) => 8.0 * w * w * (w / (a + c).max(TINY)) * sum(&LOAD, chi),
-            None => 2.0 * (w * w * self.psi - a * self.w_minus_arc()),
+        let (a, leg, c) = (self.flat, self.leg, self.half_width);
+        match self.series_argument() {
+            _ if self.is_elliptic() => leg * leg * leg,
+            Some(t) => 8.0 * leg * leg * (leg / (a + c).max(TINY)) * sum(&LOAD, t),
+            None => 2.0 * (leg * leg * self.psi - a * self.leg_minus_arc()),
         }
     }
 
-    /// Derivative of g with respect to ln w.
+    /// Derivative of g with respect to ln leg.
     pub fn load_slope(&self) -> f64 {
-        4.0 * self.w * self.w * self.psi
+        4.0 * self.leg * self.leg * self.psi
     }
 
-    /// Decrease of the compliance with ln w, and the derivative of this decrease with respect to ln w.
+    /// Decrease of the compliance with ln leg, and the derivative of this decrease with respect to ln leg.
     #[inline(always)]
     pub fn decrease(&self) -> [f64; 2] {
         if self.is_elliptic() {
-            let compliance = 1.0 / self.w.max(TINY);
+            let compliance = 1.0 / self.leg.max(TINY);
             return [compliance, -compliance];
         }
-        let share = self.w * self.w / (self.half_width * self.half_width).max(TINY);
+        let share = self.leg * self.leg / (self.half_width * self.half_width).max(TINY);
         [share, 2.0 * share * (1.0 - share)]
     }
 
     /// β, the mean of the load over ln c, given the load g.
     pub fn beta(&self, load: f64) -> f64 {
-        let (a, w) = (self.flat, self.w);
-        match self.chi() {
-            _ if self.is_elliptic() => 0.5 / w.max(TINY),
-            Some(chi) => chi * sum(&BETA, chi),
-            None => (w * w * self.psi - 3.0 * a * self.w_minus_arc()) / load.max(TINY),
+        let (a, leg) = (self.flat, self.leg);
+        match self.series_argument() {
+            _ if self.is_elliptic() => 0.5 / leg.max(TINY),
+            Some(t) => t * sum(&BETA, t),
+            None => (leg * leg * self.psi - 3.0 * a * self.leg_minus_arc()) / load.max(TINY),
         }
     }
 
     /// γ, the mean of the squared load over ln c, given the load g.
     pub fn gamma(&self, load: f64) -> f64 {
-        let (a, w) = (self.flat, self.w);
-        match self.chi() {
-            _ if self.is_elliptic() => 0.2 / w.max(TINY),
-            Some(chi) => chi * sum(&GAMMA, chi),
+        let (a, leg) = (self.flat, self.leg);
+        match self.series_argument() {
+            _ if self.is_elliptic() => 0.2 / leg.max(TINY),
+            Some(t) => t * sum(&GAMMA, t),
             None => {
-                let c2 = (a * a + w * w).max(TINY);
+                let c2 = (a * a + leg * leg).max(TINY);
                 // cos² ψ, sin² ψ, and c²/g, which is below 1 here.
-                let (cos2, sin2, unit) = (a * a / c2, w * w / c2, c2 / load.max(c2));
+                let (cos2, sin2, unit) = (a * a / c2, leg * leg / c2, c2 / load.max(c2));
                 // cos² ψ ln cos ψ vanishes with cos ψ; the lower bound keeps the logarithm finite.
                 let elementary = cos2 * (sin2 * (1.0 + cos2) + 2.0 * cos2 * cos2.max(TINY).ln());
-                0.25 - unit * ((2.0 / 3.0) * (a * w / c2) * sin2 - (4.0 / 3.0) * unit * elementary)
+                0.25 - unit * ((2.0 / 3.0) * (a * leg / c2) * sin2 - (4.0 / 3.0) * unit * elementary)
             }
         }
     }
@@ -188,100 +190,111 @@ impl RoundedPunch {
     /// The contact that carries a load: the inverse of g (Eq. 1), from an initial guess with an error of at most 3 %. Each iteration
     /// raises the error to its fourth power.
     pub fn from_load(flat: f64, load: f64) -> RoundedPunch {
-        let mut now = RoundedPunch::new(flat, RoundedPunch::initial_guess_w(flat, load));
+        let mut now = RoundedPunch::new(flat, RoundedPunch::initial_guess_leg(flat, load));
         for _ in 0..4 {
             let found = now.load();
             let inverse = now.inverse(found, now.load_slope() / found.max(TINY), now.rates(), [0.0; 2]);
-            let (w, step) = (now.w, inverse.step(load));
-            now = RoundedPunch::new(flat, w + step);
-            if step.abs() <= 2e-5 * w {
+            let (leg, step) = (now.leg, inverse.step(load));
+            now = RoundedPunch::new(flat, leg + step);
+            if step.abs() <= 2e-5 * leg {
                 break;
             }
         }
         now
     }
 
-    /// The contact after a step of w: third powers of `step/w` are below rounding.
+    /// The contact after a step of leg: third powers of `step/leg` are below rounding.
     pub fn moved(&self, step: f64) -> RoundedPunch {
-        let RoundedPunch { flat, w, half_width, psi, .. } = *self;
+        let RoundedPunch { flat, leg, half_width, psi, .. } = *self;
         if self.is_elliptic() {
-            return RoundedPunch::ellipse(w + step);
+            return RoundedPunch::ellipse(leg + step);
         }
         // The tangent of the change of ψ.
-        let change = flat * step / (half_width * half_width + w * step).max(TINY);
-        let w = w + step;
-        RoundedPunch { w, half_width: (flat * flat + w * w).sqrt(), psi: psi + change, ..*self }
+        let change = flat * step / (half_width * half_width + leg * step).max(TINY);
+        let leg = leg + step;
+        RoundedPunch { leg, half_width: (flat * flat + leg * leg).sqrt(), psi: psi + change, ..*self }
     }
 
-    /// d ln ψ/d ln w and its derivative with respect to ln w.
+    /// d ln ψ/d ln leg and its derivative with respect to ln leg.
     pub fn rates(&self) -> [f64; 2] {
         if self.is_elliptic() {
             return [1.0, 0.0];
         }
         let c2 = (self.half_width * self.half_width).max(TINY);
-        let rho = self.flat * self.w / (c2 * self.psi).max(TINY);
-        [rho, rho * (1.0 - 2.0 * (self.w * self.w / c2) - rho)]
+        let slope_of_psi = self.flat * self.leg / (c2 * self.psi).max(TINY);
+        [slope_of_psi, slope_of_psi * (1.0 - 2.0 * (self.leg * self.leg / c2) - slope_of_psi)]
     }
 
-    /// The inverse close to this contact of a quantity with a derivative proportional to w ψ K, given its value, its power E
-    /// (the derivative of its logarithm with respect to ln w), and `ρ = d ln ψ/d ln w` and `κ = -d ln K/d ln w`, both with derivatives.
-    pub fn inverse(&self, value: f64, power: f64, rho: [f64; 2], kappa: [f64; 2]) -> InversePower {
-        // First and second derivative of ln E with respect to ln w.
-        let first = 2.0 + rho[0] - kappa[0] - power;
-        let second = rho[1] - kappa[1] - power * first;
+    /// The inverse close to this contact of a quantity with a derivative proportional to leg ψ Λ, given its value, its power
+    /// (the derivative of its logarithm with respect to ln leg), and d ln ψ/d ln leg and -d ln Λ/d ln leg, both with derivatives.
+    pub fn inverse(
+        &self,
+        value: f64,
+        power: f64,
+        slope_of_psi: [f64; 2],
+        slope_of_compliance: [f64; 2],
+    ) -> InversePower {
+        // First and second derivative of the logarithm of the power with respect to ln leg.
+        let first = 2.0 + slope_of_psi[0] - slope_of_compliance[0] - power;
+        let second = slope_of_psi[1] - slope_of_compliance[1] - power * first;
         // The lower bound keeps the third power finite.
         let inverse = 1.0 / power.max(1e-20);
         let square = inverse * inverse;
         let cubic = inverse * (1.0 + square * (4.0 * first * first - 2.0 * second - 1.0)) * (1.0 / 3.0);
-        InversePower { w: self.w, value, coefficients: [inverse, -square * first, cubic] }
+        InversePower { leg: self.leg, value, coefficients: [inverse, -square * first, cubic] }
     }
 
     /// The contact that carries a load, by one Newton step from a contact that is nearly always within 1e-9 of it; otherwise by
     /// [`RoundedPunch::from_load`].
     pub fn newton_step_from(start: RoundedPunch, load: f64) -> RoundedPunch {
-        let RoundedPunch { w, psi, half_width, flat, .. } = start;
-        let step = (load - start.load()) / (4.0 * w * psi).max(TINY);
-        if step.abs() > 1e-9 * w {
+        let RoundedPunch { leg, psi, half_width, flat, .. } = start;
+        let step = (load - start.load()) / (4.0 * leg * psi).max(TINY);
+        if step.abs() > 1e-9 * leg {
             return RoundedPunch::from_load(flat, load);
         }
         // The square of such a step is below rounding.
         let c = half_width.max(TINY);
-        RoundedPunch { w: w + step, psi: psi + step * (flat / c) / c, half_width: half_width + step * (w / c), ..start }
+        RoundedPunch {
+            leg: leg + step,
+            psi: psi + step * (flat / c) / c,
+            half_width: half_width + step * (leg / c),
+            ..start
+        }
     }
 
-    /// w of the contact that carries a load, with an error of at most 3 %: the limits `sqrt(g/π)` of the cylinder and `(3ag/4)^(1/3)` of
-    /// the flat, added as cubes.
-    pub fn initial_guess_w(flat: f64, load: f64) -> f64 {
+    /// leg of the contact that carries a load, with an error of at most 3 %: the limits `sqrt(g/π)` of the cylinder and
+    /// `(3ag/4)^(1/3)` of the flat, added as cubes.
+    pub fn initial_guess_leg(flat: f64, load: f64) -> f64 {
         let load = load.max(0.0);
         let hertz = load / PI;
         (hertz * hertz.sqrt() + 0.75 * flat * load).cbrt()
     }
 }
 
-/// w as a function of a quantity q that scales nearly as a power of w, close to w_0: the expansion of `(w - w_0)/(w + w_0)` in powers
-/// of `(q - q_0)/(q + q_0)`, up to the third.
+/// leg as a function of a quantity that scales nearly as a power of leg, close to leg_0: the expansion of
+/// `(leg - leg_0)/(leg + leg_0)` in powers of `(value - value_0)/(value + value_0)`, up to the third.
 ///
-/// These are the hyperbolic tangents of half the logarithms of w/w_0 and q/q_0. For a constant power of 2 to 3 the error for q 20 % away
-/// is below 2e-6 of w.
+/// These are the hyperbolic tangents of half the logarithms of leg/leg_0 and value/value_0. For a constant power of 2 to 3 the
+/// error for a value 20 % away is below 2e-6 of leg.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct InversePower {
-    w: f64,
+    leg: f64,
     value: f64,
     coefficients: [f64; 3],
 }
 
 impl InversePower {
-    /// w - w_0.
+    /// leg - leg_0.
     pub fn step(&self, value: f64) -> f64 {
         let [first, second, third] = self.coefficients;
         let x = (value - self.value) / (value + self.value).max(TINY);
-        // w changes by at most a factor of 3.
+        // leg changes by at most a factor of 3.
         let ratio = (x * (first + x * (second + x * third))).clamp(-0.5, 0.5);
-        2.0 * self.w * ratio / (1.0 - ratio)
+        2.0 * self.leg * ratio / (1.0 - ratio)
     }
 
-    /// w.
-    pub fn w(&self, value: f64) -> f64 {
-        self.w + self.step(value)
+    /// leg.
+    pub fn leg(&self, value: f64) -> f64 {
+        self.leg + self.step(value)
     }
 }

@@ -10,7 +10,7 @@ pub(crate) const ORDER: usize = 16;
 /// Taylor coefficients.
 pub(crate) type Series = [f64; ORDER];
 
-/// The series of an argument itself, `x (1 + ρ)`.
+/// The series of an argument itself, `x (1 + ε)`.
 pub(crate) fn identity(x: f64) -> Series {
     let mut series = [0.0; ORDER];
     (series[0], series[1]) = (x, x);
@@ -58,16 +58,16 @@ impl Reversed {
 }
 
 impl Shape {
-    /// N, U and S about the size w > 0 as functions of one of them.
-    pub fn series(&self, w: f64, argument: Quantity) -> [Series; 3] {
+    /// N, U and S about a size with leg > 0 as functions of one of them.
+    pub fn series(&self, leg: f64, argument: Quantity) -> [Series; 3] {
         let of_contact =
-            |argument| if self.is_elliptic() { self.binomial(w, argument) } else { self.of_flat(w, argument) };
+            |argument| if self.is_elliptic() { self.binomial(leg, argument) } else { self.of_flat(leg, argument) };
         if self.layer.is_none() {
             return of_contact(argument);
         }
         // As functions of the load N (1 + ν).
         let [load, mut approach, mut shift] = of_contact(Quantity::Load);
-        for (k, term) in self.layer.series(self.load(w)).iter().enumerate() {
+        for (k, term) in self.layer.series(self.load(leg)).iter().enumerate() {
             approach[k] += self.layer.normal * term;
             shift[k] += self.layer.tangential * term;
         }
@@ -85,7 +85,7 @@ impl Shape {
     }
 
     /// The series of an ellipse, binomial ones: N scales as the powers 3/2 of U and of S.
-    fn binomial(&self, w: f64, argument: Quantity) -> [Series; 3] {
+    fn binomial(&self, leg: f64, argument: Quantity) -> [Series; 3] {
         let binomial = |value: f64, exponent: f64| -> Series {
             let mut term = value;
             from_fn(|k| {
@@ -94,7 +94,7 @@ impl Shape {
                 coefficient
             })
         };
-        let (load, punch) = (self.load(w), self.punch_at(w));
+        let (load, punch) = (self.load(leg), self.punch_at(leg));
         let [approach, shift] =
             [Quantity::Approach, Quantity::Shift].map(|quantity| 1.5 * load * self.own_compliance(quantity, &punch));
         if argument == Quantity::Load {
@@ -105,26 +105,27 @@ impl Shape {
         }
     }
 
-    /// The series of a flat with rounded edges, from the differential equations, with ' the derivative with respect to ρ and
-    /// `dN = 4 w ψ dw` times the load scale:
+    /// The series of a flat with rounded edges, from the differential equations, with ' the derivative with respect to ε and
+    /// `dN = 4 leg ψ d leg` times the load scale:
     ///
     /// ```text
-    /// K N' = x   or   N' = x, S' = K N';     w ψ w' = N'/4;     s² ψ' = a w';     s² K' = -w w' times the compliance scale
+    /// Λ N' = x   or   N' = x, S' = Λ N';   leg ψ leg' = N'/4;   s² ψ' = a leg';   s² Λ' = -leg leg' times the compliance scale
     /// ```
     #[inline(never)]
-    fn of_flat(&self, w: f64, argument: Quantity) -> [Series; 3] {
-        let punch = self.punch_at(w);
+    fn of_flat(&self, leg: f64, argument: Quantity) -> [Series; 3] {
+        let punch = self.punch_at(leg);
         let (flat, by_load) = (self.flat, argument == Quantity::Load);
         // S for the argument N.
         let quantity = if by_load { Quantity::Shift } else { argument };
         let [mut compliance, mut size, mut load, mut shift] = [[0.0; ORDER]; 4];
         compliance[0] = self.own_compliance(quantity, &punch);
-        (size[0], load[0], shift[0]) = (w, self.load(w), self.own_value(quantity, &punch, punch.load(), compliance[0]));
+        (size[0], load[0], shift[0]) =
+            (leg, self.load(leg), self.own_value(quantity, &punch, punch.load(), compliance[0]));
         let [mut size_angle, mut half_width_2] = [[0.0; ORDER]; 2];
         let [mut size_reversed, mut angle, mut load_1, mut size_1, mut angle_1, mut compliance_1] = [Reversed::ZERO; 6];
         let (per_compliance, per_load_scale) = (1.0 / compliance[0], 0.25 / self.load_scale);
-        let (per_size_angle, per_half_width_2) = (1.0 / (w * punch.psi), 1.0 / (w * w + flat * flat));
-        size_reversed.set(0, w);
+        let (per_size_angle, per_half_width_2) = (1.0 / (leg * punch.psi), 1.0 / (leg * leg + flat * flat));
+        size_reversed.set(0, leg);
         angle.set(0, punch.psi);
         for k in 0..ORDER {
             size_angle[k] = angle.product_term(&size, k);
@@ -168,7 +169,7 @@ fn set(series: &mut Series, k: usize, value: f64) {
     }
 }
 
-/// Powers of the series ν(ρ) that inverts `y(ν) = y_0 (1 + ρ)`, at `[power][order]`.
+/// Powers of the series t(ε) that inverts `f(t) = f_0 (1 + ε)`, at `[power][order]`.
 fn inverse_powers(y: &Series) -> [Series; ORDER] {
     let mut powers = [[0.0; ORDER]; ORDER];
     powers[0][0] = 1.0;
@@ -191,7 +192,7 @@ fn inverse_powers(y: &Series) -> [Series; ORDER] {
     powers
 }
 
-/// `y(ν(ρ))` from the powers of ν.
+/// `f(t(ε))` from the powers of t.
 fn composed(y: &Series, powers: &[Series; ORDER]) -> Series {
     let mut series = [0.0; ORDER];
     // From the highest power, the smallest terms, on.

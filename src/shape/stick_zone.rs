@@ -3,7 +3,7 @@
 //! Under the load of b, a monotonically increased tangential force leaves a stick zone of a smaller size c of the same shape, and
 //!
 //! ```text
-//! Q = μ [P(b) - P(c)],        δ = μ [S(b) - S(c)],        dS = K(c) dP,
+//! Q = μ [P(b) - P(c)],        δ = μ [S(b) - S(c)],        dS = K_t(c) dP,
 //! ```
 //!
 //! with the load P(c) and the tangential shift S(c) of size c (Cattaneo; Jäger and Ciavarella, 1998). Every tangential state under
@@ -13,24 +13,24 @@
 //! ```text
 //! τ = 1 - P(c)/P(b)         the tangential force over mu N
 //! x = S(b) - S(c)           the tangential displacement
-//! Λ + λ = dx/dτ             the compliance K(c), λ = 0 at b
+//! Λ + λ = dx/dτ             the compliance of c, λ = 0 at b
 //! ```
 //!
 //! τ and x are stored with their complements 1 - τ and x_s - x, the distances to gross slip: whichever is smaller is computed
 //! directly, so that neither end suffers cancellation.
 //!
-//! A size is a punch with the parameter w; its load g, λ and the means β and γ of load and squared load over the compliance are
+//! A size is a punch with a leg; its load g, λ and the means β and γ of load and squared load over the compliance are
 //!
 //! ```text
 //! flat with rounded edges   those of the rounded punch,   λ = ln(b/c),   Λ = ln(2L/b) + ν/(1-ν)                 Eq. 8-10
-//! ellipse, w = c/b          g = w³,   β = 1/(2w),   γ = 1/(5w),   λ = 1/w - 1,   Λ = 1, the same for all ellipses
+//! ellipse, leg = c/b          g = leg³,   β = 1/(2 leg),   γ = 1/(5 leg),   λ = 1/leg - 1,   Λ = 1, the same for all ellipses
 //! ```
 //!
-//! With the index c for a stick zone and b for the contact, and `s = g_c/g_b = 1 - τ`,
+//! With the index c for a stick zone and b for the contact, `1 - τ = g_c/g_b` and,
 //!
 //! ```text
-//! remaining shift  x_s - x = s (Λ + λ + β_c)               x = Λ τ + β_b - s (λ + β_c)
-//! energy           e = 4 [(1+s)(β_b - s β_c) - s λ - (γ_b - s² γ_c)]                          Eq. 13-16
+//! remaining shift  x_s - x = (1-τ) (Λ + λ + β_c)           x = Λ τ + β_b - (1-τ) (λ + β_c)
+//! energy           W = 4 [(2-τ) (β_b - (1-τ) β_c) - (1-τ) λ - (γ_b - (1-τ)² γ_c)]                Eq. 13-16
 //! ```
 //!
 //! A layer adds its shift, compliance and energy. These formulas are evaluated for τ >= 1/2; for smaller τ they suffer cancellation
@@ -54,7 +54,7 @@ pub(crate) struct StickZone {
     pub shift: Complement,
     /// λ of contact and layer; infinite for the point to which the stick zone of an ellipse or a cylinder shrinks.
     pub compliance_increase: f64,
-    /// The ratio of its w to that of b if the zone was found by it; otherwise it follows from the load.
+    /// The ratio of its leg to that of b if the zone was found by it; otherwise it follows from the load.
     pub size_parameter: Option<f64>,
 }
 
@@ -78,7 +78,7 @@ pub(crate) struct Moments {
     pub first: f64,
     /// ∫ (1-t) h'' dt = β_b - s β_c.
     pub complement: f64,
-    /// ∫ (4w/g_b) h'' dt; not used for an ellipse.
+    /// ∫ (4 leg/g_b) h'' dt; not used for an ellipse.
     pub by_flat: f64,
 }
 
@@ -130,17 +130,17 @@ impl StickZones {
     fn increase_of(&self, punch: &RoundedPunch) -> f64 {
         let size = punch.half_width * punch.half_width;
         if self.is_elliptic() {
-            1.0 / punch.w.max(TINY) - 1.0
+            1.0 / punch.leg.max(TINY) - 1.0
         } else if size < 0.5 {
             -0.5 * size.max(TINY).ln()
         } else {
-            -0.5 * (-(self.b.w - punch.w) * (self.b.w + punch.w)).max(-0.5).ln_1p()
+            -0.5 * (-(self.b.leg - punch.leg) * (self.b.leg + punch.leg)).max(-0.5).ln_1p()
         }
     }
 
-    /// `h'' = dλ/dτ` of a size of the contact without its layer: `g_b/(4 c² ψ_c)`, or `1/(3w⁴)`.
+    /// `h'' = dλ/dτ` of a size of the contact without its layer: `g_b/(4 c² ψ_c)`, or `1/(3 leg⁴)`.
     fn curvature_of(&self, punch: &RoundedPunch) -> f64 {
-        let power = punch.half_width * punch.half_width * if self.is_elliptic() { punch.w } else { 1.0 };
+        let power = punch.half_width * punch.half_width * if self.is_elliptic() { punch.leg } else { 1.0 };
         self.load / (4.0 * power * punch.psi).max(TINY)
     }
 
@@ -150,7 +150,7 @@ impl StickZones {
             let load = Complement::of_remaining(0.75 + 0.25 * z);
             let punch = self.size_under(load.remaining);
             let value = self.curvature_of(&punch);
-            // Logarithmic derivative of h'' with respect to -ln w.
+            // Logarithmic derivative of h'' with respect to -ln leg.
             let ([decrease, change], [rate, _]) = (punch.decrease(), punch.rates());
             let slope = value * (2.0 + rate - change / decrease) * self.load / punch.load_slope();
             let [layer, layer_slope] = self.layer.curvature(load);
@@ -175,12 +175,13 @@ impl StickZones {
             return (self.size_under(remaining), load);
         }
         let own = compliance_increase - self.layer.increase(Complement::of_remaining(remaining));
-        let w = (self.b.w * self.b.w + (-2.0 * own).exp_m1()).max(0.25 * self.b.w * self.b.w * remaining).sqrt();
-        (RoundedPunch::newton_step_from(RoundedPunch::new(self.b.flat, w), load), load)
+        let leg =
+            (self.b.leg * self.b.leg + (-2.0 * own).exp_m1()).max(0.25 * self.b.leg * self.b.leg * remaining).sqrt();
+        (RoundedPunch::newton_step_from(RoundedPunch::new(self.b.flat, leg), load), load)
     }
 
-    /// The stick zone of a size with the load g and `s = g/g_b`. In the form Λ τ + h the consumed shift is no difference of two large
-    /// terms if the curve is nearly straight; that of the layer, a logarithm which the iteration does not need, is not in it.
+    /// The stick zone of a size with the load g and `1 - τ = g/g_b`. In the form Λ τ + h the consumed shift is no difference of two
+    /// large terms if the curve is nearly straight; that of the layer, a logarithm which the iteration does not need, is not in it.
     #[inline(always)]
     fn zone(&self, punch: &RoundedPunch, load: f64, remaining: f64) -> StickZone {
         let (full_stick, beta) = (self.contact.compliance, punch.beta(load));
@@ -192,7 +193,7 @@ impl StickZones {
                 remaining: remaining * (full_stick + increase + beta),
             },
             compliance_increase: increase,
-            size_parameter: Some(punch.w / self.b.w),
+            size_parameter: Some(punch.leg / self.b.leg),
         };
         if self.has_layer() {
             zone.shift.remaining += self.layer.shift(remaining);
@@ -214,10 +215,10 @@ impl StickZones {
         if self.is_elliptic() {
             return RoundedPunch::ellipse((own / slip_shift).sqrt());
         }
-        let w = RoundedPunch::initial_guess_w(self.b.flat, own / slip_shift * self.load);
-        let increase = -0.5 * (self.b.flat * self.b.flat + w * w).clamp(TINY, 1.0).ln();
+        let leg = RoundedPunch::initial_guess_leg(self.b.flat, own / slip_shift * self.load);
+        let increase = -0.5 * (self.b.flat * self.b.flat + leg * leg).clamp(TINY, 1.0).ln();
         let load = own / (slip_shift + increase) * self.load;
-        self.b.resized(RoundedPunch::initial_guess_w(self.b.flat, load).min(self.b.w))
+        self.b.resized(RoundedPunch::initial_guess_leg(self.b.flat, load).min(self.b.leg))
     }
 
     /// The stick zone at a remaining shift, from a size close to it; its size, and the inverse of the remaining shift close to it.
@@ -226,7 +227,7 @@ impl StickZones {
     fn refine(&self, remaining: f64, start: RoundedPunch) -> (StickZone, RoundedPunch, InversePower) {
         if self.is_elliptic() && !self.has_layer() {
             let punch = self.initial_guess(remaining);
-            let load = punch.w * punch.w * punch.w;
+            let load = punch.leg * punch.leg * punch.leg;
             let zone = self.zone(&punch, load, load);
             let shift = Complement { consumed: self.slip_shift - remaining, remaining };
             return (StickZone { shift, ..zone }, punch, InversePower::default());
@@ -234,46 +235,47 @@ impl StickZones {
         let mut punch = start;
         let mut iterations_left = 8;
         loop {
-            let (w, load, slope) = (punch.w, punch.load(), punch.load_slope());
+            let (leg, load, slope) = (punch.leg, punch.load(), punch.load_slope());
             let now = self.zone(&punch, load, load / self.load);
             let compliance = self.compliance(&now);
-            let ([mut decrease, mut change], rho) = (punch.decrease(), punch.rates());
+            let ([mut decrease, mut change], slope_of_psi) = (punch.decrease(), punch.rates());
             if self.has_layer() {
                 let ([of_layer, rate], slope) = (self.layer.curvature(now.load), slope / self.load);
                 decrease += of_layer * slope;
-                change += slope * (of_layer * (2.0 + rho[0]) - rate * slope);
+                change += slope * (of_layer * (2.0 + slope_of_psi[0]) - rate * slope);
             }
             let per_compliance = 1.0 / compliance;
-            let kappa = decrease * per_compliance;
+            let slope_of_compliance = decrease * per_compliance;
             let power = slope * compliance / (now.shift.remaining * self.load).max(TINY);
-            let rates = [kappa, change * per_compliance + kappa * kappa];
-            let inverse = punch.inverse(now.shift.remaining, power, rho, rates);
+            let rates = [slope_of_compliance, change * per_compliance + slope_of_compliance * slope_of_compliance];
+            let inverse = punch.inverse(now.shift.remaining, power, slope_of_psi, rates);
             let step = inverse.step(remaining);
             iterations_left -= 1;
-            if step.abs() <= 2e-5 * compliance.min(1.0) * w || iterations_left == 0 {
+            if step.abs() <= 2e-5 * compliance.min(1.0) * leg || iterations_left == 0 {
                 let (zone, moved) = self.last_step(&now, &punch, step, remaining);
                 return (zone, moved, inverse);
             }
-            punch = self.b.resized((w + step).max(0.0).min(self.b.w));
+            punch = self.b.resized((leg + step).max(0.0).min(self.b.leg));
         }
     }
 
-    /// The stick zone at a remaining shift, a last step of the size away: an expansion in which fourth powers of 2e-5, over the cube of
-    /// the compliance if that is small, are below rounding. Third powers are not: those of the load, `dg/dw = 4 w ψ`, are included.
+    /// The stick zone at a remaining shift, a last step of the size away: an expansion in which fourth powers of 2e-5, over the
+    /// cube of the compliance if that is small, are below rounding. Third powers are not: those of the load, `dg/d leg = 4 leg ψ`,
+    /// are included.
     #[inline(always)]
     fn last_step(&self, now: &StickZone, punch: &RoundedPunch, step: f64, remaining: f64) -> (StickZone, RoundedPunch) {
-        let (w, c2) = (punch.w, (punch.half_width * punch.half_width).max(TINY));
+        let (leg, c2) = (punch.leg, (punch.half_width * punch.half_width).max(TINY));
         let moved = punch.moved(step);
         let (rise, increase) = if self.is_elliptic() {
-            let square = moved.w * moved.w;
-            (step * (square + w * (moved.w + w)), self.increase_of(&moved) - self.increase_of(punch))
+            let square = moved.leg * moved.leg;
+            (step * (square + leg * (moved.leg + leg)), self.increase_of(&moved) - self.increase_of(punch))
         } else {
             // Relative change of c², and -½ ln(1 + change).
-            let change = step * (2.0 * w + step) / c2;
+            let change = step * (2.0 * leg + step) / c2;
             let per_size = self.b.flat / c2;
-            let square = 2.0 * (punch.psi + w * per_size) + step * (4.0 / 3.0) * self.b.flat * per_size * per_size;
+            let square = 2.0 * (punch.psi + leg * per_size) + step * (4.0 / 3.0) * self.b.flat * per_size * per_size;
             (
-                step * (4.0 * w * punch.psi + step * square),
+                step * (4.0 * leg * punch.psi + step * square),
                 -0.5 * change * (1.0 - change * (0.5 - change * (1.0 / 3.0))),
             )
         };
@@ -284,7 +286,7 @@ impl StickZones {
             load,
             shift: Complement { consumed: self.slip_shift - remaining, remaining },
             compliance_increase: now.compliance_increase + increase + rise_of_layer,
-            size_parameter: Some(moved.w / self.b.w),
+            size_parameter: Some(moved.leg / self.b.leg),
         };
         (zone, moved)
     }
@@ -294,8 +296,8 @@ impl StickZones {
     pub fn sequence(&self) -> impl FnMut(f64) -> LoadPoint {
         let mut last: Option<InversePower> = None;
         move |remaining| {
-            let w = last.as_ref().map_or(self.b.w, |last| last.w(remaining));
-            let (zone, punch, inverse) = self.refine(remaining, self.b.resized(w));
+            let leg = last.as_ref().map_or(self.b.leg, |last| last.leg(remaining));
+            let (zone, punch, inverse) = self.refine(remaining, self.b.resized(leg));
             last = Some(inverse);
             let [of_layer, _] = self.layer.curvature(zone.load);
             LoadPoint {
@@ -354,25 +356,25 @@ impl StickZones {
 
     /// The moments at a load; λ of contact and layer, to the rounding of Λ + λ, is used for τ > 1/2.
     ///
-    /// With C(w) = w - a ψ the fourth is 4 (C_b - C_c)/g_b, because dc/da at a constant load is w/(c ψ).
+    /// With C(leg) = leg - a ψ the fourth is 4 (C_b - C_c)/g_b, because dc/da at a constant load is leg/(c ψ).
     pub fn moments(&self, load: Complement, compliance_increase: f64) -> Moments {
-        let RoundedPunch { flat, w, .. } = self.b;
+        let RoundedPunch { flat, leg, .. } = self.b;
         let tau = load.consumed;
         let (increase, first, complement, w_difference) = if tau <= 0.5 {
             let [increase, first] = self.contact.moments(tau);
             let squares = -(-2.0 * increase).exp_m1();
-            (increase, first, increase - first, squares / (w + (w * w - squares).max(0.0).sqrt()))
+            (increase, first, increase - first, squares / (leg + (leg * leg - squares).max(0.0).sqrt()))
         } else {
             let (punch, load_c) = self.size_near(load.remaining, compliance_increase);
             let increase = self.increase_of(&punch);
             let complement = self.beta - load.remaining * punch.beta(load_c);
-            (increase, increase - complement, complement, w - punch.w)
+            (increase, increase - complement, complement, leg - punch.leg)
         };
-        let by_flat = if w * w <= 3.0 * flat * flat {
-            // 2 ∫ (1-t) h'' dt + a ∫ 4w/g_b h'' dt = τ; the first term is the smaller one.
+        let by_flat = if leg * leg <= 3.0 * flat * flat {
+            // 2 ∫ (1-t) h'' dt + a ∫ 4 leg/g_b h'' dt = τ; the first term is the smaller one.
             (tau - 2.0 * complement) / flat
         } else {
-            let angle = (flat * w_difference).atan2(flat * flat + w * (w - w_difference));
+            let angle = (flat * w_difference).atan2(flat * flat + leg * (leg - w_difference));
             4.0 / self.load * (w_difference - flat * angle)
         };
         Moments { increase, first, complement, by_flat }
@@ -380,20 +382,20 @@ impl StickZones {
 
     /// d(ln b)/d(ln g_b), and db/da at a constant load.
     pub fn size_slopes(&self) -> [f64; 2] {
-        [self.contact.initial_curvature(), self.b.w / self.b.psi]
+        [self.contact.initial_curvature(), self.b.leg / self.b.psi]
     }
 
-    /// w² of a stick zone, and `w_b² - w²` free of cancellation.
+    /// leg² of a stick zone, and `leg_b² - leg²` free of cancellation.
     fn squares(&self, zone: &StickZone) -> [f64; 2] {
         if let Some(sigma) = zone.size_parameter {
-            let w = self.b.w * sigma;
-            return [w * w, (self.b.w - w) * (self.b.w + w)];
+            let leg = self.b.leg * sigma;
+            return [leg * leg, (self.b.leg - leg) * (self.b.leg + leg)];
         }
         let increase =
             if self.has_layer() { self.contact.moments(zone.load.consumed)[0] } else { zone.compliance_increase };
         let consumed = increase / (1.0 + increase);
         let squares = if self.is_elliptic() { consumed * (2.0 - consumed) } else { -(-2.0 * increase).exp_m1() };
-        [(self.b.w * self.b.w - squares).max(0.0), squares]
+        [(self.b.leg * self.b.leg - squares).max(0.0), squares]
     }
 
     /// c/b.
@@ -405,14 +407,14 @@ impl StickZones {
         }
     }
 
-    /// Pressure, less that of the size with `[w², w_b² - w²]`.
+    /// Pressure, less that of the size with `[leg², leg_b² - leg²]`.
     fn pressure_beyond(&self, [square, squares]: [f64; 2], point: &SurfacePoint) -> f64 {
-        let w = square.sqrt();
+        let leg = square.sqrt();
         if self.is_elliptic() {
             let outer = point.from_edge * (1.0 + point.x);
-            1.5 / PI * difference_of_heights(outer, (w - point.x) * (w + point.x), squares)
+            1.5 / PI * difference_of_heights(outer, (leg - point.x) * (leg + point.x), squares)
         } else {
-            tractions::pressure_between(self.b.flat, w, self.b.w, squares, point) * self.traction_scale() / PI
+            tractions::pressure_between(self.b.flat, leg, self.b.leg, squares, point) * self.traction_scale() / PI
         }
     }
 
@@ -423,7 +425,7 @@ impl StickZones {
 
     /// Pressure in units of N/(bL) or, for an ellipse, of N over the product of the semi-axes.
     pub fn pressure(&self, point: &SurfacePoint) -> f64 {
-        self.pressure_beyond([0.0, self.b.w * self.b.w], point)
+        self.pressure_beyond([0.0, self.b.leg * self.b.leg], point)
     }
 
     /// Shear traction over μ in those units under a monotonically increased force: the pressure of b less that of the stick zone

@@ -1,10 +1,10 @@
 //! Tractions and slip of the rounded flat (Eq. 15, 17, 21-24), as integrals over the contact size.
 //!
-//! Each contact size c' adds the pressure of a flat punch, `dP/(π sqrt(c'² - x²))`, with `dP ∝ ψ c' dc' = ψ w' dw'`. The pressure of a
-//! contact and, by superposition of two, the shear traction with the stick zone c are therefore the same integral
+//! Each contact size c' adds the pressure of a flat punch, `dP/(π sqrt(c'² - x²))`, with `dP ∝ ψ c' dc' = ψ leg' d leg'`. The
+//! pressure of a contact and, by superposition of two, the shear traction with the stick zone c are therefore the same integral
 //!
 //! ```text
-//! I = ∫ ψ c' dc'/sqrt(c'² - x²)          from max(c, |x|) to b.
+//! the integral = ∫ ψ c' dc'/sqrt(c'² - x²)          from max(c, |x|) to b.
 //! ```
 //!
 //! Slip at x is the same superposition of the surface displacements outside the punches, `∫ acosh(|x|/c') ψ c' dc'` from c to |x|. Both
@@ -44,7 +44,7 @@ pub(crate) fn difference_of_heights(outer: f64, inner: f64, difference: f64) -> 
 /// Ratio of a sum to its terms below which quadrature is used: six bits lost to cancellation.
 const CANCELLATION_LIMIT: f64 = 1.0 / 64.0;
 
-/// `∫ ψ c' dc'/sqrt(c'² - x²)` over the sizes with w between `from` and `to`, lengths in the units of the flat. `squares` is the
+/// `∫ ψ c' dc'/sqrt(c'² - x²)` over the sizes with leg between `from` and `to`, lengths in the units of the flat. `squares` is the
 /// difference `to² - from²`, computed without cancellation for a narrow slip zone.
 pub(crate) fn pressure_between(flat: f64, from: f64, to: f64, squares: f64, point: &SurfacePoint) -> f64 {
     let outside = outside(flat, point);
@@ -53,7 +53,7 @@ pub(crate) fn pressure_between(flat: f64, from: f64, to: f64, squares: f64, poin
         return 0.0;
     }
     let (upper, upper_size) = antiderivative(flat, to, point);
-    // The antiderivative is 0 if the integral starts at w = 0 or at c' = |x|.
+    // The antiderivative is 0 if the integral starts at leg = 0 or at c' = |x|.
     let (start, lower, lower_size) = if from > edge {
         let (lower, size) = antiderivative(flat, from, point);
         (from, lower, size)
@@ -64,82 +64,95 @@ pub(crate) fn pressure_between(flat: f64, from: f64, to: f64, squares: f64, poin
     if closed.abs() >= CANCELLATION_LIMIT * (upper_size + lower_size) {
         return closed;
     }
-    let zeta = |w: f64| (w * w - outside).max(0.0).sqrt();
+    let root_inside = |leg: f64| (leg * leg - outside).max(0.0).sqrt();
     let squares = if from > edge { squares } else { to * to - edge * edge };
     if outside < 0.0 {
         gauss(squares / (to + start), |step| {
-            let w = start + step;
-            w.atan2(flat) * w / zeta(w).max(TINY)
+            let leg = start + step;
+            leg.atan2(flat) * leg / root_inside(leg).max(TINY)
         })
     } else {
-        // The substitution ζ removes the square root at c' = |x|.
-        let first = if from > edge { zeta(from) } else { 0.0 };
-        // ζ(to)² >= to² - from²; the bound matters only if ζ(to) vanishes, with rounding downward.
-        let length = squares / (zeta(to) + first).max(0.5 * squares.max(0.0).sqrt()).max(TINY);
+        // The substitution root_inside removes the square root at c' = |x|.
+        let first = if from > edge { root_inside(from) } else { 0.0 };
+        // root_inside(to)² >= to² - from²; the bound matters only if root_inside(to) vanishes, with rounding downward.
+        let length = squares / (root_inside(to) + first).max(0.5 * squares.max(0.0).sqrt()).max(TINY);
         gauss(length, |step| {
-            let zeta = first + step;
-            (zeta * zeta + outside).sqrt().atan2(flat)
+            let root_inside = first + step;
+            (root_inside * root_inside + outside).sqrt().atan2(flat)
         })
     }
 }
 
-/// x² - a²: w² of the contact of half-width |x|, if not negative.
+/// x² - a²: leg² of the contact of half-width |x|, if not negative.
 fn outside(flat: f64, point: &SurfacePoint) -> f64 {
     point.past_flat * (point.x + flat)
 }
 
-/// The antiderivative at w and the size of its terms. With `ζ = sqrt(c² - x²)`,
+/// The antiderivative at leg and the size of its terms. With `root_inside = sqrt(c² - x²)`,
 ///
 /// ```text
-/// ψ ζ + x ln[(a ζ + x w)/(c (w + ζ))] - (a - x) ln[(w + ζ)/sqrt|a² - x²|]
+/// ψ root_inside + x ln[(a root_inside + x leg)/(c (leg + root_inside))] - (a - x) ln[(leg + root_inside)/sqrt|a² - x²|]
 /// ```
 ///
-/// which vanishes at w = 0 inside the flat and at c = x outside it, and is finite at x = a.
-fn antiderivative(flat: f64, w: f64, point: &SurfacePoint) -> (f64, f64) {
-    let RoundedPunch { half_width: c, psi, .. } = RoundedPunch::new(flat, w);
+/// which vanishes at leg = 0 inside the flat and at c = x outside it, and is finite at x = a.
+fn antiderivative(flat: f64, leg: f64, point: &SurfacePoint) -> (f64, f64) {
+    let RoundedPunch { half_width: c, psi, .. } = RoundedPunch::new(flat, leg);
     let outside = outside(flat, point);
-    let zeta = (w * w - outside).max(0.0).sqrt();
-    let sum = (w + zeta).max(TINY);
+    let root_inside = (leg * leg - outside).max(0.0).sqrt();
+    let sum = (leg + root_inside).max(TINY);
     let c = c.max(TINY);
-    let decrease = w * w / (c * (flat + c)) - point.past_flat * w / (c * sum);
-    let terms =
-        [psi * zeta, point.x * (-decrease).max(-1.0 + 1e-16).ln_1p(), point.past_flat * log_ratio(w, zeta, outside)];
+    let decrease = leg * leg / (c * (flat + c)) - point.past_flat * leg / (c * sum);
+    let terms = [
+        psi * root_inside,
+        point.x * (-decrease).max(-1.0 + 1e-16).ln_1p(),
+        point.past_flat * log_ratio(leg, root_inside, outside),
+    ];
     (terms.iter().sum(), terms.iter().map(|term| term.abs()).sum())
 }
 
-/// `ln[(w + ζ)/sqrt|outside|]` with `ζ² = w² - outside`, accurate also for a quotient close to 1.
-fn log_ratio(w: f64, zeta: f64, outside: f64) -> f64 {
+/// `ln[(leg + root_inside)/sqrt|outside|]` with `root_inside² = leg² - outside`, accurate also for a quotient close to 1.
+fn log_ratio(leg: f64, root_inside: f64, outside: f64) -> f64 {
     let edge = outside.abs().sqrt().max(1e-150);
-    let excess = if outside < 0.0 { w + w * w / (zeta + edge) } else { (w - edge).max(0.0) + zeta };
+    let excess =
+        if outside < 0.0 { leg + leg * leg / (root_inside + edge) } else { (leg - edge).max(0.0) + root_inside };
     (excess / edge).ln_1p()
 }
 
-/// `∫ acosh(x/c') ψ c' dc'` from the stick zone to |x|; 0 inside the stick zone. With `ξ = sqrt(x² - c²)` it is half of
+/// `∫ acosh(x/c') ψ c' dc'` from the stick zone to |x|; 0 inside the stick zone. With `root_outside = sqrt(x² - c²)` it is half of
 ///
 /// ```text
-/// x ψ ξ + (x² + a²) atan2(a ξ, x w) - 2 a x atan2(ξ, w) - (g_c/2) acosh(x/c).
+/// x ψ root_outside + (x² + a²) atan2(a root_outside, x leg) - 2 a x atan2(root_outside, leg) - (g_c/2) acosh(x/c).
 /// ```
 pub(crate) fn slip_beyond(stick: &RoundedPunch, point: &SurfacePoint) -> f64 {
-    let RoundedPunch { flat: a, w, half_width: c, psi, .. } = *stick;
+    let RoundedPunch { flat: a, leg, half_width: c, psi, .. } = *stick;
     let x = point.x;
-    let w_x = outside(a, point).max(0.0).sqrt();
-    if w_x <= w {
+    let leg_at_x = outside(a, point).max(0.0).sqrt();
+    if leg_at_x <= leg {
         return 0.0;
     }
-    let xi = ((w_x - w) * (w_x + w)).sqrt();
-    let log = acosh_ratio((w_x - w) * (w_x + w), x, c.max(1e-100));
-    let terms =
-        [x * psi * xi, (x * x + a * a) * (a * xi).atan2(x * w), -2.0 * a * x * xi.atan2(w), -0.5 * stick.load() * log];
+    let root_outside = ((leg_at_x - leg) * (leg_at_x + leg)).sqrt();
+    let log = acosh_ratio((leg_at_x - leg) * (leg_at_x + leg), x, c.max(1e-100));
+    let terms = [
+        x * psi * root_outside,
+        (x * x + a * a) * (a * root_outside).atan2(x * leg),
+        -2.0 * a * x * root_outside.atan2(leg),
+        -0.5 * stick.load() * log,
+    ];
     let closed: f64 = 0.5 * terms.iter().sum::<f64>();
     if closed >= CANCELLATION_LIMIT * terms.iter().map(|term| term.abs()).sum::<f64>() {
         return closed;
     }
-    // The substitution w' = w_x - (w_x - w) z² removes the square root at c' = |x|.
-    let length = w_x - w;
+    // The substitution leg' = leg_at_x - (leg_at_x - leg) z² removes the square root at c' = |x|.
+    let length = leg_at_x - leg;
     gauss(1.0, |z| {
         let gap = length * z * z;
-        let punch = RoundedPunch::new(a, w_x - gap);
-        acosh_ratio(gap * (w_x + punch.w), x, punch.half_width.max(TINY)) * punch.psi * punch.w * 2.0 * z * length
+        let punch = RoundedPunch::new(a, leg_at_x - gap);
+        acosh_ratio(gap * (leg_at_x + punch.leg), x, punch.half_width.max(TINY))
+            * punch.psi
+            * punch.leg
+            * 2.0
+            * z
+            * length
     })
 }
 

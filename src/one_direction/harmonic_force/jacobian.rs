@@ -1,20 +1,22 @@
 //! Derivatives of the tangential forces by the motion, gathered piece by piece.
 //!
-//! With f = dN/dS = 1/K_t the force of a diagram P(S) is `T = ∫ f dP`. If P moves by δP(S) at fixed S,
+//! With dN = dS/K_t the force of a diagram u(S) is `T = ∫ du/K_t`. If u(S) moves by δu(S) at fixed S,
 //!
 //! ```text
-//! dT = f(S_b) du - Σ_pieces ∫ f' δP dS,     with f(0) δo added for the piece at the centre.
+//! δT = δu/K_t at S_b - Σ_pieces ∫ δu d(1/K_t),     with δo/K_t at S = 0 added for the piece at the centre.
 //! ```
 //!
-//! - A slip zone is a line of the sample j that made it last, δP = dλ, λ = ξ_j or η_j: `∫ = (f_2 - f_1) dλ`.
-//! - A stuck piece from sample i to j has `δP = e_i + (e_j - e_i)(S - S_i)/(S_j - S_i)` with `e = du - D dS`:
-//!   `∫ = (f_2 - f_i) e_i + g (e_j - e_i)`, `g = [(S_2 - S_i) f_2 - (N_2 - N_i)]/(S_j - S_i)`.
+//! - A slip zone is a line of the sample j that made it last, δu = δξ_j or δη_j: the integral is δu times the rise of 1/K_t along
+//!   it.
+//! - A stuck piece from sample i to j has `δu = m_i + (m_j - m_i)(S - S_i)/(S_j - S_i)` with the motion `m = δu - D δS` of a
+//!   sample: the integral is m_i times the rise of 1/K_t from S_i to S_2 (the constant weight), and m_j - m_i times the linear
+//!   weight, `[(S_2 - S_i)/K_t(S_2) - (N_2 - N_i)]/(S_j - S_i)`.
 //! - The part with D = 0 never moves.
 //!
 //! S_2 is the outer end of the piece, which later samples cut. What depends on the sample itself is a weighted sum over
 //! `φ ⊗ φ`, composed of Fourier sums of the weights. Everything else is gathered by pieces: each sums φ of the later samples times
 //! its weight, which is constant while it is covered, so that differences of antiderivatives of φ give the sums. Once the piece is
-//! removed, the sum is added to those of the one or two samples that made it; in the end `J += Σ Y_j ⊗ φ_j`.
+//! removed, the sum is added to those of the one or two samples that made it; in the end the Jacobian grows by `Σ Y_j ⊗ φ_j`.
 
 use crate::element::Element;
 use crate::fourier::at;
@@ -36,7 +38,7 @@ record! {
         /// Weights of the constant part and of the linear part for samples from `since` on, counted along the path.
         weights: [f64; 2],
         since: u64,
-        /// Slip zone: f at the inner end; stuck: 1/(S_j - S_i).
+        /// Slip zone: 1/K_t at the inner end; stuck: 1/(S_j - S_i).
         parameter: f64,
         /// A run of slip that cut it, not yet added to its sums.
         cut: Cut,
@@ -71,10 +73,14 @@ impl Piece {
     }
 }
 
-/// Weights of the constant and of the linear part of a stuck piece, with S, N and f at its inner and at its outer end.
+/// Weights of the constant and of the linear part of a stuck piece, with S, N and 1/K_t at its inner and at its outer end.
 #[inline(always)]
-fn weights_of_stuck(inverse_width: f64, [s_i, n_i, f_i]: [f64; 3], [shift, load, stiffness]: [f64; 3]) -> [f64; 2] {
-    [stiffness - f_i, ((shift - s_i) * stiffness - (load - n_i)) * inverse_width]
+fn weights_of_stuck(
+    inverse_width: f64,
+    [s_i, n_i, stiffness_i]: [f64; 3],
+    [shift, load, stiffness]: [f64; 3],
+) -> [f64; 2] {
+    [stiffness - stiffness_i, ((shift - s_i) * stiffness - (load - n_i)) * inverse_width]
 }
 
 /// Tables and memory.
@@ -92,7 +98,7 @@ pub(super) struct Sensitivity<'a> {
     pub own: [&'a mut [f64]; 2],
 }
 
-/// The motion, and the boundaries of its slip zones, packed: S, N and f.
+/// The motion, and the boundaries of its slip zones, packed: S, N and 1/K_t.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Context<'c> {
     pub element: &'c Element,
@@ -113,7 +119,7 @@ impl Context<'_> {
         if sample >= self.samples.count { sample - self.samples.count } else { sample }
     }
 
-    /// S, N and f of the whole contact at a sample: 0 if it is open.
+    /// S, N and 1/K_t of the whole contact at a sample: 0 if it is open.
     #[inline(always)]
     fn contact_at(&self, sample: usize) -> [f64; 3] {
         let Samples { shift, load, stiffness, .. } = self.samples;
@@ -338,7 +344,8 @@ impl<const N: usize> Gathering<'_, N> {
         }
     }
 
-    /// Adds the sums of a piece that is removed to those of the samples that made it: `dT = -V_1 e_i - V_2 (e_j - e_i)`.
+    /// Adds the sums of a piece that is removed to those of the samples i and j that made it, with the opposite sign: the constant
+    /// sum times m_i, the linear one times m_j - m_i.
     #[inline(always)]
     fn distribute(&mut self, piece: &Piece, [constant, linear]: &[Strip<N>; 2]) {
         let Context { element, samples, slopes, .. } = *self.context;

@@ -4,7 +4,7 @@
 //! free of cancellation. All quantities follow from the coefficients of `h'' = Σ c_m τᵐ`:
 //!
 //! ```text
-//! h = Σ h_n τⁿ,     λ = h',     e = 4 ∫ t (τ-t) h''(t) dt = 4 Σ (n-1)/(n+1) h_n τⁿ⁺¹,     de/dτ = 4 Σ (n-1) h_n τⁿ,
+//! h = Σ h_n τⁿ,     λ = h',     W = 4 ∫ t (τ-t) h''(t) dt = 4 Σ (n-1)/(n+1) h_n τⁿ⁺¹,     dW/dτ = 4 Σ (n-1) h_n τⁿ,
 //! ```
 //!
 //! Each is `Σ c_m f_m τᵐ` times a power of τ, with factors f_m independent of the shape.
@@ -80,7 +80,7 @@ impl SmallLoadSeries {
         [self.sum(&COMPLIANCE, tau) * tau, 0.25 * self.sum(&D_DISSIPATION, tau) * tau * tau]
     }
 
-    /// e and de/dτ at τ.
+    /// W and dW/dτ at τ.
     #[inline(always)]
     pub fn dissipation(&self, tau: f64) -> (f64, f64) {
         let (sum, slope) = polynomial::value_and_slope(&self.terms(&DISSIPATION), tau);
