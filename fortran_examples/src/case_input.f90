@@ -113,7 +113,7 @@ contains
     !> A variable that is not given keeps the value of the contact before. The library checks geometry, load and material.
     subroutine read_contacts()
       character(len=name_length) :: name, law, displacement_reference
-      integer :: dof(6), count, n
+      integer :: dof(4), count, n
       logical :: load_varied
       real(wp) :: angle, interference
       real(wp) :: flat_half_width, edge_radius, length, normal_force, friction_coefficient, young_modulus(2), poisson_ratio(2)
@@ -134,7 +134,7 @@ contains
         n = findloc([dof, -1], -1, dim=1) - 1
         call require(any(law == [character(len=name_length) :: law_microslip, law_slider, law_element]), 'contact', &
                      'law must be "'//law_microslip//'", "'//law_slider//'" or "'//law_element//'"')
-        call require(merge(any(n == [4, 6]), n == 2, law == law_element) .and. all(dof(:n) >= 0) .and. &
+        call require(n == merge(4, 2, law == law_element) .and. all(dof(:n) >= 0) .and. &
                      all(dof <= size(data%model%mass, 1)) .and. count > 0 .and. len_trim(name) > 0, 'contact', &
                      'name, dof or count is wrong')
         call require(any(displacement_reference == [character(len=name_length) :: 'rigid_strip', 'centre_point']), 'contact', &

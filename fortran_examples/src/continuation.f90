@@ -21,7 +21,6 @@ module continuation
 
   ! Relative change of the displacements in one step; fewest steps over the whole range of frequencies.
   real(wp), parameter :: max_step = 0.2_wp, min_step = 1.0e-6_wp
-  real(wp), parameter :: leap_below = 1.0e-4_wp, shortest_leap = 2.0e-4_wp
   integer, parameter :: steps_over_range = 40, max_points = 5000
   integer, parameter :: corrector_steps = 12, few_steps = 3, many_steps = 6
   real(wp), parameter :: min_tangent_cosine = 0.9_wp
@@ -51,7 +50,6 @@ contains
     call start_path()
     do while (direction * (omega - omega_to) < 0.0_wp)
       call advance(step, min_tangent_cosine)
-      if (.not. converged .and. step < leap_below) call leap()
       if (converged) then
         call append()
         if (iterations <= few_steps) step = min(1.5_wp * step, max_step)
@@ -63,22 +61,6 @@ contains
     end do
 
   contains
-
-    !> Across a corner that shorter and shorter steps approach but do not pass: the first longer step that finds the path again, at
-    !> any angle. Uniform samples make many small corners, one when the contact state at a sample changes.
-    subroutine leap()
-      real(wp) :: length
-
-      length = shortest_leap
-      do while (length <= max_step)
-        call advance(length, -1.0_wp)
-        if (converged) then
-          step = 0.5_wp * length
-          return
-        end if
-        length = 2.0_wp * length
-      end do
-    end subroutine leap
 
     !> Continues beyond a corner. Where a nearly flat contact reaches gross slip, the path may turn by more than a right angle:
     !> no tangent leads on, or the one that is found leads back.

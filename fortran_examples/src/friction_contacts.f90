@@ -7,8 +7,8 @@
 !>     time step       mslip_state_init, mslip_masing_update           mslip_element_state_init,
 !>                                                                     mslip_element_update              in start_history, try_step
 !>
-!> A contact has one component, the tangential displacement. An element has two, that and the normal approach; or three, the
-!> displacements in two tangential directions and the approach. The components of all contacts are numbered one after the other.
+!> A contact has one component, the tangential displacement. An element has two, that and the normal approach. The components of all
+!> contacts are numbered one after the other. Elements with two tangential directions are in static_first.f90.
 !> A solver with thousands of contacts calls mslip_batch_* in place of these loops (contact_threads.f90).
 module friction_contacts
   use basics, only: fail, name_length, pi, wp
@@ -18,14 +18,14 @@ module friction_contacts
   private
 
   character(len=*), parameter, public :: law_microslip = 'microslip', law_slider = 'spring-slider', law_element = 'element'
-  integer, parameter, public :: max_components = 3
+  integer, parameter, public :: max_components = 2
 
   type, public :: friction_contact
     character(len=name_length) :: name = ' '
     character(len=name_length) :: law = ' '
     !> One component: the displacement is that of dof(1) minus that of dof(2). Two: (x, y) of the first body, dof(1:2), minus
-    !> (x, y) of the second, dof(3:4). Three: (x, y, z) of each, z is the second tangential direction. 0 is the ground.
-    integer :: dof(6) = -1
+    !> (x, y) of the second, dof(3:4). 0 is the ground.
+    integer :: dof(4) = -1
     real(wp) :: angle = 0.0_wp            !! from x to the tangential direction, degrees; the normal, 90 degrees ahead, points into
                                           !! the second body
     real(wp) :: interference = 0.0_wp     !! approach of the undeformed structure; a gap is negative
@@ -34,7 +34,6 @@ module friction_contacts
     type(mslip_parameters) :: parameters
     ! From here on made by `prepare`.
     integer :: first = 0, last = 0        !! components
-    integer(mslip_int) :: directions = 0  !! tangential ones of an element
     type(mslip_contact) :: contact        !! also has stiffness and slip force of the spring-slider
     type(mslip_element) :: element
     real(wp) :: normal_stiffness = 0.0_wp !! of the element under the normal force of the case
@@ -44,7 +43,7 @@ module friction_contacts
     type(friction_contact), allocatable :: items(:)
     integer :: components = 0, periods = 3                  !! periods before the returned one
     real(wp) :: drift = 0.0_wp                              !! the largest of the elements in the last harmonic force
-    real(wp), allocatable :: workspace(:), element_workspace(:,:), basis(:,:)
+    real(wp), allocatable :: workspace(:), element_workspace(:), basis(:,:)
   contains
     procedure :: prepare
     procedure :: harmonic_force
@@ -63,6 +62,7 @@ module friction_contacts
   integer(mslip_size), parameter, public :: max_reversals = 32
   !> The force up to which elements are tabulated, relative to the normal force of the case.
   real(wp), parameter :: load_range = 4.0_wp
+  integer(mslip_int), parameter :: directions = 1
 
 contains
 
@@ -77,7 +77,7 @@ contains
     type(mslip_parameters) :: p
     real(wp) :: compliance
     integer(mslip_size) :: h, n
-    integer(mslip_int) :: status, directions
+    integer(mslip_int) :: status
     integer :: i
 
     if (mslip_abi_version() /= MSLIP_MODULE_ABI_VERSION) call fail('libmicroslip and the module are of different versions')
@@ -93,15 +93,14 @@ contains
         call mslip_contact_init(p, c%contact, status)
         call require(status, c%name)
         if (c%law == law_element) then
-          c%directions = merge(1_mslip_int, 2_mslip_int, c%dof(5) < 0)
           p%normal_force = load_range * p%normal_force
-          call mslip_element_init(p, c%directions, MSLIP_INPUT_APPROACH, c%element, status)
+          call mslip_element_init(p, directions, MSLIP_INPUT_APPROACH, c%element, status)
           call require(status, c%name)
           call mslip_normal_approach(c%element, p%normal_force / load_range, status, compliance=compliance)
           call require(status, c%name)
           c%normal_stiffness = c%count / compliance
         end if
-        c%last = c%first + int(c%directions)
+        c%last = c%first + merge(1, 0, c%law == law_element)
         self%components = c%last
       end associate
     end do
@@ -116,30 +115,20 @@ contains
     allocate (self%workspace(mslip_harmonic_workspace_length(h, n)))
     call mslip_harmonic_workspace_init(h, n, self%workspace, status)
     call require(status, 'workspace')
-    allocate (self%element_workspace(max(mslip_element_workspace_length(1_mslip_int, h, n), &
-                                         mslip_element_workspace_length(2_mslip_int, h, n)), 2))
-    do directions = 1, 2
-      call mslip_element_workspace_init(directions, h, n, int(periods, mslip_size), self%element_workspace(:, directions), status)
-      call require(status, 'workspace')
-    end do
+    allocate (self%element_workspace(mslip_element_workspace_length(directions, h, n)))
+    call mslip_element_workspace_init(directions, h, n, int(periods, mslip_size), self%element_workspace, status)
+    call require(status, 'workspace')
   end subroutine prepare
 
   pure subroutine add_incidence(c, columns)
     type(friction_contact), intent(in) :: c
     real(wp), intent(inout) :: columns(:,:)
-    real(wp) :: direction(3, 3)
+    real(wp) :: direction(2, 2), angle
     integer :: i, n
 
     n = c%last - c%first + 1
-    direction = 0.0_wp
-    direction(1, 1) = 1.0_wp
-    if (n > 1) then
-      direction(3, 2) = 1.0_wp
-      associate (angle => c%angle * pi / 180.0_wp)
-        direction(:2, 1) = [cos(angle), sin(angle)]
-        direction(:, n) = [-sin(angle), cos(angle), 0.0_wp]
-      end associate
-    end if
+    angle = merge(c%angle * pi / 180.0_wp, 0.0_wp, n > 1)
+    direction = reshape([cos(angle), sin(angle), -sin(angle), cos(angle)], [2, 2])
     do i = 1, 2*n
       if (c%dof(i) > 0) columns(c%dof(i), :) = columns(c%dof(i), :) + merge(1, -1, i <= n) * direction(modulo(i - 1, n) + 1, :n)
     end do
@@ -177,7 +166,7 @@ contains
         case (law_slider)
           call slider_harmonic_force(c%contact, self%basis, u(:m), f(:m), df, dissipated(i))
         case default
-          call mslip_element_harmonic_force(c%element, self%element_workspace(:, c%directions), u(:k * m), status, f(:k * m), df, &
+          call mslip_element_harmonic_force(c%element, self%element_workspace, u(:k * m), status, f(:k * m), df, &
                                             dissipated(i), drift)
           self%drift = max(self%drift, drift)
         end select
@@ -202,12 +191,12 @@ contains
     integer(mslip_int) :: status
     integer :: i
 
-    allocate (history%states(mslip_element_state_length(maxval(self%items%directions), max_reversals) &
-                             + mslip_state_length(max_reversals), size(self%items)), source=0.0_wp)
+    allocate (history%states(max(mslip_element_state_length(directions, max_reversals), mslip_state_length(max_reversals)), &
+                             size(self%items)), source=0.0_wp)
     do i = 1, size(self%items)
       status = MSLIP_OK
       if (self%items(i)%law == law_microslip) call mslip_state_init(history%states(:, i), status)
-      if (self%items(i)%law == law_element) call mslip_element_state_init(self%items(i)%directions, history%states(:, i), status)
+      if (self%items(i)%law == law_element) call mslip_element_state_init(directions, history%states(:, i), status)
       call require(status, self%items(i)%name)
     end do
   end subroutine start_history
@@ -260,20 +249,17 @@ contains
     type(contact_history), intent(out) :: history
     real(wp), intent(out) :: force(:,:)
     type(contact_history) :: next
-    real(wp) :: f(size(force, 2)), tangent(size(force, 2), size(force, 2)), pressed(max_components)
+    real(wp) :: f(size(force, 2)), tangent(size(force, 2), size(force, 2))
     integer(mslip_int) :: status
     logical :: allowed
-    integer :: period, largest, i, e, m
+    integer :: period, largest, i, e
 
     call self%start_history(history)
     do e = 1, size(self%items)
       associate (c => self%items(e), state => history%states(:, e))
         if (c%law /= law_element) cycle
-        m = c%directions + 1
         largest = maxloc(displacement(:, c%last), dim=1)
-        pressed = 0.0_wp
-        pressed(m) = displacement(largest, c%last)
-        call mslip_element_advance(c%element, state, pressed(:m), status)
+        call mslip_element_advance(c%element, state, [0.0_wp, displacement(largest, c%last)], status)
         do i = largest, size(displacement, 1)
           if (status == MSLIP_OK) call mslip_element_advance(c%element, state, displacement(i, c%first:c%last), status)
         end do

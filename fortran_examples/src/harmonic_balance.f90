@@ -241,7 +241,7 @@ contains
   end subroutine solve_at
 
   !> Without a neighbouring solution: from the static equilibrium, if there is a load, the excitation grows in steps that shrink
-  !> if Newton's method fails; if that fails too, it falls from a larger one. Newton's method for the equilibrium starts with the
+  !> if Newton's method fails. Newton's method for the equilibrium starts with the
   !> springs in place of the contacts; if that fails, without tangential displacements.
   subroutine solve_from_rest(problem, omega, displacement, point, converged)
     type(balance_problem), intent(inout) :: problem
@@ -251,7 +251,7 @@ contains
     logical, intent(out) :: converged
     complex(wp) :: full(size(problem%excitation))
     real(wp) :: trial(size(displacement, 1), size(displacement, 2)), reached, growth
-    real(wp), parameter :: min_growth = 1.0e-3_wp, max_excess = 64.0_wp
+    real(wp), parameter :: min_growth = 1.0e-3_wp
 
     full = problem%excitation
     displacement = 0.0_wp
@@ -286,28 +286,6 @@ contains
         if (growth < min_growth) exit
       end if
     end do
-    ! A larger vibration shakes static shear out, which a small one follows in corners: from there the excitation falls.
-    reached = 1.0_wp
-    do while (.not. converged .and. reached < max_excess)
-      reached = 4.0_wp * reached
-      trial = displacement
-      problem%excitation = reached * full
-      call solve_at(problem, omega, trial, point, converged)
-    end do
-    growth = 0.5_wp
-    do while (converged .and. reached > 1.0_wp)
-      displacement = trial
-      problem%excitation = max(growth * reached, 1.0_wp) * full
-      call solve_at(problem, omega, trial, point, converged)
-      if (converged) then
-        reached = max(growth * reached, 1.0_wp)
-      else
-        growth = sqrt(growth)
-        trial = displacement
-        converged = growth < 1.0_wp - min_growth
-      end if
-    end do
-    if (converged) displacement = trial
     problem%excitation = full
   end subroutine solve_from_rest
 end module harmonic_balance

@@ -120,8 +120,8 @@ end module newmark
 !> Each group &time_integration of CASE has a frequency and numbers of harmonics. The motion starts from the balance with the most
 !> harmonics, so that the transient is small, and is integrated until it is periodic. Written to DIRECTORY, for a case called NAME:
 !> * NAME_comparison.csv  the differences, for every group and number of harmonics;
-!> * NAME_waveforms.csv   one period of both: the response, and displacement and force of the first contact: tangential, in the second
-!>   tangential direction or again in the first, normal or again tangential;
+!> * NAME_waveforms.csv   one period of both: the response, and displacement and force of the first contact, tangential and normal (or
+!>   again tangential);
 !> * NAME_modes.csv       natural frequencies with the contacts at their initial stiffness, over that of the excitation, and the
 !>   displacement of the first contact in each mode, relative to the largest: harmonics near such a mode are amplified;
 !> * NAME_spectrum.csv    amplitude of each harmonic of the force of the first contact by time integration, over the first.
@@ -157,7 +157,7 @@ program time_integration
   table = open_table(prefix//'_comparison.csv', 'load_factor,excitation_factor,harmonics,samples,peak_balance_m,'// &
     'peak_time_integration_m,peak_difference,response_difference,displacement_difference,force_difference')
   waveforms = open_table(prefix//'_waveforms.csv', 'load_factor,excitation_factor,harmonics,samples,phase_rad,'// &
-    'response_m,displacement_m,displacement_2_m,normal_displacement_m,force_N,force_2_N,normal_force_N')
+    'response_m,displacement_m,normal_displacement_m,force_N,normal_force_N')
   modes = open_table(prefix//'_modes.csv', 'load_factor,excitation_factor,order,participation')
   spectrum = open_table(prefix//'_spectrum.csv', 'load_factor,excitation_factor,harmonic,contact_force')
   do k = 1, size(data%integrations)
@@ -354,11 +354,10 @@ contains
     type(balance_problem), intent(in) :: problem
     integer, intent(in) :: harmonics, samples
     type(waveform), intent(in) :: waves
-    integer :: j, k, shown(3)
+    integer :: j, k, shown(2)
 
     associate (c => problem%contacts%items(1))
-      shown = [1, min(2, int(c%directions)), c%last]
-      shown(2) = max(shown(2), 1)
+      shown = [1, c%last]
       do j = 0, input%steps_per_period, max(1, input%steps_per_period / waveform_points)
         k = modulo(j, input%steps_per_period) + 1
         write (waveforms, '(a)') text(input%load_factor, '(es24.16e3)')//csv([input%excitation_factor])//','//text(harmonics)// &
