@@ -4,14 +4,14 @@ PREFIX ?= /usr/local
 DESTDIR ?=
 CARGO ?= cargo
 INSTALL ?= install
-SHARED ?=
-TARGET ?=
+# Not from the environment, where these names have other uses.
+SHARED =
+TARGET =
 
 version := $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml)
 sources := $(shell find src -type f) Cargo.toml Cargo.lock
 # What is built for another processor with Linux is beside what is built for this one.
 tree := $(if $(TARGET),target/$(TARGET)/)dist
-archive := $(if $(TARGET),target/$(TARGET),target)/release/libmicroslip.a
 ifneq ($(TARGET),)
 cross := $(subst -unknown,,$(TARGET))-
 export AR := $(cross)ar
@@ -29,7 +29,7 @@ files := lib/libmicroslip.a include/microslip.h include/microslip.f90 $(pcdir)/m
 	$(addprefix $(docdir)/,LICENSE-MIT LICENSE-APACHE THIRD-PARTY.md)
 products := $(addprefix $(tree)/,$(files))
 
-.PHONY: all shared install uninstall demo demo-dependencies audit coverage miri test verify bench instructions \
+.PHONY: all shared install uninstall demo audit coverage miri test verify bench instructions \
 	figures identification host fuzz check parallel header python docs dist recipes release clean help
 .DELETE_ON_ERROR:
 
@@ -37,12 +37,8 @@ products := $(addprefix $(tree)/,$(files))
 all: $(products)
 
 # The sources are named here so that `make install`, as another user, need not run cargo again.
-$(archive): $(sources)
-	$(CARGO) build --release --locked --package microslip --target-dir target $(if $(TARGET),--target $(TARGET))
-	@touch $@
-
-$(tree)/lib/libmicroslip.a: $(archive) tools/localise.sh
-	tools/localise.sh $< $@
+$(tree)/lib/libmicroslip.a: $(sources) tools/archive.sh tools/archive.toml tools/localise.sh
+	CARGO="$(CARGO)" tools/archive.sh $@ target $(TARGET)
 
 ## shared: build the shared library besides
 shared: $(tree)/$(shared)
@@ -84,11 +80,10 @@ uninstall:
 	@rmdir "$(DESTDIR)$(PREFIX)/$(cmakedir)" "$(DESTDIR)$(PREFIX)/$(docdir)" 2>/dev/null || true
 
 ## demo: run the Fortran examples and draw their figures (as root on Debian, installs missing packages)
-demo: demo-dependencies all
-	$(MAKE) -C fortran_examples demo PREFIX=../dist
-
-demo-dependencies:
+demo:
 	@tools/dependencies.sh --install demo
+	$(MAKE) all
+	$(MAKE) -C fortran_examples demo PREFIX=../dist
 
 ## parallel: check that OpenMP threads give the same bits for any number of them
 parallel: all

@@ -2,11 +2,14 @@
 # dependencies.sh [--install] GROUP...: list the packages that a group of commands needs and that are missing. With --install, or
 # if CI is true as in continuous integration, install them as root on Debian or a derivative, after a message that names them.
 #
-# A line of the table: package, groups, and how to recognise it (command NAME, file NAME, library NAME for the linker, header NAME,
-# clang OPTION).
+# A line of the table: package, groups, and how to recognise it (rust, command NAME, file NAME, library NAME for the linker,
+# header NAME, clang OPTION).
 set -eu
 
+# The oldest Rust that compiles the library.
+rust=$(sed -n 's/^rust-version = "\(.*\)"/\1/p' "$(dirname "$0")/../Cargo.toml")
 table='
+cargo           rust demo test check bench figures host fuzz docs verify python parallel instructions : rust
 gcc             demo test check bench figures host fuzz docs verify python   : command gcc
 gfortran        demo test check host parallel                         : command gfortran
 liblapack-dev   demo test check host parallel                         : library lapack
@@ -49,11 +52,14 @@ wine64                     release                                    : file /us
 # found KIND NAME [ARGUMENT...]
 found() {
     case $1 in
+        rust) "${CARGO:-cargo}" --version |
+            awk -v rust="$rust" '{ split($2, v, "."); split(rust, r, "."); ok = v[1] > r[1] || (v[1] == r[1] && v[2] >= r[2] + 0) }
+                END { exit !ok }' ;;
         command) command -v "$2" && { [ $# -eq 2 ] || { shift; "$@"; }; } ;;
         file) [ -e "$2" ] ;;
         header) echo "#include <$2>" | gcc -E - ;;
         # A compiler prints the bare name of a library that it does not find.
-        library) [ "$(gcc -print-file-name="lib$2.so")" != "lib$2.so" ] || [ "$(gcc -print-file-name="lib$2.a")" != "lib$2.a" ] ;;
+        library) gcc -print-file-name="lib$2.so" | grep / || gcc -print-file-name="lib$2.a" | grep / ;;
         clang) echo 'int main(void) { return 0; }' | clang "$2" -x c - -o /dev/null ;;
     esac > /dev/null 2>&1
 }
@@ -69,13 +75,23 @@ missing=$(
     done | sort -u | tr '\n' ' '
 )
 [ -n "$missing" ] || exit 0
+case $missing in *cargo*) note="cargo of Rust $rust or later, from your system or from https://rustup.rs" ;; *) note= ;; esac
 if [ "${CI-}" != true ] || [ "$(id -u)" -ne 0 ] || ! command -v apt-get > /dev/null; then
-    echo "$0: these packages are missing (Debian's names): $missing" >&2
+    echo "$0: these packages are missing (Debian's names): $missing${note:+($note)}" >&2
     echo "install them, or run as root on Debian: $0 --install $*" >&2
     exit 1
 fi
-echo "$0: installing by apt-get: $missing"
 export DEBIAN_FRONTEND=noninteractive
 apt-get update -qq
+# Of a distribution whose cargo is older, cargo-web is the newer one, for browsers.
+if [ -n "$note" ]; then
+    missing=${missing#cargo }
+    for package in cargo cargo-web; do
+        version=$(apt-cache policy $package | sed -n 's/^ *Candidate: //p')
+        ! dpkg --compare-versions "${version:-0}" ge "$rust" || { missing="$package $missing" && break; }
+    done
+fi
+echo "$0: installing by apt-get: $missing"
 # shellcheck disable=SC2086  # a list
 apt-get install -qq -y --no-install-recommends $missing
+[ -z "$note" ] || found rust || { echo "$0: missing: $note" >&2; exit 1; }

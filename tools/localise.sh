@@ -13,6 +13,16 @@ fi
 from=$1
 to=$2
 : "${AR:=ar}" "${LD:=ld}" "${NM:=nm}" "${OBJCOPY:=objcopy}" "${READELF:=readelf}"
+for tool in "$AR" "$LD" "$NM" "$OBJCOPY" "$READELF"; do
+    command -v "${tool%% *}" > /dev/null || { echo "$0: ${tool%% *} is missing: install GNU binutils" >&2; exit 1; }
+done
+# LD may be a compiler or another linker, which cannot make one object of what is reached.
+for linker in "$LD" ld.bfd ld.lld; do
+    ! $linker -v 2> /dev/null | grep -qE '^GNU ld|LLD [0-9]' || break
+    linker=
+done
+[ -n "$linker" ] || { echo "$0: $LD is neither GNU ld nor LLD: install GNU binutils, or set LD" >&2; exit 1; }
+export LC_ALL=C
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -34,7 +44,7 @@ done
 entry=$(head -n 1 "$work/keep")
 link() {
     # shellcheck disable=SC2046
-    $LD -r --gc-sections -e "$entry" $(sed 's/^/-u /' "$work/keep") "$@"
+    $linker -r --gc-sections -e "$entry" $(sed 's/^/-u /' "$work/keep") "$@"
 }
 
 # shellcheck disable=SC2046
@@ -49,6 +59,11 @@ $OBJCOPY --keep-global-symbols="$work/keep" "$work/reached.o" "$work/local.o"
 $READELF -SW "$work/local.o" | grep -oE '\.(text|rodata)\.[^ ]*_[ZR][^ ]*' | sort -u |
     awk '{ name = $1; sub(/_[ZR].*/, NR, name); print "--rename-section=" $1 "=" name }' > "$work/rename"
 $OBJCOPY --strip-unneeded "@$work/rename" "$work/local.o" "$work/microslip.o"
+
+if $NM --undefined-only "$work/microslip.o" | grep -q _Unwind_; then
+    echo "$0: $from can panic, so it was not built with the settings of tools/archive.sh" >&2
+    exit 1
+fi
 
 mkdir -p "$(dirname "$to")"
 rm -f "$to"

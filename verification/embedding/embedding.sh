@@ -18,10 +18,10 @@ cd "$(dirname "$0")/../.."
 . tools/checks.sh
 here=verification/embedding
 archive=$prefix/lib/libmicroslip.a
-cargo_archive=target/release/libmicroslip.a
+triple=$(rustc -vV | sed -n 's/^host: //p')
+cargo_archive=target/$triple/release/libmicroslip.a
 # What Rust's own library needs in archives other than the installed one.
 system='-lpthread -ldl -lm'
-triple=$(rustc -vV | sed -n 's/^host: //p')
 
 # Without contraction of products and sums all compilers compute the same inputs.
 strict='-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror -ffp-contract=off'

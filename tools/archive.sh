@@ -1,0 +1,27 @@
+#!/bin/sh
+# archive.sh TO.a [DIRECTORY [TRIPLE]]: build the library by cargo in DIRECTORY (target), for the Linux of TRIPLE (that of
+# CARGO_BUILD_TARGET, or else of this machine), and localise it. Run in the source directory. Whatever cargo's configuration and
+# environment say, the archive is the same, or one sentence says why there is none.
+set -eu
+
+[ $# -gt 0 ] || { echo "usage: $0 TO.a [DIRECTORY [TRIPLE]]" >&2; exit 2; }
+to=$1
+directory=${2:-target}
+: "${CARGO:=cargo}"
+fail() {
+    echo "$0: $*" >&2
+    exit 1
+}
+
+tools/dependencies.sh rust
+host=$("$CARGO" -vV | sed -n 's/^host: //p')
+triple=${3:-${CARGO_BUILD_TARGET:-$host}}
+case $triple in *-linux-*) ;; *) fail "the archive is for Linux, not for $triple: packaging/RELEASE.md has other systems" ;; esac
+[ "$triple" = "$host" ] || [ -d "$(rustc --print target-libdir --target "$triple")" ] ||
+    fail "Rust has no standard library for $triple: install it by 'rustup target add $triple'"
+mkdir -p "$directory" "$(dirname "$to")"
+
+# Flags of the user may add code that panics, or make object files that only Rust's linker reads.
+CARGO_ENCODED_RUSTFLAGS='' CARGO_INCREMENTAL=0 "$CARGO" build --config tools/archive.toml --release --locked --package microslip \
+    --target-dir "$directory" --target "$triple"
+tools/localise.sh "$directory/$triple/release/libmicroslip.a" "$to"
