@@ -178,7 +178,7 @@ clean:
 	rm -rf dist target
 	$(MAKE) -C fortran_examples clean
 	$(MAKE) -C benches clean
-	rm -rf examples/calculix/build examples/abaqus/build examples/ansys/build examples/nlvib/build
+	rm -rf examples/build examples/calculix/build examples/nlvib/build
 
 ## help: list the targets
 help:
