@@ -1,4 +1,44 @@
-!> A case: a file of namelist groups (cases/README.md), and the harmonic balance that it describes.
+!> A case: a file of namelist groups, and the harmonic balance that it describes. A `!` starts a comment. An unknown group or
+!> variable and a missing value are errors.
+!>
+!> Units are SI, frequencies in Hz, angles and phases in degrees. Paths are relative to the working directory. Defaults in brackets:
+!>
+!>   &model
+!>     name: output files start with it
+!>     matrices: the Matrix Market files ..._mass.mtx, ..._damping.mtx, ..._stiffness.mtx (coordinate real symmetric)
+!>     driven_dof(:), amplitude(:), phase(:): force amplitude * cos(omega t + phase), N and degrees [phase 0]
+!>     loaded_dof(:), static_force(:): static forces; the load factor multiplies them [none]
+!>     response_dof: degree of freedom whose amplitude is reported
+!>   &contact, one for each; a missing value is that of the contact before it
+!>     name: in the columns of the results
+!>     law: 'microslip', 'spring-slider' with the same initial stiffness and slip force, or 'element': varying normal force
+!>     dof: relative displacement: first minus second; 0 is the ground. An element has four: x and y of the first body, x and
+!>       y of the second
+!>     angle: of an element: from x to the tangential direction; the normal, 90 degrees ahead, points into the second body
+!>       [0]
+!>     interference: of an element: approach of the undeformed structure; a gap is negative [0]
+!>     count: number of identical contacts that share the displacement [1]
+!>     load_varied: whether the load factor multiplies the normal force [.true.]
+!>     flat_half_width, edge_radius, length, friction_coefficient, young_modulus(2), poisson_ratio(2): as in the library
+!>     normal_force: an element takes the expected one, for its tables and for the springs of harmonic 0 only
+!>     displacement_reference: 'rigid_strip', for machines, or 'centre_point', as in the paper
+!>   &harmonic_balance
+!>     harmonics, samples: highest harmonic, and samples of a period [5, 128]
+!>     periods: of elements, before the period that is returned [3]
+!>     tolerance: of the residual, relative to the displacement of each contact [1e-9]
+!>   &sweep
+!>     frequency_from, frequency_to: range of the continuation
+!>     load_factors(:), excitation_factors(:): one response for each pair [1]
+!>   &points
+!>     frequency(:), excitation_factor(:): single frequencies [1]
+!>   &time_integration, any number
+!>     frequency, load_factor, excitation_factor: at which time integration is compared [factors 1]
+!>     harmonics(:), samples: of the balances compared [samples 1024]
+!>     steps_per_period: of Newmark's method [1024]
+!>     max_periods, steady_tolerance: time integration ends when the remaining transient is below the tolerance, relative to
+!>       the response [1000, 1e-5]
+!>     allowed_difference: of the peaks by time integration and by the balance of the case; a larger one is an error [no
+!>       limit]
 module case_input
   use basics, only: fail, name_length, path_length, pi, wp
   use friction_contacts, only: friction_contact, law_element, law_microslip, law_slider

@@ -2,7 +2,7 @@
 !>
 !>     forced_response CASE DIRECTORY
 !>
-!> CASE is a file of namelist groups (cases/README.md). Written to DIRECTORY, for a case called NAME:
+!> CASE is a file of namelist groups (case_input.f90). Written to DIRECTORY, for a case called NAME:
 !> * with a group &sweep, for every load factor and excitation factor,
 !>   NAME_response.csv  the response along the frequency,
 !>   NAME_peaks.csv     the resonance peaks;
