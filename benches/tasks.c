@@ -96,7 +96,6 @@ typedef void stiffness(const void *law, double amplitude, double result[4]);
 typedef struct {
     stiffness *stiffness; /* NULL: microslip */
     const void *law;
-    const double *table;  /* or NULL */
     int n;
     double amplitude[AMPLITUDES], out[AMPLITUDES][4];
     double real[AMPLITUDES], imaginary[AMPLITUDES], d_real[AMPLITUDES], d_imaginary[AMPLITUDES];
@@ -109,9 +108,7 @@ static double run_stiffness(void *context)
     for (int i = 0; j->stiffness && i < j->n; ++i) {
         j->stiffness(j->law, j->amplitude[i], j->out[i]);
     }
-    if (j->table) {
-        mslip_complex_stiffness_tabulated(j->law, j->table, n, j->amplitude, j->real, j->imaginary, j->d_real, j->d_imaginary);
-    } else if (!j->stiffness) {
+    if (!j->stiffness) {
         mslip_complex_stiffness(j->law, n, j->amplitude, j->real, j->imaginary, j->d_real, j->d_imaginary);
     }
     return j->real[0] + j->out[0][0];
@@ -150,33 +147,24 @@ void set_up_stiffness(const test_case *c, const extent *x, int a)
     }
 }
 
-/* A call of one amplitude, and one of some amplitudes of a range with the table, in units of gross slip. */
-static void add_range(const test_case *c, const char *motion, double from, double to)
+/* A call of one amplitude, in units of gross slip. */
+static void add_amplitude(const test_case *c, const char *motion, double amplitude)
 {
-    const size_t length = mslip_stiffness_table_length();
-    double *table = doubles(length);
-    require(mslip_stiffness_table_init(&c->contact, length, table));
-    entry e = { .task = "stiffness", .motion = motion, .method = "microslip", .amplitude = to, .run = run_stiffness, .items = 1 };
-    stiffness_job j = { .law = &c->contact, .n = 1, .amplitude = { to * c->contact.slip_displacement } };
-    entry_add(e, &j, sizeof j);
-    j.table = table;
-    e.method = "microslip, tabulated";
-    e.items = j.n = AMPLITUDES;
-    for (int i = 1; i < j.n; ++i) {
-        j.amplitude[i] = (from + (to - from) * i / AMPLITUDES) * c->contact.slip_displacement;
-    }
+    const entry e = { .task = "stiffness", .motion = motion, .method = "microslip", .amplitude = amplitude, .run = run_stiffness,
+                      .items = 1 };
+    const stiffness_job j = { .law = &c->contact, .n = 1, .amplitude = { amplitude * c->contact.slip_displacement } };
     entry_add(e, &j, sizeof j);
 }
 
 void set_up_range(const test_case *c, const extent *x, int i)
 {
-    add_range(c, "up to twice gross slip", 2.0 * i / x->grid, 2.0 * (i + 1) / x->grid);
+    add_amplitude(c, "up to twice gross slip", 2.0 * (i + 1) / x->grid);
 }
 
 void set_up_near_slip(const test_case *c, const extent *x, int i)
 {
-    const double distance = (i % 2 ? 1.0 : -1.0) * pow(0.1, 1 + i / 2);
-    add_range(c, "near gross slip", 1.0 + 2.0 * distance, 1.0 + distance);
+    (void)x;
+    add_amplitude(c, "near gross slip", 1.0 + (i % 2 ? 1.0 : -1.0) * pow(0.1, 1 + i / 2));
 }
 
 enum { STEPS = 1000, KNOWN = 200, REVERSALS = 64, MOST_SLIDERS = 4096 };

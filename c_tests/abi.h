@@ -26,8 +26,6 @@ CONSTANT(MSLIP_BAD_WORKSPACE, 22)
 CONSTANT(MSLIP_STATE_TOO_SHORT, 23)
 CONSTANT(MSLIP_BAD_ELEMENT, 24)
 CONSTANT(MSLIP_WORKSPACE_TOO_SHORT, 25)
-CONSTANT(MSLIP_BAD_TABLE, 26)
-CONSTANT(MSLIP_TABLE_TOO_SHORT, 27)
 CONSTANT(MSLIP_BAD_FORCE, 30)
 CONSTANT(MSLIP_FORCE_EXCEEDS_SLIP, 31)
 CONSTANT(MSLIP_BAD_DISPLACEMENT, 32)
@@ -144,10 +142,6 @@ FUNCTION(int32_t, mslip_dissipated_energy, (const struct mslip_contact *contact,
      double *energy))
 FUNCTION(int32_t, mslip_complex_stiffness, (const struct mslip_contact *contact, size_t n, const double *amplitude,
      double *k_real, double *k_imag, double *dk_real, double *dk_imag))
-FUNCTION(size_t, mslip_stiffness_table_length, (void))
-FUNCTION(int32_t, mslip_stiffness_table_init, (const struct mslip_contact *contact, size_t table_length, double *table))
-FUNCTION(int32_t, mslip_complex_stiffness_tabulated, (const struct mslip_contact *contact, const double *table, size_t n,
-     const double *amplitude, double *k_real, double *k_imag, double *dk_real, double *dk_imag))
 FUNCTION(int32_t, mslip_jenkins_equivalent, (const struct mslip_contact *contact, double amplitude, double *stiffness,
      double *slip_force))
 FUNCTION(int32_t, mslip_iwan_equivalent, (const struct mslip_contact *contact, size_t n, double *stiffness,
@@ -208,7 +202,6 @@ FUNCTION(int32_t, mslip_batch_element_harmonic_force, (size_t n, size_t n_elemen
 
 LENGTH(mslip_state_length(0), 11)
 LENGTH(mslip_state_length(16), 53)
-LENGTH(mslip_stiffness_table_length(), 530)
 LENGTH(mslip_harmonic_workspace_length(5, 128, MSLIP_UNIFORM_SAMPLING), 13448)
 LENGTH(mslip_harmonic_workspace_length(5, 128, MSLIP_EVENT_DRIVEN), 2712)
 LENGTH(mslip_element_state_length(1, 0), 28)

@@ -39,8 +39,7 @@ enum { STATE = 1865 };
 #include "functions.h"
 
 /* The kinds of a function's arguments, by which the drivers distinguish functions. */
-enum { TAKES_STATE = 1 << ARG_STATE, TAKES_WORKSPACE = 1 << ARG_WORKSPACE,
-       TAKES_TABLE = 1 << ARG_TABLE, IS_BATCH = 1 << ARG_INDEX, IS_ELEMENT = 1 << 30 };
+enum { TAKES_STATE = 1 << ARG_STATE, TAKES_WORKSPACE = 1 << ARG_WORKSPACE, IS_BATCH = 1 << ARG_INDEX, IS_ELEMENT = 1 << 30 };
 
 static arguments call;
 
@@ -115,7 +114,7 @@ static mslip_contact contact_memory[ITEMS];
 static mslip_element element_memory[ITEMS];
 static int32_t index_memory[ITEMS], active_memory[ITEMS];
 static double input_memory[ITEMS * ALL_COEFFICIENTS], state_memory[ITEMS * STATE], workspace_memory[1 << 14];
-static double table_memory[1 << 10], out_memory[OUTPUTS][ITEMS * (STATE + ELEMENT_SQUARE)];
+static double out_memory[OUTPUTS][ITEMS * (STATE + ELEMENT_SQUARE)];
 
 /* The quantity of input i: displacements of an element and their coefficients are normal after one or two tangential ones. */
 static int kind_of_input(const function *f, size_t i)
@@ -127,7 +126,7 @@ static int kind_of_input(const function *f, size_t i)
     return !is_normal ? f->kind : normal_input_of(f->rule) == MSLIP_INPUT_APPROACH ? normal : normal + 1;
 }
 
-/* Memory of all arguments; contacts or elements, states, table and inputs are those of the caller. */
+/* Memory of all arguments; contacts or elements, states and inputs are those of the caller. */
 static void set_up(const function *f)
 {
     memset(&call, 0, sizeof call);
@@ -138,11 +137,8 @@ static void set_up(const function *f)
     call.input = input_memory;
     call.state = state_memory;
     call.workspace = workspace_memory;
-    call.table = table_memory;
     call.n = call.n_contacts = ITEMS;
     call.state_length = STATE;
-    call.table_length = mslip_stiffness_table_length();
-    CHECK(call.table_length <= LENGTH(table_memory));
     for (int i = 0; i < ITEMS; ++i) {
         index_memory[i] = i;
         active_memory[i] = 1;
@@ -450,9 +446,6 @@ static void make_calls(int which)
             double *state = state_memory + i * STATE;
             CHECK((is_element ? mslip_element_state_init(directions, STATE, state) : mslip_state_init(STATE, state)) == MSLIP_OK);
         }
-    }
-    if (f->takes & TAKES_TABLE) {
-        MAKE("mslip_stiffness_table_init", 0, mslip_stiffness_table_init(&contact, mslip_stiffness_table_length(), call.table));
     }
     for (int repeated = 0; repeated < (f->takes & TAKES_STATE ? 8 : 2); ++repeated) {
         /* Often the normal component, or all of a displacement, is that before. */

@@ -13,7 +13,7 @@
 /* What an argument is. */
 enum { ARG_PARAMETERS, ARG_ELLIPTIC_PARAMETERS, ARG_CONTACT, ARG_ELEMENT, ARG_NEW_CONTACT, ARG_NEW_ELEMENT, ARG_COUNT,
      ARG_LAWS, ARG_LENGTH, ARG_SIZE, ARG_CHOICE, ARG_INDEX, ARG_ACTIVE, ARG_FAILED_ITEM, ARG_FOUND_CHOICE, ARG_FOUND_SIZE,
-     ARG_STATE, ARG_NEW_STATE, ARG_WORKSPACE, ARG_TABLE, ARG_BUFFER, ARG_VALUE, ARG_INPUT, ARG_OUTPUT };
+     ARG_STATE, ARG_NEW_STATE, ARG_WORKSPACE, ARG_BUFFER, ARG_VALUE, ARG_INPUT, ARG_OUTPUT };
 
 /* The arguments of a call. A function takes some of them. */
 enum { OUTPUTS = 5 }; /* the new state first */
@@ -25,11 +25,11 @@ typedef struct {
     mslip_contact *new_contact;
     mslip_element *new_element;
     const int32_t *index, *active;
-    size_t n, n_contacts, state_length, workspace_length, table_length, harmonics, samples, periods;
+    size_t n, n_contacts, state_length, workspace_length, harmonics, samples, periods;
     int32_t directions, normal_input, rule;
     double scalar;
     const double *input, *state;
-    double *workspace, *table, *buffer, *out[OUTPUTS];
+    double *workspace, *buffer, *out[OUTPUTS];
     int32_t *found_directions, *found_rule;
     size_t *failed_item, *found_harmonics, *found_samples, *found_periods;
 } arguments;
@@ -81,9 +81,6 @@ CALL(masing_tractions, call.contacts, call.state_length, call.state, call.n, cal
 CALL(hysteresis_loop, call.contacts, call.scalar, call.n, call.out[1], call.out[2])
 CALL(dissipated_energy, call.contacts, call.n, call.input, call.out[1])
 CALL(complex_stiffness, call.contacts, call.n, call.input, call.out[1], call.out[2], call.out[3], call.out[4])
-CALL(stiffness_table_init, call.contacts, call.table_length, call.buffer)
-CALL(complex_stiffness_tabulated, call.contacts, call.table, call.n, call.input, call.out[1], call.out[2], call.out[3],
-     call.out[4])
 CALL(jenkins_equivalent, call.contacts, call.scalar, call.out[1], call.out[2])
 CALL(iwan_equivalent, call.contacts, call.n, call.out[1], call.out[2], call.out[3])
 CALL(harmonic_workspace_init, call.harmonics, call.samples, call.rule, call.workspace_length, call.buffer)
@@ -214,19 +211,6 @@ FUNCTION(dissipated_energy, 2,
     ARGUMENT(energy, ARG_OUTPUT, out[1], NONE, "n", MSLIP_OK))
 FUNCTION(complex_stiffness, 2,
     ARGUMENT(contact, ARG_CONTACT, contacts, NONE, "", MSLIP_BAD_CONTACT),
-    ARGUMENT(n, ARG_COUNT, n, NONE, "", MSLIP_OK),
-    ARGUMENT(amplitude, ARG_INPUT, input, AMPLITUDE, "n", MSLIP_BAD_AMPLITUDE),
-    ARGUMENT(k_real, ARG_OUTPUT, out[1], NONE, "n", MSLIP_OK),
-    ARGUMENT(k_imag, ARG_OUTPUT, out[2], NONE, "n", MSLIP_OK),
-    ARGUMENT(dk_real, ARG_OUTPUT, out[3], NONE, "n", MSLIP_OK),
-    ARGUMENT(dk_imag, ARG_OUTPUT, out[4], NONE, "n", MSLIP_OK))
-FUNCTION(stiffness_table_init, 2,
-    ARGUMENT(contact, ARG_CONTACT, contacts, NONE, "", MSLIP_BAD_CONTACT),
-    ARGUMENT(table_length, ARG_LENGTH, table_length, NONE, "", MSLIP_TABLE_TOO_SHORT),
-    ARGUMENT(table, ARG_BUFFER, buffer, NONE, "", MSLIP_BAD_TABLE))
-FUNCTION(complex_stiffness_tabulated, 2,
-    ARGUMENT(contact, ARG_CONTACT, contacts, NONE, "", MSLIP_BAD_CONTACT),
-    ARGUMENT(table, ARG_TABLE, table, NONE, "", MSLIP_BAD_TABLE),
     ARGUMENT(n, ARG_COUNT, n, NONE, "", MSLIP_OK),
     ARGUMENT(amplitude, ARG_INPUT, input, AMPLITUDE, "n", MSLIP_BAD_AMPLITUDE),
     ARGUMENT(k_real, ARG_OUTPUT, out[1], NONE, "n", MSLIP_OK),

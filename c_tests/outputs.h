@@ -41,9 +41,6 @@
 #define mslip_complex_stiffness(...) with_outputs_complex_stiffness(__VA_ARGS__, NULL, NULL, NULL, NULL)
 #define with_outputs_complex_stiffness(a, b, c, d, e, f, g, ...) \
     mslip_complex_stiffness(a, b, c, d, e, f, g)
-#define mslip_complex_stiffness_tabulated(...) with_outputs_complex_stiffness_tabulated(__VA_ARGS__, NULL, NULL, NULL, NULL)
-#define with_outputs_complex_stiffness_tabulated(a, b, c, d, e, f, g, h, ...) \
-    mslip_complex_stiffness_tabulated(a, b, c, d, e, f, g, h)
 #define mslip_jenkins_equivalent(...) with_outputs_jenkins_equivalent(__VA_ARGS__, NULL, NULL)
 #define with_outputs_jenkins_equivalent(a, b, c, d, ...) \
     mslip_jenkins_equivalent(a, b, c, d)

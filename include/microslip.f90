@@ -59,8 +59,7 @@ module microslip
     mslip_monotonic_displacement, mslip_monotonic_force, mslip_monotonic_sensitivity, mslip_state_length, &
     mslip_state_init, mslip_state_check, mslip_state_error, mslip_masing_update, mslip_masing_advance, &
     mslip_masing_path, mslip_masing_path_advance, mslip_masing_tractions, mslip_hysteresis_loop, &
-    mslip_dissipated_energy, mslip_complex_stiffness, mslip_stiffness_table_length, mslip_stiffness_table_init, &
-    mslip_complex_stiffness_tabulated, mslip_jenkins_equivalent, mslip_iwan_equivalent, &
+    mslip_dissipated_energy, mslip_complex_stiffness, mslip_jenkins_equivalent, mslip_iwan_equivalent, &
     mslip_harmonic_workspace_length, mslip_harmonic_workspace_init, mslip_harmonic_force, mslip_harmonic_sensitivity, &
     mslip_batch_complex_stiffness, mslip_batch_masing_update, mslip_batch_masing_advance, mslip_batch_harmonic_force, &
     mslip_element_init, mslip_element_init_elliptic, mslip_element_check, mslip_normal_force, mslip_normal_approach, &
@@ -119,10 +118,6 @@ module microslip
     !! invalid element: uninitialised, corrupted, or created by an incompatible version of the library
   integer(mslip_int), parameter, public :: MSLIP_WORKSPACE_TOO_SHORT = 25
     !! workspace_length must be at least mslip_harmonic_workspace_length or mslip_element_workspace_length
-  integer(mslip_int), parameter, public :: MSLIP_BAD_TABLE = 26
-    !! invalid table: uninitialised, of another shape than the contact, or created by an incompatible version of the
-    !! library
-  integer(mslip_int), parameter, public :: MSLIP_TABLE_TOO_SHORT = 27  !! table_length must be at least mslip_stiffness_table_length
   integer(mslip_int), parameter, public :: MSLIP_BAD_FORCE = 30  !! a force must be finite
   integer(mslip_int), parameter, public :: MSLIP_FORCE_EXCEEDS_SLIP = 31  !! a force must not exceed mu N in magnitude
   integer(mslip_int), parameter, public :: MSLIP_BAD_DISPLACEMENT = 32
@@ -294,13 +289,6 @@ module microslip
     !! respect to the amplitude [N/m^2] (section 3.4); at amplitude 0: the initial stiffness.
     module procedure complex_stiffness_array, complex_stiffness_scalar
   end interface mslip_complex_stiffness
-
-  interface mslip_complex_stiffness_tabulated
-    !! mslip_complex_stiffness from a table of mslip_stiffness_table_init: a few polynomials for each amplitude, at any
-    !! amplitude, with errors of 1e-13 of |K| and of |K|/amplitude. For a contact with Λ below 0.9, 2L/b below about 2,
-    !! it is mslip_complex_stiffness.
-    module procedure complex_stiffness_tabulated_array, complex_stiffness_tabulated_scalar
-  end interface mslip_complex_stiffness_tabulated
 
   interface mslip_normal_force
     !! The normal law: normal force [N], normal stiffness [N/m] and half-width of the contact [m] at approach(n) [m]. An
@@ -519,27 +507,6 @@ module microslip
       real(c_double), intent(in) :: amplitude(*)
       type(c_ptr), value :: k_real, k_imag, dk_real, dk_imag
     end function c_complex_stiffness
-
-    pure integer(c_size_t) function c_stiffness_table_length() bind(c, name='mslip_stiffness_table_length')
-      import
-    end function c_stiffness_table_length
-
-    integer(c_int32_t) function c_stiffness_table_init(contact, table_length, table) &
-      bind(c, name='mslip_stiffness_table_init')
-      import
-      type(mslip_contact), intent(in) :: contact
-      integer(c_size_t), value :: table_length
-      type(c_ptr), value :: table
-    end function c_stiffness_table_init
-
-    integer(c_int32_t) function c_complex_stiffness_tabulated(contact, table, n, amplitude, k_real, k_imag, dk_real, &
-      dk_imag) bind(c, name='mslip_complex_stiffness_tabulated')
-      import
-      type(mslip_contact), intent(in) :: contact
-      real(c_double), intent(in) :: table(*), amplitude(*)
-      integer(c_size_t), value :: n
-      type(c_ptr), value :: k_real, k_imag, dk_real, dk_imag
-    end function c_complex_stiffness_tabulated
 
     integer(c_int32_t) function c_jenkins_equivalent(contact, amplitude, stiffness, slip_force) &
       bind(c, name='mslip_jenkins_equivalent')
@@ -1352,66 +1319,6 @@ contains
     status = c_complex_stiffness(contact, 1_mslip_size, [amplitude], address_of(k_real), address_of(k_imag), &
       address_of(dk_real), address_of(dk_imag))
   end subroutine complex_stiffness_scalar
-
-  pure function mslip_stiffness_table_length() result(length)
-    !! Number of doubles in a table of the complex stiffness.
-    integer(mslip_size) :: length  !! The length. It may dimension an array.
-
-    length = c_stiffness_table_length()
-  end function mslip_stiffness_table_length
-
-  subroutine mslip_stiffness_table_init(contact, table, status)
-    !! Initialises a table of the complex stiffness of all contacts of a shape: those that differ in friction
-    !! coefficient or scale share it. 2L/b, a/b and Poisson's ratios are the shape of a line contact; that of all
-    !! elliptic contacts is the same.
-    type(mslip_contact), intent(in) :: contact  !! An initialised contact.
-    real(mslip_real), intent(inout), target, contiguous :: table(:)
-      !! The table, of at least `mslip_stiffness_table_length()` values.
-    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, MSLIP_BAD_CONTACT or MSLIP_TABLE_TOO_SHORT.
-
-    status = c_stiffness_table_init(contact, size(table, kind=mslip_size), address_of(table))
-  end subroutine mslip_stiffness_table_init
-
-  subroutine complex_stiffness_tabulated_array(contact, table, amplitude, status, k_real, k_imag, dk_real, dk_imag)
-    !! `mslip_complex_stiffness_tabulated` of n values.
-    type(mslip_contact), intent(in) :: contact  !! An initialised contact.
-    real(mslip_real), intent(in), contiguous :: table(:)  !! A table of the shape of the contact.
-    real(mslip_real), intent(in) :: amplitude(:)  !! Amplitude of the displacement [m], 0 to 1e150; 0 gives the initial stiffness.
-    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, MSLIP_BAD_CONTACT, MSLIP_BAD_TABLE or MSLIP_BAD_AMPLITUDE.
-    real(mslip_real), intent(inout), optional, target, contiguous :: k_real(:)  !! K' [N/m].
-    real(mslip_real), intent(inout), optional, target, contiguous :: k_imag(:)  !! K'' [N/m], >= 0.
-    real(mslip_real), intent(inout), optional, target, contiguous :: dk_real(:)  !! dK'/d(amplitude) [N/m2].
-    real(mslip_real), intent(inout), optional, target, contiguous :: dk_imag(:)  !! dK''/d(amplitude) [N/m2].
-
-    integer(mslip_size) :: n
-    type(c_ptr) :: ptr(4)
-
-    n = size(amplitude, kind=mslip_size)
-    ptr = c_null_ptr
-    status = table_status(table)
-    if (present(k_real)) call check_array(k_real, n, ptr(1), status)
-    if (present(k_imag)) call check_array(k_imag, n, ptr(2), status)
-    if (present(dk_real)) call check_array(dk_real, n, ptr(3), status)
-    if (present(dk_imag)) call check_array(dk_imag, n, ptr(4), status)
-    if (status == MSLIP_OK) status = c_complex_stiffness_tabulated(contact, table, n, amplitude, ptr(1), ptr(2), &
-      ptr(3), ptr(4))
-  end subroutine complex_stiffness_tabulated_array
-
-  subroutine complex_stiffness_tabulated_scalar(contact, table, amplitude, status, k_real, k_imag, dk_real, dk_imag)
-    !! `mslip_complex_stiffness_tabulated` of one value.
-    type(mslip_contact), intent(in) :: contact  !! An initialised contact.
-    real(mslip_real), intent(in), contiguous :: table(:)  !! A table of the shape of the contact.
-    real(mslip_real), intent(in) :: amplitude  !! Amplitude of the displacement [m], 0 to 1e150; 0 gives the initial stiffness.
-    integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, MSLIP_BAD_CONTACT, MSLIP_BAD_TABLE or MSLIP_BAD_AMPLITUDE.
-    real(mslip_real), intent(inout), optional, target :: k_real  !! K' [N/m].
-    real(mslip_real), intent(inout), optional, target :: k_imag  !! K'' [N/m], >= 0.
-    real(mslip_real), intent(inout), optional, target :: dk_real  !! dK'/d(amplitude) [N/m2].
-    real(mslip_real), intent(inout), optional, target :: dk_imag  !! dK''/d(amplitude) [N/m2].
-
-    status = table_status(table)
-    if (status == MSLIP_OK) status = c_complex_stiffness_tabulated(contact, table, 1_mslip_size, [amplitude], &
-      address_of(k_real), address_of(k_imag), address_of(dk_real), address_of(dk_imag))
-  end subroutine complex_stiffness_tabulated_scalar
 
   ! ---------------------------------------------------------------------------------------------------------------------
   ! Spring-slider substitutes for solvers without an element of this kind
@@ -2379,14 +2286,6 @@ contains
     rule_or_default = MSLIP_UNIFORM_SAMPLING
     if (present(rule)) rule_or_default = rule
   end function rule_or_default
-
-  pure function table_status(table)
-    ! C reads a whole table.
-    real(mslip_real), intent(in), contiguous :: table(:)
-    integer(mslip_int) :: table_status
-
-    table_status = merge(MSLIP_TABLE_TOO_SHORT, MSLIP_OK, size(table, kind=mslip_size) < c_stiffness_table_length())
-  end function table_status
 
   pure function components(element, given) result(m)
     ! The number of components of a displacement of an element; the given one if it is uninitialised, which C rejects.

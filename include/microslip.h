@@ -9,16 +9,16 @@
  * Outputs     An output that is NULL is not computed.
  * Memory      Each pointer is NULL or valid for what it stands for: as many items as its text says, [n] or one for each of n; one if
  *             that says nothing; a state or other memory for as many doubles as the length that is passed with it. Contacts,
- *             elements, states and tables may be memory of that size which was never initialised, a workspace must have been.
+ *             elements and states may be memory of that size which was never initialised, a workspace must have been.
  * Aliasing    Output buffers must not alias any other argument, except where stated.
  * Batches     Item i uses contacts[index[i]], or contacts[i] if index is NULL; so do elements. If active is not NULL and active[i] is
  *             0, item i is skipped, and its state is not written. On an error no item is modified, and *failed_item (NULL allowed) is the
  *             first item at fault; it is n if the error is not the error of an item. On success *failed_item is not written.
- * Ownership   All memory is the caller's: contacts, states, workspaces and tables are plain data that may be copied, stored in
+ * Ownership   All memory is the caller's: contacts, states and workspaces are plain data that may be copied, stored in
  *             restart files and sent through MPI. The fields of mslip_contact may be read; everything else is reserved. A call
  *             recognises memory that was never initialised, is too short, or belongs to another version of this interface; the
  *             _check functions validate memory from outside the process in full.
- * Threads     Nothing is kept between calls: any thread may call any function on its own data. Contacts and tables are only read
+ * Threads     Nothing is kept between calls: any thread may call any function on its own data. Contacts and elements are only read
  *             and may be shared; each thread needs a workspace of its own.
  * Harmonics   Coefficients of a periodic quantity are [c0, cos1, sin1, cos2, sin2, ...], 2H+1 for H harmonics.
  * Jacobians   Column-major: element (i, j) is at i + j * rows. A default (row-major) NumPy array holds the transpose.
@@ -105,12 +105,6 @@
 
 // workspace_length must be at least mslip_harmonic_workspace_length or mslip_element_workspace_length
 #define MSLIP_WORKSPACE_TOO_SHORT 25
-
-// invalid table: uninitialised, of another shape than the contact, or created by an incompatible version of the library
-#define MSLIP_BAD_TABLE 26
-
-// table_length must be at least mslip_stiffness_table_length
-#define MSLIP_TABLE_TOO_SHORT 27
 
 // a force must be finite
 #define MSLIP_BAD_FORCE 30
@@ -525,30 +519,6 @@ int32_t mslip_complex_stiffness(const struct mslip_contact *contact,
                                 double *k_imag,
                                 double *dk_real,
                                 double *dk_imag);
-
-// Number of doubles in a table of the complex stiffness.
-size_t mslip_stiffness_table_length(void);
-
-// Initialises a table of the complex stiffness of all contacts of a shape: those that differ in friction coefficient or scale
-// share it. 2L/b, a/b and Poisson's ratios are the shape of a line contact; that of all elliptic contacts is the same.
-//
-// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_TABLE_TOO_SHORT.
-int32_t mslip_stiffness_table_init(const struct mslip_contact *contact,
-                                   size_t table_length,
-                                   double *table);
-
-// mslip_complex_stiffness from a table of mslip_stiffness_table_init: a few polynomials for each amplitude, at any amplitude, with
-// errors of 1e-13 of |K| and of |K|/amplitude. For a contact with Λ below 0.9, 2L/b below about 2, it is mslip_complex_stiffness.
-//
-// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_TABLE or MSLIP_BAD_AMPLITUDE.
-int32_t mslip_complex_stiffness_tabulated(const struct mslip_contact *contact,
-                                          const double *table,
-                                          size_t n,
-                                          const double *amplitude,
-                                          double *k_real,
-                                          double *k_imag,
-                                          double *dk_real,
-                                          double *dk_imag);
 
 // Jenkins element (spring and slider in series) with the same K' and K'' at a displacement amplitude [m]: stiffness [N/m] and slip
 // force [N]. At amplitude 0: the initial stiffness and mu N. Both are 0 if mu N = 0.

@@ -16,7 +16,6 @@ pub(crate) mod memory;
 pub(crate) mod sensitivity;
 pub mod state;
 pub(crate) mod steady_state;
-pub(crate) mod stiffness_table;
 
 pub use crate::law::Law;
 

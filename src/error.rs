@@ -80,9 +80,6 @@ status_codes! {
         "invalid element: uninitialised, corrupted, or created by an incompatible version of the library";
     WorkspaceTooShort, MSLIP_WORKSPACE_TOO_SHORT = 25:
         "workspace_length must be at least mslip_harmonic_workspace_length or mslip_element_workspace_length";
-    BadTable, MSLIP_BAD_TABLE = 26:
-        "invalid table: uninitialised, of another shape than the contact, or created by an incompatible version of the library";
-    TableTooShort, MSLIP_TABLE_TOO_SHORT = 27: "table_length must be at least mslip_stiffness_table_length";
     BadForce, MSLIP_BAD_FORCE = 30: "a force must be finite";
     ForceExceedsSlip, MSLIP_FORCE_EXCEEDS_SLIP = 31: "a force must not exceed mu N in magnitude";
     BadDisplacement, MSLIP_BAD_DISPLACEMENT = 32: "a displacement must be finite and at most 1e150 in magnitude";

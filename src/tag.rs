@@ -3,7 +3,7 @@
 //! A tag encodes the kind of the buffer, the version of its layout and one count, so that uninitialised memory and buffers of other
 //! versions are detected by one comparison. It is a normal double, preserved by decimal output with 17 digits.
 
-/// Version of the layout of contacts, states, workspaces and tables.
+/// Version of the layout of contacts, states and workspaces.
 pub(crate) const LAYOUT: u64 = 5;
 
 /// Kind of a buffer: the leading 16 bits of its tag, a double of about 1e64.
@@ -16,7 +16,6 @@ pub enum Kind {
     EventDriven = 0x4d3a,
     ElementSampling = 0x4d46,
     Samples = 0x4d4e,
-    StiffnessTable = 0x4d54,
     TwoDirectionsState = 0x4d58,
     TwoDirectionsSampling = 0x4d57,
     Periods = 0x4d50,

@@ -42,10 +42,10 @@ fn for_each_call(test: impl Fn(&Call, &Law)) {
     }
 }
 
-/// Under Miri the bisection for a contact with friction takes minutes, as do contacts, elements and tables, which the arguments of
+/// Under Miri the bisection for a contact with friction takes minutes, as do contacts and elements, which the arguments of
 /// other calls have initialised.
 fn is_slow(call: &Call, law: &Law) -> bool {
-    let is_made = call.has(NewContact) || call.has(NewElement) || call.name == "mslip_stiffness_table_init";
+    let is_made = call.has(NewContact) || call.has(NewElement);
     cfg!(miri) && (is_made || call.is_sliders() && law.force > 0.0)
 }
 
@@ -289,7 +289,7 @@ fn invalid_length(call: &Call, arguments: &mut Arguments, place: usize) {
         for (place, argument) in call.arguments.iter().enumerate() {
             let is_of_items = match argument.kind {
                 Contact | Element | State => call.has(Index),
-                Workspace | Table => false,
+                Workspace => false,
                 _ => slots[place].pointer().is_some(),
             };
             if is_of_items {
@@ -317,13 +317,12 @@ fn invalid_length(call: &Call, arguments: &mut Arguments, place: usize) {
 /// Nothing is read after an invalid header.
 fn invalid_memory(call: &Call, law: &Law, arguments: &mut Arguments, place: usize) {
     let argument = &call.arguments[place];
-    if !matches!(argument.kind, Contact | Element | State | Workspace | Table) {
+    if !matches!(argument.kind, Contact | Element | State | Workspace) {
         return;
     }
     let words = arguments.memory(place).values::<u64>().to_vec();
     let header = match argument.kind {
         Workspace => 3,
-        Table => 1,
         _ => words.len(),
     };
     for byte in [0, 0x77_77_77_77_77_77_77_77, u64::MAX] {

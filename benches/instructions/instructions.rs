@@ -16,11 +16,6 @@ const RELATIONS: &[(&str, f64, &str, &str)] = &[
     ("curve_no_output", 0.1, "curve", "outputs that are NULL are not computed"),
     ("curve_force", 0.2, "curve", "the half-width of the stick zone costs a root"),
     ("stiffness_imaginary", 0.6, "stiffness", "K'' needs no quadrature"),
-    ("tabulated_near_slip", 0.3, "plain_near_slip", "a table needs no quadrature"),
-    ("tabulated_near_slip", 1.2, "tabulated_microslip", "all amplitudes take the same time from a table"),
-    ("tabulated_beyond_slip", 1.2, "tabulated_microslip", "all amplitudes take the same time from a table"),
-    ("tabulated_gross_slip", 1.2, "tabulated_microslip", "all amplitudes take the same time from a table"),
-    ("tabulated_small", 1.0, "tabulated_microslip", "small amplitudes take one polynomial"),
     ("update_force", 0.9, "update", "the force does not need the energy"),
     ("harmonics_force", 0.9, "harmonics", "the force does not need the Jacobian"),
     ("event_driven_force", 0.9, "event_driven", "the force does not need the Jacobian"),
@@ -138,19 +133,6 @@ fn stiffness(layer: f64, imaginary_alone: bool) -> Call {
     let amplitude = array(|i| c.slip_displacement * (i as f64 + 0.5) / POINTS as f64);
     let [imaginary, real, d_real, d_imaginary] = outputs(if imaginary_alone { 1 } else { 4 });
     prepared(move || unsafe { mslip_complex_stiffness(&c, POINTS, amplitude, real, imaginary, d_real, d_imaginary) })
-}
-
-/// One amplitude, a fraction of that of gross slip.
-fn at(fraction: f64, tabulated: bool) -> Call {
-    let c = contact(200.0);
-    let length = mslip_stiffness_table_length();
-    let (table, u) = (vec![0.0; length].leak().as_mut_ptr(), array(|_| c.slip_displacement * fraction));
-    let [p, q, r, s] = outputs(4);
-    unsafe { assert_eq!(mslip_stiffness_table_init(&c, length, table), MSLIP_OK) };
-    if tabulated {
-        return prepared(move || unsafe { mslip_complex_stiffness_tabulated(&c, table, 1, u, p, q, r, s) });
-    }
-    prepared(move || unsafe { mslip_complex_stiffness(&c, 1, u, p, q, r, s) })
 }
 
 fn update(requested: usize) -> Call {
@@ -389,12 +371,6 @@ const CASES: &[Case] = &[
     ("stiffness_imaginary", || stiffness(NONE, true)),
     ("stiffness_layer", || stiffness(LAYER, false)),
     ("stiffness_rough_layer", || stiffness(ROUGH, false)),
-    ("plain_near_slip", || at(0.999, false)),
-    ("tabulated_small", || at(0.2, true)),
-    ("tabulated_microslip", || at(0.7, true)),
-    ("tabulated_near_slip", || at(0.999, true)),
-    ("tabulated_beyond_slip", || at(1.02, true)),
-    ("tabulated_gross_slip", || at(3.0, true)),
     ("update", || update(3)),
     ("update_force", || update(2)),
     ("path", || path(|t| 0.8 * (2.0 * TAU * t).sin())),

@@ -23,7 +23,6 @@ from ._contact import (
     Sensitivity,
     Slip,
     Step,
-    StiffnessTable,
     Tractions,
 )
 from ._core import Error, Parameter, Status, ffi, lib, status_text
@@ -77,7 +76,6 @@ __all__ = [
     "StaticDisplacement",
     "Status",
     "Step",
-    "StiffnessTable",
     "Tractions",
     "Workspace",
     "__version__",

@@ -14,7 +14,6 @@ from ._core import (
     Field,
     Pair,
     Parameter,
-    Value,
     Values,
     call_batch,
     check,
@@ -217,15 +216,9 @@ class Contact(_Law):
         check(lib.mslip_dissipated_energy(self._c, energy.size, pointer(force_amplitude), pointer(energy)))
         return energy[()]
 
-    def complex_stiffness(self, amplitude: ArrayLike, table: StiffnessTable | None = None) -> ComplexStiffness:
-        """Complex stiffness K' + iK'' [N/m] at displacement amplitudes >= 0 [m], and its derivatives with respect to the amplitude.
-
-        With a `StiffnessTable` of the contact's shape a few polynomials for each amplitude, with errors of 1e-13 of |K|.
-        """
-        if table is None:
-            return elementwise(ComplexStiffness, lib.mslip_complex_stiffness, (self._c,), amplitude, "amplitude")
-        head = self._c, instance(table, StiffnessTable, "table")._memory
-        return elementwise(ComplexStiffness, lib.mslip_complex_stiffness_tabulated, head, amplitude, "amplitude")
+    def complex_stiffness(self, amplitude: ArrayLike) -> ComplexStiffness:
+        """Complex stiffness K' + iK'' [N/m] at displacement amplitudes >= 0 [m], and its derivatives with respect to the amplitude."""
+        return elementwise(ComplexStiffness, lib.mslip_complex_stiffness, (self._c,), amplitude, "amplitude")
 
     def harmonic_force(self, workspace: Workspace, displacement: ArrayLike, jacobian: bool = True) -> HarmonicForce:
         """Harmonics of the force in steady state, by the rule of the workspace (alternating frequency/time).
@@ -258,29 +251,6 @@ class Contact(_Law):
         stiffness, slip_force, error = np.empty(integer(n, "n")), np.empty(n), ffi.new("double *")
         check(lib.mslip_iwan_equivalent(self._c, n, pointer(stiffness), pointer(slip_force), error))
         return Iwan(stiffness, slip_force, error[0])
-
-
-class StiffnessTable(Value):
-    """Table of the complex stiffness of all contacts of a shape: those that differ in friction coefficient or scale share it.
-
-    2L/b, a/b and Poisson's ratios are the shape of a line contact; that of all elliptic contacts is the same. A table is pickled
-    as its contact, and made again.
-    """
-
-    def __init__(self, contact: Contact) -> None:
-        self._contact = instance(contact, Contact, "contact")
-        length = lib.mslip_stiffness_table_length()
-        self._memory = ffi.new("double[]", length)
-        check(lib.mslip_stiffness_table_init(contact._c, length, self._memory))
-
-    def _key(self) -> Any:
-        return bytes(ffi.buffer(self._memory))
-
-    def __repr__(self) -> str:
-        return f"<StiffnessTable of {self._contact}>"
-
-    def __reduce__(self) -> tuple[Any, ...]:
-        return StiffnessTable, (self._contact,)
 
 
 class ContactArray(_LawArray[Contact]):

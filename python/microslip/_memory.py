@@ -1,4 +1,4 @@
-"""States and workspaces: the arrays of doubles in which the C interface keeps load histories and tables."""
+"""States and workspaces: the arrays of doubles in which the C interface keeps load histories and the tables of harmonic forces."""
 
 from __future__ import annotations
 

@@ -22,7 +22,6 @@ contacts = microslip.ContactArray([contact, elliptic])
 elements = microslip.ElementArray([element, microslip.Element.elliptic(**ELLIPSE)])
 workspace = microslip.Workspace(2, 64)
 element_workspace = microslip.ElementWorkspace(1, 2, 64)
-table = microslip.StiffnessTable(contact)
 SLIP = contact.slip_displacement
 HARMONICS = SLIP * np.array([0.1, 1.3, 0.2, -0.3, 0.4])
 ELEMENT_HARMONICS = np.array([HARMONICS, element.approach * np.array([0.7, 0.2, 0.1, -0.05, 0.1])])
@@ -251,7 +250,6 @@ def test_plain_data_is_pickled_and_checked():
             assert other is not value
             assert bytes(other) == bytes(value)
     assert reloaded(pressed(2)).directions == 2
-    assert reloaded(table) == table
     assert [bytes(c) for c in reloaded(contacts)] == [bytes(c) for c in contacts]
     assert [bytes(c) for c in reloaded(elements)] == [bytes(c) for c in elements]
     expected = contact.harmonic_force(workspace, HARMONICS).dissipated

@@ -48,11 +48,10 @@ def test_dissipated_energy(group):
 
 
 @pytest.mark.parametrize("group", groups("complex_stiffness", "contact"))
-@pytest.mark.parametrize("tabulated", [False, True])
-def test_complex_stiffness(group, tabulated):
+def test_complex_stiffness(group):
     contact = CONTACTS[int(group[0]["contact"])]
     amplitude = column(group, "amplitude")
-    found = contact.complex_stiffness(amplitude, microslip.StiffnessTable(contact) if tabulated else None)
+    found = contact.complex_stiffness(amplitude)
     # Errors of 1e-13 of |K| and of |K|/amplitude; at the onset of gross slip the slope is not defined.
     size = np.hypot(column(group, "k_real"), column(group, "k_imag"))
     for name in ["k_real", "k_imag"]:

@@ -124,7 +124,7 @@ impl Contact {
     }
 
     /// F and dF/dx_0 at x_0 = 1 - ρ_0, in units of the initial stiffness.
-    pub(crate) fn real_stiffness_integrals(&self, x_0: f64, rho_0: f64) -> [f64; 2] {
+    fn real_stiffness_integrals(&self, x_0: f64, rho_0: f64) -> [f64; 2] {
         dispatch!({
             if !self.has_weights_in_slip() {
                 return self.integrals(&RULE_BEYOND, x_0, rho_0);

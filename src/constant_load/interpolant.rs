@@ -34,7 +34,7 @@ const LAST_PIECES: usize = 6;
 pub(crate) const END_OF_PIECES: f64 = 1.0 / (1 << (2 * PIECES)) as f64;
 
 /// `(n+1) 8/π ∫ t^(n+1/2) (1-t)^(1/2) dt`: K' of the power n of the secant stiffness.
-pub(crate) static CYCLE_WEIGHTS: Polynomial = {
+static CYCLE_WEIGHTS: Polynomial = {
     let mut weights = [1.0; TERMS];
     let mut integral = 1.0;
     let mut n = 1;
@@ -48,11 +48,11 @@ pub(crate) static CYCLE_WEIGHTS: Polynomial = {
 
 /// `-4n/(n+2)`: the energy of a cycle, eight times the work of the initial loading less four times force times displacement, of the power
 /// n of the secant stiffness.
-pub(crate) static ENERGY_WEIGHTS: Polynomial = rows(&tabulate!(TERMS, |n| -4.0 * n as f64 / (n as f64 + 2.0)));
+static ENERGY_WEIGHTS: Polynomial = rows(&tabulate!(TERMS, |n| -4.0 * n as f64 / (n as f64 + 2.0)));
 
 /// A polynomial with weights on its powers.
 #[inline(always)]
-pub(crate) fn weighted(polynomial: &Polynomial, weights: &Polynomial) -> Polynomial {
+fn weighted(polynomial: &Polynomial, weights: &Polynomial) -> Polynomial {
     let mut powers = *polynomial;
     for (row, weights) in powers.iter_mut().zip(weights) {
         row.iter_mut().zip(weights).for_each(|(power, weight)| *power *= weight);
@@ -180,7 +180,7 @@ impl ForceInterpolant {
 
 /// The piece and the argument on it of a small distance, by its eighth root z: pieces are the dyadic intervals 2⁻ʲ⁻¹ <= z <= 2⁻ʲ.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct DyadicPlace {
+struct DyadicPlace {
     pub piece: usize,
     /// 4 2ʲ times the eighth root, less 3: from -1 to 1.
     pub z: f64,
@@ -214,7 +214,7 @@ impl DyadicPlace {
 }
 
 #[inline(always)]
-pub(crate) fn eighth_root(x: f64) -> f64 {
+fn eighth_root(x: f64) -> f64 {
     x.max(0.0).sqrt().sqrt().sqrt()
 }
 

@@ -2,10 +2,8 @@
 
 use crate::constant_load::complex_stiffness::{check_amplitude, requested, write_values};
 use crate::constant_load::equivalents;
-use crate::constant_load::stiffness_table::{StiffnessTable, TABLE_LENGTH};
-use crate::error::Error;
 use crate::ffi::mslip_contact;
-use crate::ffi::pointers::{self, call, each, input, memory, output, outputs, place, set};
+use crate::ffi::pointers::{self, call, each, input, output, outputs, place, set};
 use libc::size_t;
 
 /// Hysteresis loop of the displacement amplitude cos(t), amplitude in \[m\]: displacement\[n\] \[m\] and force\[n\] \[N\] at n uniformly
@@ -74,58 +72,6 @@ pub unsafe extern "C" fn mslip_complex_stiffness(
         let requested = requested(&outputs);
         let values = amplitude.iter().map(|&amplitude| contact.stiffness_of_cycle(amplitude, requested));
         values.enumerate().for_each(|(i, values)| write_values(values, i, &mut outputs));
-        Ok(())
-    })
-}
-
-/// Number of doubles in a table of the complex stiffness.
-#[unsafe(no_mangle)]
-pub extern "C" fn mslip_stiffness_table_length() -> size_t {
-    TABLE_LENGTH
-}
-
-/// Initialises a table of the complex stiffness of all contacts of a shape: those that differ in friction coefficient or scale
-/// share it. 2L/b, a/b and Poisson's ratios are the shape of a line contact; that of all elliptic contacts is the same.
-///
-/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_TABLE_TOO_SHORT.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn mslip_stiffness_table_init(
-    contact: *const mslip_contact,
-    table_length: size_t,
-    table: *mut f64,
-) -> i32 {
-    call(|| {
-        let (contact, memory) = (pointers::contact(contact)?, memory(table_length, table)?);
-        let table = memory.get_mut(..TABLE_LENGTH).ok_or(Error::TableTooShort)?.as_mut_ptr();
-        let table = table.cast::<StiffnessTable>();
-        // SAFETY: the table has this many doubles.
-        table.write(StiffnessTable::default());
-        (*table).init(contact);
-        Ok(())
-    })
-}
-
-/// mslip_complex_stiffness from a table of mslip_stiffness_table_init: a few polynomials for each amplitude, at any amplitude, with
-/// errors of 1e-13 of |K| and of |K|/amplitude. For a contact with Λ below 0.9, 2L/b below about 2, it is mslip_complex_stiffness.
-///
-/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_TABLE or MSLIP_BAD_AMPLITUDE.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn mslip_complex_stiffness_tabulated(
-    contact: *const mslip_contact,
-    table: *const f64,
-    n: size_t,
-    amplitude: *const f64,
-    k_real: *mut f64,
-    k_imag: *mut f64,
-    dk_real: *mut f64,
-    dk_imag: *mut f64,
-) -> i32 {
-    call(|| {
-        let contact = pointers::contact(contact)?;
-        let table = pointers::stiffness_table(table)?.filter(|table| table.is_of(contact)).ok_or(Error::BadTable)?;
-        let (amplitude, outputs) = (input(amplitude, n)?, outputs([k_real, k_imag, dk_real, dk_imag], n)?);
-        amplitude.iter().try_for_each(|&amplitude| check_amplitude(amplitude))?;
-        table.write(contact, amplitude, outputs);
         Ok(())
     })
 }

@@ -2,13 +2,12 @@
 //!
 //! # Safety
 //! Each pointer is NULL or valid for its type, times the given number of items, which are not accessed otherwise during the lifetime of
-//! the reference. A workspace and a table are valid for their header, and as a whole if this is that of an initialised one. All bit
+//! the reference. A workspace is valid for its header, and as a whole if this is the header of an initialised one. All bit
 //! patterns are valid for these types, also those of memory that the application has not initialised.
 
 use super::{MSLIP_OK, mslip_contact, mslip_element};
 use crate::constant_load::contact::Contact;
 use crate::constant_load::harmonic_force::{Workspace, workspace_size};
-use crate::constant_load::stiffness_table::StiffnessTable;
 use crate::element::{Directions, Element};
 use crate::error::Error;
 use crate::fourier::workspace::{Layout, Size, TAGS};
@@ -116,11 +115,6 @@ impl Checked for Element {}
 pub unsafe fn element<'a>(pointer: *const mslip_element) -> Result<&'a Element, Error> {
     let element = item(pointer.cast::<Element>())?;
     if element.is_initialised() { Ok(element) } else { Err(Error::BadElement) }
-}
-
-/// A table of the complex stiffness, if it is initialised.
-pub unsafe fn stiffness_table<'a>(pointer: *const f64) -> Result<Option<&'a StiffnessTable>, Error> {
-    if StiffnessTable::is_tag(*item(pointer)?) { item(pointer.cast()).map(Some) } else { Ok(None) }
 }
 
 /// The items of an input with their places in the outputs that are requested; no items if none is.

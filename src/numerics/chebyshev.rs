@@ -74,17 +74,6 @@ impl<const N: usize> Interpolant<N> {
         values
     }
 
-    /// The interpolant of values at the points.
-    pub fn through(values: &[f64; N]) -> Interpolant<N> {
-        let mut coefficients = [0.0; N];
-        add_rows(&mut coefficients, values.iter().copied(), const { &Self::AT_POINTS });
-        coefficients.iter_mut().for_each(|sum| *sum *= 2.0 / N as f64);
-        if let Some(first) = coefficients.first_mut() {
-            *first *= 0.5;
-        }
-        Interpolant(coefficients)
-    }
-
     /// The interpolant of values and slopes at N/2 Chebyshev points.
     ///
     /// At the M points T_M+k = -T_M-k, and sin θ dT_n/dz = n sin nθ has the same value for both. So the transforms

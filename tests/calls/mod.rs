@@ -25,7 +25,7 @@ pub enum Kind {
     Count,
     /// Contacts or elements of a batch.
     Laws,
-    /// The length of a state, workspace or table.
+    /// The length of a state or workspace.
     Length,
     /// Harmonics or samples.
     Size,
@@ -39,8 +39,7 @@ pub enum Kind {
     State,
     NewState,
     Workspace,
-    Table,
-    /// A state, workspace or table to be initialised.
+    /// A state or workspace to be initialised.
     Buffer,
     Value,
     Input,
@@ -442,15 +441,14 @@ impl Law {
         extents.chars().map(factor).product()
     }
 
-    /// The length of the shortest state, of a workspace, or of a table.
+    /// The length of the shortest state, or of a workspace.
     pub fn memory_length(&self, call: &Call, name: &str) -> usize {
         let of_element = call.is_of_element();
         match (&name[..5], of_element) {
             ("state", false) => mslip_state_length(0),
             ("state", true) => mslip_element_state_length(self.directions, 0),
             ("works", false) => mslip_harmonic_workspace_length(self.harmonics, self.samples, self.rule),
-            ("works", true) => mslip_element_workspace_length(self.directions, self.harmonics, self.samples, self.rule),
-            _ => mslip_stiffness_table_length(),
+            _ => mslip_element_workspace_length(self.directions, self.harmonics, self.samples, self.rule),
         }
     }
 
@@ -540,23 +538,6 @@ impl Law {
         };
         assert_eq!(status, MSLIP_OK);
     }
-
-    fn table(&self) -> Memory {
-        static TABLES: [OnceLock<Vec<f64>>; 3] = [const { OnceLock::new() }; 3];
-        let own = contacts().iter().position(|law| law.bytes == self.bytes).expect("a contact of the list");
-        Memory::of(TABLES[own].get_or_init(|| self.new_table().values().to_vec()))
-    }
-
-    pub fn new_table(&self) -> Memory {
-        let (mut contact, table) = (Memory::of_law(self, 1), Memory::new::<f64>(mslip_stiffness_table_length()));
-        if cfg!(miri) {
-            // Its polynomials take longer than all other tests: without friction there are none.
-            contact.values_mut::<mslip_contact>()[0].slip_force = 0.0;
-        }
-        let (n, start) = (table.bytes / 8, table.start.cast());
-        assert_eq!(unsafe { mslip_stiffness_table_init(contact.start.cast(), n, start) }, MSLIP_OK);
-        table
-    }
 }
 
 impl Memory {
@@ -620,11 +601,9 @@ impl Arguments {
                 // Of an element only the used part is written.
                 State | NewState => Err(Memory::of(&law.state(call).values::<f64>().repeat(items))),
                 Workspace => Err(law.workspace(call)),
-                Table => Err(law.table()),
                 Buffer => {
                     let name = call.name.trim_start_matches("mslip_");
-                    let name = ["state_init", "workspace_init"].iter().find(|end| name.ends_with(*end));
-                    Err(Memory::new::<f64>(memory_length(name.unwrap_or(&"table_init"))))
+                    Err(Memory::new::<f64>(memory_length(if name.ends_with("state_init") { "state" } else { "works" })))
                 }
                 Input => Err(Memory::of(&law.input(call, argument))),
                 Output => Err(Memory::new::<f64>(law.length(argument.extents, call.has(Element)))),

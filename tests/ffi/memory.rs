@@ -1,4 +1,4 @@
-//! Memory that is not what it should be: flipped, shifted, mixed or foreign contacts, elements, states, workspaces and tables;
+//! Memory that is not what it should be: flipped, shifted, mixed or foreign contacts, elements, states and workspaces;
 //! states that are not finite or not nested; batches with invalid items; arbitrary bytes.
 
 use super::values::{NON_FINITE, accepted};
@@ -91,7 +91,7 @@ fn tags_are_checked() {
     for_each_call(|call, law| {
         let mut arguments = Arguments::new(call, law, Before::Filled);
         for (place, argument) in call.arguments.iter().enumerate() {
-            if !matches!(argument.kind, Contact | Element | State | Workspace | Table) {
+            if !matches!(argument.kind, Contact | Element | State | Workspace) {
                 continue;
             }
             let words = arguments.memory(place).values::<u64>().to_vec();
@@ -353,33 +353,6 @@ fn unused_memory() {
         assert_eq!(call.make(&arguments.slots), MSLIP_OK, "{}", call.name);
         assert_eq!(results(call, &arguments), expected, "{}", call.name);
     });
-}
-
-/// The table of another shape is rejected; friction coefficient and scale do not matter.
-#[test]
-fn tables_of_other_contacts() {
-    let f = call("mslip_complex_stiffness_tabulated");
-    let (p, more) = (FLAT, 1.0 + 1e-6);
-    let mut soft = p.material;
-    soft[0].poisson_ratio += 1e-6;
-    let mut arguments = Arguments::new(f, &calls::contacts()[0], Before::Filled);
-    arguments.set(0, Memory::of_law(&calls::contact(&p), 1));
-    let table = f.place(Table).expect("a table");
-    let others = [
-        microslip::Parameters { flat_half_width: p.flat_half_width * more, ..p },
-        microslip::Parameters { edge_radius: p.edge_radius * more, ..p },
-        microslip::Parameters { length: p.length * more, ..p },
-        microslip::Parameters { normal_force: p.normal_force * more, ..p },
-        microslip::Parameters { material: soft, ..p },
-        microslip::Parameters { displacement_reference: MSLIP_RIGID_STRIP, ..p },
-        microslip::Parameters { normal_force: 0.0, ..p },
-    ];
-    for other in others.iter().map(calls::contact).chain([calls::contacts()[1].clone()]) {
-        arguments.set(table, other.new_table());
-        rejected_as(f, &arguments, MSLIP_BAD_TABLE, "the table of another shape");
-    }
-    arguments.set(table, calls::contact(&microslip::Parameters { friction_coefficient: 0.7, ..p }).new_table());
-    accepted(f, &arguments, "the table of another friction coefficient");
 }
 
 /// The state of a stronger contact has forces that a weaker one cannot carry; steps with it stay within its bound.

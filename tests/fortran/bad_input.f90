@@ -15,7 +15,7 @@ program bad_input
   type :: procedure_info
     character(len=32) :: name
     character(len=5) :: outputs          ! Four outputs, o: optional, r: required; the new state, s: one, b: of a batch.
-    character :: memory = ' '            ! s: state, w: workspace, t: table.
+    character :: memory = ' '            ! s: state, w: workspace.
     logical :: batch = .false., element = .false.
   end type procedure_info
 
@@ -29,7 +29,7 @@ program bad_input
   type(mslip_contact), allocatable :: contacts(:)
   type(mslip_element), allocatable :: elements(:)
   type(output), target :: out(5)
-  real(wp), allocatable, target :: x(:), u(:, :), state(:), states(:, :), workspace(:), table(:)
+  real(wp), allocatable, target :: x(:), u(:, :), state(:), states(:, :), workspace(:)
   real(wp), allocatable :: vector(:), vectors(:, :)  ! Displacements of an element.
   integer(mslip_int), allocatable, target :: index(:), active(:), from_zero(:)
   integer(mslip_size) :: failed_item
@@ -84,8 +84,6 @@ contains
     call mslip_masing_path_advance(contacts(1), state, [2.0e-7_wp, 0.5e-7_wp, 1.5e-7_wp], ok)
     workspace = spread(0.0_wp, 1, int(mslip_harmonic_workspace_length(h, samples)))
     call mslip_harmonic_workspace_init(h, samples, workspace, ok)
-    table = spread(0.0_wp, 1, int(mslip_stiffness_table_length()))
-    if (procedures(p)%memory == 't') call mslip_stiffness_table_init(contacts(1), table, ok)
     if (procedures(p)%element) then
       state = spread(0.0_wp, 1, int(mslip_element_state_length(directions, pieces)))
       call mslip_element_state_init(directions, state, ok)
@@ -248,7 +246,7 @@ contains
   end subroutine test_sizes
 
   subroutine test_memory()
-    ! Contacts, elements, states, workspaces and tables that were never initialised, or are truncated.
+    ! Contacts, elements, states and workspaces that were never initialised, or are truncated.
     call set_up()
     contacts(size(contacts)) = mslip_contact()
     elements(size(elements)) = mslip_element()
@@ -257,24 +255,18 @@ contains
     state = 0
     states(:, n) = 0
     workspace = 0
-    table = 0
     if (procedures(p)%memory == 's') call rejected('an uninitialised state', MSLIP_BAD_STATE)
     if (procedures(p)%memory == 'w') call rejected('an uninitialised workspace', MSLIP_BAD_WORKSPACE)
-    if (procedures(p)%memory == 't') call rejected('an uninitialised table', MSLIP_BAD_TABLE)
     call set_up()
     state = state(:3)
     states = states(:3, :)
     workspace = workspace(:size(workspace) - 1)
-    table = table(:size(table) - 1)
     if (procedures(p)%outputs(5:5) == 's') out(5)%v = out(5)%v(:3)
     if (procedures(p)%outputs(5:5) == 'b') out(5)%m = out(5)%m(:3, :)
     if (procedures(p)%memory == 's') call rejected('a truncated state', MSLIP_STATE_TOO_SHORT)
     if (procedures(p)%memory == 'w') call rejected('a truncated workspace', MSLIP_WORKSPACE_TOO_SHORT)
-    if (procedures(p)%memory == 't') call rejected('a truncated table', MSLIP_TABLE_TOO_SHORT)
     workspace = workspace(:2)
-    table = table(:0)
     if (procedures(p)%memory == 'w') call rejected('a workspace of two values', MSLIP_WORKSPACE_TOO_SHORT)
-    if (procedures(p)%memory == 't') call rejected('a table without elements', MSLIP_TABLE_TOO_SHORT)
   end subroutine test_memory
 
   subroutine test_batch()
@@ -359,8 +351,6 @@ contains
     call check_status('error of a short state', status, MSLIP_STATE_TOO_SHORT)
     call mslip_element_state_error(one, state(:0), error, status)
     call check_status('error of a short state of an element', status, MSLIP_STATE_TOO_SHORT)
-    call mslip_stiffness_table_init(contacts(1), table(:size(table) - 1), status)
-    call check_status('initialisation of a short table', status, MSLIP_TABLE_TOO_SHORT)
     call mslip_harmonic_workspace_size(workspace(:size(workspace) - 1), found(1), found(2), kinds(1), status)
     call check_status('size of a short workspace', status, MSLIP_WORKSPACE_TOO_SHORT)
     workspace = spread(untouched, 1, int(mslip_element_workspace_length(one, h, samples)))

@@ -19,38 +19,34 @@
     case (15); call mslip_dissipated_energy(contacts(1), scalar, out(1)%s, status)
     case (16); call mslip_complex_stiffness(contacts(1), x, status, out(1)%v, out(2)%v, out(3)%v, out(4)%v)
     case (17); call mslip_complex_stiffness(contacts(1), scalar, status, out(1)%s, out(2)%s, out(3)%s, out(4)%s)
-    case (18); call mslip_complex_stiffness_tabulated(contacts(1), table, x, status, out(1)%v, out(2)%v, out(3)%v, &
-      out(4)%v)
-    case (19); call mslip_complex_stiffness_tabulated(contacts(1), table, scalar, status, out(1)%s, out(2)%s, &
-      out(3)%s, out(4)%s)
-    case (20); call mslip_jenkins_equivalent(contacts(1), scalar, out(1)%s, out(2)%s, status)
-    case (21); call mslip_iwan_equivalent(contacts(1), out(1)%v, out(2)%v, status, out(3)%s)
-    case (22); call mslip_harmonic_force(contacts(1), workspace, u(:, 1), status, out(1)%v, out(2)%m, out(3)%s)
-    case (23); call mslip_harmonic_sensitivity(contacts(1), workspace, u(:, 1), status, out(1)%v, out(2)%m)
-    case (24); call mslip_batch_complex_stiffness(contacts, x, status, index, active, out(1)%v, out(2)%v, out(3)%v, &
+    case (18); call mslip_jenkins_equivalent(contacts(1), scalar, out(1)%s, out(2)%s, status)
+    case (19); call mslip_iwan_equivalent(contacts(1), out(1)%v, out(2)%v, status, out(3)%s)
+    case (20); call mslip_harmonic_force(contacts(1), workspace, u(:, 1), status, out(1)%v, out(2)%m, out(3)%s)
+    case (21); call mslip_harmonic_sensitivity(contacts(1), workspace, u(:, 1), status, out(1)%v, out(2)%m)
+    case (22); call mslip_batch_complex_stiffness(contacts, x, status, index, active, out(1)%v, out(2)%v, out(3)%v, &
       out(4)%v, failed_item)
-    case (25); call mslip_batch_masing_update(contacts, states, x, out(5)%m, status, index, active, out(1)%v, &
+    case (23); call mslip_batch_masing_update(contacts, states, x, out(5)%m, status, index, active, out(1)%v, &
       out(2)%v, out(3)%v, failed_item)
-    case (26); call mslip_batch_masing_advance(contacts, states, x, status, index, active, out(1)%v, out(2)%v, &
+    case (24); call mslip_batch_masing_advance(contacts, states, x, status, index, active, out(1)%v, out(2)%v, &
       out(3)%v, failed_item)
-    case (27); call mslip_batch_harmonic_force(contacts, workspace, u, status, index, active, out(1)%m, out(2)%t, &
+    case (25); call mslip_batch_harmonic_force(contacts, workspace, u, status, index, active, out(1)%m, out(2)%t, &
       out(3)%v, failed_item)
-    case (28); call mslip_normal_force(elements(1), x, status, out(1)%v, out(2)%v, out(3)%v)
-    case (29); call mslip_normal_force(elements(1), scalar, status, out(1)%s, out(2)%s, out(3)%s)
-    case (30); call mslip_normal_approach(elements(1), x, status, out(1)%v, out(2)%v, out(3)%v)
-    case (31); call mslip_normal_approach(elements(1), scalar, status, out(1)%s, out(2)%s, out(3)%s)
-    case (32); call mslip_element_update(elements(1), state, vector, out(5)%v, status, out(1)%v, out(2)%m, out(3)%s)
-    case (33); call mslip_element_advance(elements(1), state, vector, status, out(1)%v, out(2)%m, out(3)%s)
-    case (34); call mslip_element_path(elements(1), state, vectors, out(5)%v, status, out(1)%m, out(2)%t, out(3)%v)
-    case (35); call mslip_element_path_advance(elements(1), state, vectors, status, out(1)%m, out(2)%t, out(3)%v)
-    case (36); call mslip_element_tractions(elements(1), state, x, status, out(1)%v, out(2)%v)
-    case (37); call mslip_element_harmonic_force(elements(1), workspace, u(:, 1), status, out(1)%v, out(2)%m, &
+    case (26); call mslip_normal_force(elements(1), x, status, out(1)%v, out(2)%v, out(3)%v)
+    case (27); call mslip_normal_force(elements(1), scalar, status, out(1)%s, out(2)%s, out(3)%s)
+    case (28); call mslip_normal_approach(elements(1), x, status, out(1)%v, out(2)%v, out(3)%v)
+    case (29); call mslip_normal_approach(elements(1), scalar, status, out(1)%s, out(2)%s, out(3)%s)
+    case (30); call mslip_element_update(elements(1), state, vector, out(5)%v, status, out(1)%v, out(2)%m, out(3)%s)
+    case (31); call mslip_element_advance(elements(1), state, vector, status, out(1)%v, out(2)%m, out(3)%s)
+    case (32); call mslip_element_path(elements(1), state, vectors, out(5)%v, status, out(1)%m, out(2)%t, out(3)%v)
+    case (33); call mslip_element_path_advance(elements(1), state, vectors, status, out(1)%m, out(2)%t, out(3)%v)
+    case (34); call mslip_element_tractions(elements(1), state, x, status, out(1)%v, out(2)%v)
+    case (35); call mslip_element_harmonic_force(elements(1), workspace, u(:, 1), status, out(1)%v, out(2)%m, &
       out(3)%s, out(4)%s)
-    case (38); call mslip_batch_element_update(elements, states, vectors, out(5)%m, status, index, active, out(1)%m, &
+    case (36); call mslip_batch_element_update(elements, states, vectors, out(5)%m, status, index, active, out(1)%m, &
       out(2)%t, out(3)%v, failed_item)
-    case (39); call mslip_batch_element_advance(elements, states, vectors, status, index, active, out(1)%m, &
+    case (37); call mslip_batch_element_advance(elements, states, vectors, status, index, active, out(1)%m, &
       out(2)%t, out(3)%v, failed_item)
-    case (40); call mslip_batch_element_harmonic_force(elements, workspace, u, status, index, active, out(1)%m, &
+    case (38); call mslip_batch_element_harmonic_force(elements, workspace, u, status, index, active, out(1)%m, &
       out(2)%t, out(3)%v, out(4)%v, failed_item)
     end select
   end subroutine perform
@@ -85,56 +81,52 @@
       address(out(3)), address(out(4)))
     case (17); status = c_complex_stiffness(contacts(1), 1_mslip_size, [scalar], address(out(1)), address(out(2)), &
       address(out(3)), address(out(4)))
-    case (18); status = c_complex_stiffness_tabulated(contacts(1), table, int(n, mslip_size), x, address(out(1)), &
-      address(out(2)), address(out(3)), address(out(4)))
-    case (19); status = c_complex_stiffness_tabulated(contacts(1), table, 1_mslip_size, [scalar], address(out(1)), &
-      address(out(2)), address(out(3)), address(out(4)))
-    case (20); status = c_jenkins_equivalent(contacts(1), scalar, address(out(1)), address(out(2)))
-    case (21); status = c_iwan_equivalent(contacts(1), int(n, mslip_size), address(out(1)), address(out(2)), &
+    case (18); status = c_jenkins_equivalent(contacts(1), scalar, address(out(1)), address(out(2)))
+    case (19); status = c_iwan_equivalent(contacts(1), int(n, mslip_size), address(out(1)), address(out(2)), &
       address(out(3)))
-    case (22); status = c_harmonic_force(contacts(1), c_loc(workspace), u(:, 1), address(out(1)), address(out(2)), &
+    case (20); status = c_harmonic_force(contacts(1), c_loc(workspace), u(:, 1), address(out(1)), address(out(2)), &
       address(out(3)))
-    case (23); status = c_harmonic_sensitivity(contacts(1), c_loc(workspace), u(:, 1), address(out(1)), &
+    case (21); status = c_harmonic_sensitivity(contacts(1), c_loc(workspace), u(:, 1), address(out(1)), &
       address(out(2)))
-    case (24); status = c_batch_complex_stiffness(int(n, mslip_size), size(contacts, kind=mslip_size), contacts, &
+    case (22); status = c_batch_complex_stiffness(int(n, mslip_size), size(contacts, kind=mslip_size), contacts, &
       c_loc(from_zero), c_loc(active), x, address(out(1)), address(out(2)), address(out(3)), address(out(4)), &
       c_null_ptr)
-    case (25); status = c_batch_masing_update(int(n, mslip_size), size(contacts, kind=mslip_size), contacts, &
+    case (23); status = c_batch_masing_update(int(n, mslip_size), size(contacts, kind=mslip_size), contacts, &
       c_loc(from_zero), c_loc(active), size(states, 1, mslip_size), c_loc(states), x, address(out(5)), &
       address(out(1)), address(out(2)), address(out(3)), c_null_ptr)
-    case (26); status = c_batch_masing_update(int(n, mslip_size), size(contacts, kind=mslip_size), contacts, &
+    case (24); status = c_batch_masing_update(int(n, mslip_size), size(contacts, kind=mslip_size), contacts, &
       c_loc(from_zero), c_loc(active), size(states, 1, mslip_size), c_loc(states), x, c_loc(states), address(out(1)), &
       address(out(2)), address(out(3)), c_null_ptr)
-    case (27); status = c_batch_harmonic_force(int(n, mslip_size), size(contacts, kind=mslip_size), contacts, &
+    case (25); status = c_batch_harmonic_force(int(n, mslip_size), size(contacts, kind=mslip_size), contacts, &
       c_loc(from_zero), c_loc(active), c_loc(workspace), u, address(out(1)), address(out(2)), address(out(3)), &
       c_null_ptr)
-    case (28); status = c_normal_force(elements(1), int(n, mslip_size), x, address(out(1)), address(out(2)), &
+    case (26); status = c_normal_force(elements(1), int(n, mslip_size), x, address(out(1)), address(out(2)), &
       address(out(3)))
-    case (29); status = c_normal_force(elements(1), 1_mslip_size, [scalar], address(out(1)), address(out(2)), &
+    case (27); status = c_normal_force(elements(1), 1_mslip_size, [scalar], address(out(1)), address(out(2)), &
       address(out(3)))
-    case (30); status = c_normal_approach(elements(1), int(n, mslip_size), x, address(out(1)), address(out(2)), &
+    case (28); status = c_normal_approach(elements(1), int(n, mslip_size), x, address(out(1)), address(out(2)), &
       address(out(3)))
-    case (31); status = c_normal_approach(elements(1), 1_mslip_size, [scalar], address(out(1)), address(out(2)), &
+    case (29); status = c_normal_approach(elements(1), 1_mslip_size, [scalar], address(out(1)), address(out(2)), &
       address(out(3)))
-    case (32); status = c_element_update(elements(1), size(state, 1, mslip_size), c_loc(state), vector, &
+    case (30); status = c_element_update(elements(1), size(state, 1, mslip_size), c_loc(state), vector, &
       address(out(5)), address(out(1)), address(out(2)), address(out(3)))
-    case (33); status = c_element_update(elements(1), size(state, 1, mslip_size), c_loc(state), vector, &
+    case (31); status = c_element_update(elements(1), size(state, 1, mslip_size), c_loc(state), vector, &
       c_loc(state), address(out(1)), address(out(2)), address(out(3)))
-    case (34); status = c_element_path(elements(1), size(state, 1, mslip_size), c_loc(state), int(n, mslip_size), &
+    case (32); status = c_element_path(elements(1), size(state, 1, mslip_size), c_loc(state), int(n, mslip_size), &
       vectors, address(out(5)), address(out(1)), address(out(2)), address(out(3)))
-    case (35); status = c_element_path(elements(1), size(state, 1, mslip_size), c_loc(state), int(n, mslip_size), &
+    case (33); status = c_element_path(elements(1), size(state, 1, mslip_size), c_loc(state), int(n, mslip_size), &
       vectors, c_loc(state), address(out(1)), address(out(2)), address(out(3)))
-    case (36); status = c_element_tractions(elements(1), size(state, 1, mslip_size), state, int(n, mslip_size), x, &
+    case (34); status = c_element_tractions(elements(1), size(state, 1, mslip_size), state, int(n, mslip_size), x, &
       address(out(1)), address(out(2)))
-    case (37); status = c_element_harmonic_force(elements(1), c_loc(workspace), u(:, 1), address(out(1)), &
+    case (35); status = c_element_harmonic_force(elements(1), c_loc(workspace), u(:, 1), address(out(1)), &
       address(out(2)), address(out(3)), address(out(4)))
-    case (38); status = c_batch_element_update(int(n, mslip_size), size(elements, kind=mslip_size), elements, &
+    case (36); status = c_batch_element_update(int(n, mslip_size), size(elements, kind=mslip_size), elements, &
       c_loc(from_zero), c_loc(active), size(states, 1, mslip_size), c_loc(states), vectors, address(out(5)), &
       address(out(1)), address(out(2)), address(out(3)), c_null_ptr)
-    case (39); status = c_batch_element_update(int(n, mslip_size), size(elements, kind=mslip_size), elements, &
+    case (37); status = c_batch_element_update(int(n, mslip_size), size(elements, kind=mslip_size), elements, &
       c_loc(from_zero), c_loc(active), size(states, 1, mslip_size), c_loc(states), vectors, c_loc(states), &
       address(out(1)), address(out(2)), address(out(3)), c_null_ptr)
-    case (40); status = c_batch_element_harmonic_force(int(n, mslip_size), size(elements, kind=mslip_size), &
+    case (38); status = c_batch_element_harmonic_force(int(n, mslip_size), size(elements, kind=mslip_size), &
       elements, c_loc(from_zero), c_loc(active), c_loc(workspace), u, address(out(1)), address(out(2)), &
       address(out(3)), address(out(4)), c_null_ptr)
     end select
@@ -165,45 +157,42 @@
     case (16); out(1)%v = spread(untouched, 1, n); out(2)%v = spread(untouched, 1, n); out(3)%v = spread(untouched, &
       1, n); out(4)%v = spread(untouched, 1, n)
     case (17); out(1)%s = untouched; out(2)%s = untouched; out(3)%s = untouched; out(4)%s = untouched
-    case (18); out(1)%v = spread(untouched, 1, n); out(2)%v = spread(untouched, 1, n); out(3)%v = spread(untouched, &
-      1, n); out(4)%v = spread(untouched, 1, n)
-    case (19); out(1)%s = untouched; out(2)%s = untouched; out(3)%s = untouched; out(4)%s = untouched
-    case (20); out(1)%s = untouched; out(2)%s = untouched
-    case (21); out(1)%v = spread(untouched, 1, n); out(2)%v = spread(untouched, 1, n); out(3)%s = untouched
-    case (22); out(1)%v = spread(untouched, 1, m); out(2)%m = reshape([real(wp) ::], [m, m], pad=[untouched]); &
+    case (18); out(1)%s = untouched; out(2)%s = untouched
+    case (19); out(1)%v = spread(untouched, 1, n); out(2)%v = spread(untouched, 1, n); out(3)%s = untouched
+    case (20); out(1)%v = spread(untouched, 1, m); out(2)%m = reshape([real(wp) ::], [m, m], pad=[untouched]); &
       out(3)%s = untouched
-    case (23); out(1)%v = spread(untouched, 1, m); out(2)%m = reshape([real(wp) ::], [m, &
+    case (21); out(1)%v = spread(untouched, 1, m); out(2)%m = reshape([real(wp) ::], [m, &
       int(MSLIP_PARAMETER_COUNT)], pad=[untouched])
-    case (24); out(1)%v = spread(untouched, 1, n); out(2)%v = spread(untouched, 1, n); out(3)%v = spread(untouched, &
+    case (22); out(1)%v = spread(untouched, 1, n); out(2)%v = spread(untouched, 1, n); out(3)%v = spread(untouched, &
       1, n); out(4)%v = spread(untouched, 1, n)
-    case (25); out(1)%v = spread(untouched, 1, n); out(2)%v = spread(untouched, 1, n); out(3)%v = spread(untouched, &
+    case (23); out(1)%v = spread(untouched, 1, n); out(2)%v = spread(untouched, 1, n); out(3)%v = spread(untouched, &
       1, n)
+    case (24); out(1)%v = spread(untouched, 1, n); out(2)%v = spread(untouched, 1, n); out(3)%v = spread(untouched, &
+      1, n)
+    case (25); out(1)%m = reshape([real(wp) ::], [m, n], pad=[untouched]); out(2)%t = reshape([real(wp) ::], [m, m, &
+      n], pad=[untouched]); out(3)%v = spread(untouched, 1, n)
     case (26); out(1)%v = spread(untouched, 1, n); out(2)%v = spread(untouched, 1, n); out(3)%v = spread(untouched, &
       1, n)
-    case (27); out(1)%m = reshape([real(wp) ::], [m, n], pad=[untouched]); out(2)%t = reshape([real(wp) ::], [m, m, &
-      n], pad=[untouched]); out(3)%v = spread(untouched, 1, n)
+    case (27); out(1)%s = untouched; out(2)%s = untouched; out(3)%s = untouched
     case (28); out(1)%v = spread(untouched, 1, n); out(2)%v = spread(untouched, 1, n); out(3)%v = spread(untouched, &
       1, n)
     case (29); out(1)%s = untouched; out(2)%s = untouched; out(3)%s = untouched
-    case (30); out(1)%v = spread(untouched, 1, n); out(2)%v = spread(untouched, 1, n); out(3)%v = spread(untouched, &
-      1, n)
-    case (31); out(1)%s = untouched; out(2)%s = untouched; out(3)%s = untouched
-    case (32); out(1)%v = spread(untouched, 1, parts); out(2)%m = reshape([real(wp) ::], [parts, parts], &
+    case (30); out(1)%v = spread(untouched, 1, parts); out(2)%m = reshape([real(wp) ::], [parts, parts], &
       pad=[untouched]); out(3)%s = untouched
-    case (33); out(1)%v = spread(untouched, 1, parts); out(2)%m = reshape([real(wp) ::], [parts, parts], &
+    case (31); out(1)%v = spread(untouched, 1, parts); out(2)%m = reshape([real(wp) ::], [parts, parts], &
       pad=[untouched]); out(3)%s = untouched
-    case (34); out(1)%m = reshape([real(wp) ::], [parts, n], pad=[untouched]); out(2)%t = reshape([real(wp) ::], &
+    case (32); out(1)%m = reshape([real(wp) ::], [parts, n], pad=[untouched]); out(2)%t = reshape([real(wp) ::], &
       [parts, parts, n], pad=[untouched]); out(3)%v = spread(untouched, 1, n)
-    case (35); out(1)%m = reshape([real(wp) ::], [parts, n], pad=[untouched]); out(2)%t = reshape([real(wp) ::], &
+    case (33); out(1)%m = reshape([real(wp) ::], [parts, n], pad=[untouched]); out(2)%t = reshape([real(wp) ::], &
       [parts, parts, n], pad=[untouched]); out(3)%v = spread(untouched, 1, n)
-    case (36); out(1)%v = spread(untouched, 1, n); out(2)%v = spread(untouched, 1, n)
-    case (37); out(1)%v = spread(untouched, 1, me); out(2)%m = reshape([real(wp) ::], [me, me], pad=[untouched]); &
+    case (34); out(1)%v = spread(untouched, 1, n); out(2)%v = spread(untouched, 1, n)
+    case (35); out(1)%v = spread(untouched, 1, me); out(2)%m = reshape([real(wp) ::], [me, me], pad=[untouched]); &
       out(3)%s = untouched; out(4)%s = untouched
-    case (38); out(1)%m = reshape([real(wp) ::], [parts, n], pad=[untouched]); out(2)%t = reshape([real(wp) ::], &
+    case (36); out(1)%m = reshape([real(wp) ::], [parts, n], pad=[untouched]); out(2)%t = reshape([real(wp) ::], &
       [parts, parts, n], pad=[untouched]); out(3)%v = spread(untouched, 1, n)
-    case (39); out(1)%m = reshape([real(wp) ::], [parts, n], pad=[untouched]); out(2)%t = reshape([real(wp) ::], &
+    case (37); out(1)%m = reshape([real(wp) ::], [parts, n], pad=[untouched]); out(2)%t = reshape([real(wp) ::], &
       [parts, parts, n], pad=[untouched]); out(3)%v = spread(untouched, 1, n)
-    case (40); out(1)%m = reshape([real(wp) ::], [me, n], pad=[untouched]); out(2)%t = reshape([real(wp) ::], [me, &
+    case (38); out(1)%m = reshape([real(wp) ::], [me, n], pad=[untouched]); out(2)%t = reshape([real(wp) ::], [me, &
       me, n], pad=[untouched]); out(3)%v = spread(untouched, 1, n); out(4)%v = spread(untouched, 1, n)
     end select
   end subroutine set_outputs

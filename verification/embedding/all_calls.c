@@ -165,12 +165,7 @@ static void *memory_of(struct sequence *s, const function *f, const argument *a,
         case ARG_STATE:
         case ARG_NEW_STATE: return states(s, of_element, items);
         case ARG_BUFFER:
-            return array(s, strstr(f->name, "state") ? call->state_length
-                            : strstr(f->name, "table") ? call->table_length : call->workspace_length);
-        case ARG_TABLE:
-            x = array(s, call->table_length);
-            accept(mslip_stiffness_table_init(s->contact, call->table_length, x));
-            return x;
+            return array(s, strstr(f->name, "state") ? call->state_length : call->workspace_length);
         case ARG_INPUT:
             x = array(s, extent);
             for (size_t i = 0; i < extent; ++i) {
@@ -240,7 +235,6 @@ static void make_function(struct sequence *s, const function *f, int rule)
     call.normal_input = MSLIP_INPUT_APPROACH;
     call.rule = rule;
     call.state_length = of_element ? mslip_element_state_length(1, PIECES) : mslip_state_length(REVERSALS);
-    call.table_length = mslip_stiffness_table_length();
     call.workspace_length = of_element ? mslip_element_workspace_length(1, HARMONICS, SAMPLES, rule)
                                        : mslip_harmonic_workspace_length(HARMONICS, SAMPLES, rule);
     call.workspace = of_element ? s->element_workspace : s->workspace[rule];

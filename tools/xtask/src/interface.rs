@@ -115,9 +115,9 @@ impl Argument<'_> {
         base == "double" && (!pointer || constant) && !self.is_memory()
     }
 
-    /// A state, workspace or table.
+    /// A state or workspace.
     pub fn is_memory(&self) -> bool {
-        self.declaration.pointer && (self.name().starts_with("state") || matches!(self.name(), "workspace" | "table"))
+        self.declaration.pointer && (self.name().starts_with("state") || self.name() == "workspace")
     }
 
     /// An array of values, or a value, that the function writes.

@@ -61,7 +61,7 @@ fn functions(header: &str) -> Result<String, String> {
     Ok(text)
 }
 
-/// Lengths of states, workspaces and tables.
+/// Lengths of states and workspaces.
 fn lengths() -> String {
     const SIZES: [usize; 2] = [0, 16];
     let mut text = String::new();
@@ -71,7 +71,6 @@ fn lengths() -> String {
     for n in SIZES {
         add(&format!("state_length({n})"), ffi::mslip_state_length(n));
     }
-    add("stiffness_table_length()", ffi::mslip_stiffness_table_length());
     for rule in ["MSLIP_UNIFORM_SAMPLING", "MSLIP_EVENT_DRIVEN"] {
         let value = if rule == "MSLIP_EVENT_DRIVEN" { ffi::MSLIP_EVENT_DRIVEN } else { ffi::MSLIP_UNIFORM_SAMPLING };
         let length = ffi::mslip_harmonic_workspace_length(5, 128, value);

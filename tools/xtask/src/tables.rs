@@ -17,9 +17,9 @@ fn tabulated<'a>(functions: &'a [Function<'a>]) -> impl Iterator<Item = &'a Func
 }
 
 #[rustfmt::skip]
-const KINDS: [&str; 24] = [
+const KINDS: [&str; 23] = [
     "Parameters", "EllipticParameters", "Contact", "Element", "NewContact", "NewElement", "Count", "Laws", "Length", "Size",
-    "Choice", "Index", "Active", "FailedItem", "FoundChoice", "FoundSize", "State", "NewState", "Workspace", "Table", "Buffer", "Value", "Input",
+    "Choice", "Index", "Active", "FailedItem", "FoundChoice", "FoundSize", "State", "NewState", "Workspace", "Buffer", "Value", "Input",
     "Output",
 ];
 
@@ -47,7 +47,6 @@ fn kind(argument: &Argument) -> &'static str {
         _ if name.ends_with("_new") => "NewState",
         _ if argument.is_memory() && name.starts_with("state") && declared.constant => "State",
         _ if argument.is_memory() && name.starts_with("state") => "Buffer",
-        _ if name == "table" && declared.constant => "Table",
         _ if name == "workspace" => "Workspace",
         _ if argument.is_memory() => "Buffer",
         _ if !declared.pointer => "Value",
@@ -172,11 +171,11 @@ typedef struct {
     mslip_contact *new_contact;
     mslip_element *new_element;
     const int32_t *index, *active;
-    size_t n, n_contacts, state_length, workspace_length, table_length, harmonics, samples, periods;
+    size_t n, n_contacts, state_length, workspace_length, harmonics, samples, periods;
     int32_t directions, normal_input, rule;
     double scalar;
     const double *input, *state;
-    double *workspace, *table, *buffer, *out[OUTPUTS];
+    double *workspace, *buffer, *out[OUTPUTS];
     int32_t *found_directions, *found_rule;
     size_t *failed_item, *found_harmonics, *found_samples, *found_periods;
 } arguments;
@@ -241,7 +240,7 @@ mod tests {
     use crate::interface::{Header, functions};
 
     /// Those that cannot fail.
-    const WITHOUT_STATUS: [&str; 12] = [
+    const WITHOUT_STATUS: [&str; 11] = [
         "mslip_version",
         "mslip_abi_version",
         "mslip_status_text",
@@ -250,7 +249,6 @@ mod tests {
         "mslip_parameters_warning",
         "mslip_elliptic_parameters_warning",
         "mslip_state_length",
-        "mslip_stiffness_table_length",
         "mslip_harmonic_workspace_length",
         "mslip_element_state_length",
         "mslip_element_workspace_length",

@@ -213,7 +213,7 @@ impl Procedure<'_> {
         if self.form != Form::Advance && function.arguments.iter().any(is_new_state) {
             outputs = format!("{outputs:4}{}", if function.is_batch() { 'b' } else { 's' });
         }
-        let memory = [("state", 's'), ("workspace", 'w'), ("table", 't')].into_iter();
+        let memory = [("state", 's'), ("workspace", 'w')].into_iter();
         let mut memory =
             memory.filter(|(name, _)| function.arguments.iter().any(|a| a.is_memory() && a.name().starts_with(name)));
         let short = self.name.trim_start_matches("mslip_");
@@ -263,7 +263,7 @@ impl Procedure<'_> {
     /// The call of the C function with the same arguments.
     fn call_of_c(&self) -> String {
         let memory = |name: &str| {
-            let kind = ["states", "state", "workspace", "table"].into_iter().find(|kind| name.starts_with(kind));
+            let kind = ["states", "state", "workspace"].into_iter().find(|kind| name.starts_with(kind));
             let is_batch = self.function.is_batch();
             kind.map(|kind| if kind == "state" && is_batch { "states" } else { kind })
         };
@@ -279,7 +279,7 @@ impl Procedure<'_> {
             name if argument.is_length() => format!("size({}, 1, mslip_size)", memory(name).unwrap_or_default()),
             name if name.ends_with("_new") && self.form != Form::Advance => "address(out(5))".to_owned(),
             // Memory that is only read is an array.
-            name @ ("state" | "table") => name.to_owned(),
+            "state" => "state".to_owned(),
             name if argument.is_memory() => format!("c_loc({})", memory(name).unwrap_or_default()),
             _ if argument.is_input() => {
                 let input = self.input_of_test(argument);
@@ -352,7 +352,7 @@ impl Procedure<'_> {
 
     fn rank(&self, argument: &Argument) -> usize {
         match argument.name() {
-            "index" | "active" | "workspace" | "table" => 1,
+            "index" | "active" | "workspace" => 1,
             name if name.starts_with("states_") => 2,
             _ if argument.is_memory() => 1,
             _ if argument.counted => 1,
@@ -376,7 +376,7 @@ impl Procedure<'_> {
         attributes.extend(is_optional(argument).then(|| "optional".to_owned()));
         let is_address = !is_read && declared.base == "double" || is_old_state(argument) || argument.name() == "active";
         attributes.extend(is_address.then(|| "target".to_owned()));
-        let contiguous = rank > 0 && (is_address || argument.name() == "table");
+        let contiguous = rank > 0 && is_address;
         attributes.extend(contiguous.then(|| "contiguous".to_owned()));
         let shape = if rank > 0 { format!("({})", vec![":"; rank].join(", ")) } else { String::new() };
         let mut comment = argument.comment.to_owned();
@@ -468,14 +468,11 @@ impl Procedure<'_> {
         lines.extend(extents.iter().flat_map(|extent| extent.split('\n')).map(|line| format!("    {line}")));
         lines.extend(of_index.then(|| "    failed = n".to_owned()));
         lines.extend((pointers > 0).then(|| "    ptr = c_null_ptr".to_owned()));
-        let is_tabulated = self.function.name.contains("tabulated");
-        if is_tabulated {
-            lines.push("    status = table_status(table)".to_owned());
-        } else if !of_workspace && !of_index && !checks.is_empty() {
+        if !of_workspace && !of_index && !checks.is_empty() {
             lines.push("    status = MSLIP_OK".to_owned());
         }
         lines.extend(checks.iter().flat_map(|check| wrapped("    ", check)));
-        let is_checked = is_tabulated || of_workspace || !checks.is_empty();
+        let is_checked = of_workspace || !checks.is_empty();
         lines.extend(wrapped("    ", &format!("{}{call}", if is_checked { "if (status == MSLIP_OK) " } else { "" })));
         if of_index {
             lines.push("    ! C counts from 0, and gives n if no item is at fault.".to_owned());

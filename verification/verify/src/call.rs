@@ -103,19 +103,6 @@ pub fn complex_stiffness(contact: &mslip_contact, amplitude: f64) -> [f64; 4] {
     values("complex_stiffness", call)
 }
 
-pub fn stiffness_table(contact: &mslip_contact) -> Vec<f64> {
-    let mut table = vec![0.0; mslip_stiffness_table_length()];
-    ok("stiffness_table_init", || unsafe { mslip_stiffness_table_init(contact, table.len(), table.as_mut_ptr()) });
-    table
-}
-
-pub fn tabulated(contact: &mslip_contact, table: &[f64], amplitude: f64) -> [f64; 4] {
-    let table = table.as_ptr();
-    let call =
-        |[a, b, c, d]: [_; 4]| unsafe { mslip_complex_stiffness_tabulated(contact, table, 1, &amplitude, a, b, c, d) };
-    values("complex_stiffness_tabulated", call)
-}
-
 /// Stiffness and slip force.
 pub fn jenkins(contact: &mslip_contact, amplitude: f64) -> [f64; 2] {
     values("jenkins_equivalent", |[k, f]| unsafe { mslip_jenkins_equivalent(contact, amplitude, k, f) })

@@ -85,9 +85,7 @@ fn of_contact(row: &Row, input: Input, arguments: &str, tally: &mut Tally) -> bo
         }
         (Some("u"), 2, &[displacement, force]) => curve::steps_back(case, [displacement, force], tally),
         (Some("u"), 1, &[displacement]) => curve::at_displacement(case, displacement, range, tally),
-        (Some("A"), 1, &[amplitude]) => {
-            stiffness::at_amplitude(case, &call::stiffness_table(&case.contact), amplitude, range, tally);
-        }
+        (Some("A"), 1, &[amplitude]) => stiffness::at_amplitude(case, amplitude, range, tally),
         (Some("A"), _, &[amplitude, _, n]) => history::of_amplitude(case, amplitude, n as usize, range, tally),
         (Some("path"), _, path) => drop(history::updates(case, path, tally)),
         (Some("samples"), _, &[samples, a, b, c]) if row.output.starts_with("event_driven") => {

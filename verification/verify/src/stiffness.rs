@@ -22,7 +22,6 @@ fn real(case: &Case, x: &Real) -> [Real; 2] {
 /// Some amplitudes of a contact: each is a quadrature.
 pub fn at_amplitudes(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
     let half = half_share(case);
-    let table = call::stiffness_table(&case.contact);
     for _ in 0..5 {
         let (share, range) = match sampler.below(4) {
             0 => (sampler.between(1.0, 3.0), "beyond slip"),
@@ -31,15 +30,14 @@ pub fn at_amplitudes(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
             _ => share_of_slip(sampler, half),
         };
         if (share - 1.0).abs() > 1e-5 {
-            at_amplitude(case, &table, share * case.contact.slip_displacement, range, tally);
+            at_amplitude(case, share * case.contact.slip_displacement, range, tally);
         }
     }
 }
 
-pub fn at_amplitude(case: &Case, table: &[f64], amplitude: f64, range: &'static str, tally: &mut Tally) {
+pub fn at_amplitude(case: &Case, amplitude: f64, range: &'static str, tally: &mut Tally) {
     let Case { contact, reference, kind } = case;
     let plain = call::complex_stiffness(contact, amplitude);
-    let tabulated = call::tabulated(contact, table, amplitude);
     let (law, point) = reference.at_displacement(amplitude);
     let place = || format!("{} A {amplitude:e}", text(&reference.input));
     let x = law.x(amplitude);
@@ -72,9 +70,6 @@ pub fn at_amplitude(case: &Case, table: &[f64], amplitude: f64, range: &'static 
         }
     };
     check(["k_real", "k_imag", "dk_real", "dk_imag"], plain);
-    if soft <= 1.0 / 0.9 {
-        check(["table_k_real", "table_k_imag", "table_dk_real", "table_dk_imag"], tabulated);
-    }
     let (stiffness, force) = spring_slider(&real, &imaginary, &x);
     let got = call::jenkins(contact, amplitude);
     tally.check(("jenkins_stiffness", kind, range), got[0], &(unit * stiffness), 3.0 * soft, place);
