@@ -155,12 +155,12 @@ check 'pip install ./python' from_source
 # Kept, because they are many. pyHarm names Jupyter among its requirements, a hundred packages that it does not need.
 adapters=$PWD/target/tools/python-adapters
 examples() {
-    { [ -e "$adapters/bin/ruff" ] || {
+    { "$adapters/bin/ruff" --version && "$adapters/bin/pip" show exudyn || {
         "$PYTHON" -m venv "$adapters" && "$adapters/bin/pip" install --no-deps pyHarm-os==1.2.2 && "$adapters/bin/python" -c '
 from importlib.metadata import requires
 kept = [r.replace(" ", "") for r in requires("pyHarm-os") if not r.startswith(("notebook", "nbformat"))]
 print(*kept, sep="\n")' > "$work/required" &&
-            "$adapters/bin/pip" install -r "$work/required" psutil matplotlib jax mypy==2.4.1 pytest ruff==0.17.6
+            "$adapters/bin/pip" install -r "$work/required" psutil matplotlib jax mypy==2.4.1 pytest ruff==0.17.6 exudyn==1.13.6
     }; } && "$adapters/bin/pip" install --force-reinstall --no-deps "$wheels"/*.whl && "$adapters/bin/pip" install cffi numpy
 }
 check 'packages of the examples' examples
@@ -172,5 +172,6 @@ check 'format' "$adapters/bin/ruff" format --check python
 check 'lints' "$adapters/bin/ruff" check python
 tests 'adapters and examples' "$adapters" \
     "$package"/tests/test_tmdsimpy.py "$package"/tests/test_pyharm.py "$package"/tests/test_jax.py \
+    "$package"/tests/test_exudyn.py \
     "$package"/tests/test_documents.py
 counts

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -217,7 +217,7 @@ class Contact(_Law):
         return energy[()]
 
     def complex_stiffness(self, amplitude: ArrayLike) -> ComplexStiffness:
-        """Complex stiffness K' + iK'' [N/m] at displacement amplitudes >= 0 [m], and its derivatives with respect to the amplitude."""
+        """Complex stiffness K' + iK'' [N/m] at amplitudes >= 0 of the displacement [m], and its derivatives by these."""
         return elementwise(ComplexStiffness, lib.mslip_complex_stiffness, (self._c,), amplitude, "amplitude")
 
     def harmonic_force(self, workspace: Workspace, displacement: ArrayLike, jacobian: bool = True) -> HarmonicForce:

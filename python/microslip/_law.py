@@ -47,8 +47,9 @@ class Tractions(NamedTuple):
 
 class HarmonicForce(NamedTuple):
     """Coefficients of the force [N], jacobian[..., i, j] = d force_i / d displacement_j [N/m] (None if not requested), energy
-    dissipated per period [J] (of an element the work of the tangential force, at least 0), and drift: the largest difference of the tangential force between the last period and the one before,
-    over mu times the largest normal force. It is 0 but for elements of two directions.
+    dissipated per period [J] (of an element the work of the tangential force, at least 0), and drift: the largest difference of the
+    tangential force between the last period and the one before, over mu times the largest normal force. It is 0 but for elements of
+    two directions.
     """
 
     force: Array
