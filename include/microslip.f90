@@ -269,6 +269,8 @@ module microslip
     !! Monotonic (initial loading) curve (Eq. 10), odd in the force: displacement [m], compliance [m/N] and stick
     !! half-width [m] at force(n) [N]. At mu N the compliance is infinite for a cylinder and an elliptical contact, and
     !! the stick half-width is that of the flat, a.
+    !!
+    !! Since 0.1.0 (interface 6).
     module procedure monotonic_displacement_array, monotonic_displacement_scalar
   end interface mslip_monotonic_displacement
 
@@ -276,29 +278,39 @@ module microslip
     !! Inverse of the monotonic curve, odd in the displacement: force [N], stiffness [N/m] and stick half-width [m] at
     !! displacement(n) [m]. At slip_displacement the stick half-width is a, as at mu N; beyond, the force stays at mu N,
     !! and stiffness and stick half-width are 0.
+    !!
+    !! Since 0.1.0 (interface 6).
     module procedure monotonic_force_array, monotonic_force_scalar
   end interface mslip_monotonic_force
 
   interface mslip_dissipated_energy
     !! Energy [J] dissipated per cycle between +- force_amplitude(n) [N], each from 0 to mu N (Eq. 13-16).
+    !!
+    !! Since 0.1.0 (interface 6).
     module procedure dissipated_energy_array, dissipated_energy_scalar
   end interface mslip_dissipated_energy
 
   interface mslip_complex_stiffness
     !! Complex (harmonic) stiffness K' + iK'' [N/m] at displacement amplitude(n) >= 0 [m] and its derivatives with
     !! respect to the amplitude [N/m^2] (section 3.4); at amplitude 0: the initial stiffness.
+    !!
+    !! Since 0.1.0 (interface 6).
     module procedure complex_stiffness_array, complex_stiffness_scalar
   end interface mslip_complex_stiffness
 
   interface mslip_normal_force
     !! The normal law: normal force [N], normal stiffness [N/m] and half-width of the contact [m] at approach(n) [m]. An
     !! approach <= 0 gives 0, 0, 0.
+    !!
+    !! Since 0.1.0 (interface 6).
     module procedure normal_force_array, normal_force_scalar
   end interface mslip_normal_force
 
   interface mslip_normal_approach
     !! The inverse normal law: approach [m], compliance [m/N] and half-width [m] under normal_force(n) [N]. At 0 the
     !! compliance of a cylinder and of an ellipse is infinite.
+    !!
+    !! Since 0.1.0 (interface 6).
     module procedure normal_approach_array, normal_approach_scalar
   end interface mslip_normal_approach
 
@@ -307,6 +319,8 @@ module microslip
     !! most mu N in magnitude, under normal_force(n) [N], and the compliance [m/N] there, in the direction 0 (x) or, of
     !! an element with two directions, 1 (y). At mu N the compliance of a cylinder and of an ellipse is infinite; so it
     !! is without friction and without a normal force.
+    !!
+    !! Since 0.1.0 (interface 6).
     module procedure element_displacement_array, element_displacement_scalar
   end interface mslip_element_displacement
   ! </generated>
@@ -894,6 +908,8 @@ contains
 
   subroutine mslip_contact_init(parameters, contact, status)
     !! Initialises the contact of a flat with rounded edges, or of a cylinder (Eq. 1, 2, 10).
+    !!
+    !! Since 0.1.0 (interface 6).
     type(mslip_parameters), intent(in) :: parameters  !! Geometry, load and materials.
     type(mslip_contact), intent(inout) :: contact  !! The contact.
     integer(mslip_int), intent(out) :: status
@@ -905,6 +921,8 @@ contains
 
   subroutine mslip_contact_init_elliptic(parameters, contact, status)
     !! Initialises an elliptical Hertz contact (section 3.3); a sphere if both semi-axes are equal.
+    !!
+    !! Since 0.1.0 (interface 6).
     type(mslip_elliptic_parameters), intent(in) :: parameters  !! Geometry, load and materials.
     type(mslip_contact), intent(inout) :: contact  !! The contact.
     integer(mslip_int), intent(out) :: status
@@ -916,6 +934,8 @@ contains
   subroutine mslip_contact_check(contact, status)
     !! Validates a contact that was read from a file or a message: its checksum must be that written at initialisation.
     !! Other functions only check a tag.
+    !!
+    !! Since 0.1.0 (interface 6).
     type(mslip_contact), intent(in) :: contact  !! The contact.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, or MSLIP_BAD_CONTACT.
 
@@ -928,6 +948,8 @@ contains
   subroutine mslip_tractions(contact, force, x, status, pressure, shear)
     !! Tractions [Pa] at x(n) [m] along the width, under a monotonically increasing force [N] (Eq. 17, 21-24); 0 outside
     !! the contact. Elliptical: on the x axis.
+    !!
+    !! Since 0.1.0 (interface 6).
     type(mslip_contact), intent(in) :: contact  !! An initialised contact.
     real(mslip_real), intent(in) :: force  !! Tangential force [N]; its magnitude is at most `slip_force`.
     real(mslip_real), intent(in) :: x(:)  !! Positions from the centre [m].
@@ -950,6 +972,8 @@ contains
   subroutine mslip_slip(contact, force, x, status, slip, damage)
     !! Relative slip [m] (Eq. 15) and frictional damage parameter mu p |s| [N/m] (section 3.5) at x(n) [m], under a
     !! monotonically increased force [N]; 0 in the stick zone and outside the contact.
+    !!
+    !! Since 0.1.0 (interface 6).
     type(mslip_contact), intent(in) :: contact  !! An initialised contact.
     real(mslip_real), intent(in) :: force  !! Tangential force [N]; its magnitude is at most `slip_force`.
     real(mslip_real), intent(in) :: x(:)  !! Positions from the centre [m].
@@ -1056,6 +1080,8 @@ contains
     !! semi_axis_x^3/(3 N): of a sphere, its radius. Those with respect to a and L are 0. A layer is the same body under
     !! any N: its compliance under the reference load, and both its loads, stay fixed. A reference_load of 0 stays at
     !! the N of the contact.
+    !!
+    !! Since 0.1.0 (interface 6).
     type(mslip_contact), intent(in) :: contact  !! An initialised contact.
     real(mslip_real), intent(in) :: displacement(:)  !! Displacements [m]; magnitudes are at most 1e150.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, MSLIP_BAD_CONTACT, MSLIP_BAD_ARRAY_SIZE or MSLIP_BAD_DISPLACEMENT.
@@ -1081,6 +1107,8 @@ contains
   pure function mslip_state_length(reversals) result(length)
     !! Number of doubles in a state with a capacity of `reversals` nested reversals, at least 2. A state is never full:
     !! if the capacity is exceeded, the pair of adjacent reversals whose removal changes later forces least is removed.
+    !!
+    !! Since 0.1.0 (interface 6).
     integer(mslip_size), intent(in) :: reversals  !! Nested reversals, >= 0.
     integer(mslip_size) :: length  !! The length. It may dimension an array.
 
@@ -1089,6 +1117,8 @@ contains
 
   subroutine mslip_state_init(state, status)
     !! Initialises a state: unloaded, with zero force and displacement.
+    !!
+    !! Since 0.1.0 (interface 6).
     real(mslip_real), intent(inout), target, contiguous :: state(:)
       !! The state, of at least `mslip_state_length(2)` values. Its size decides how many nested reversals it holds.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, or MSLIP_STATE_TOO_SHORT.
@@ -1099,6 +1129,8 @@ contains
   subroutine mslip_state_check(state, status)
     !! Validates a state that was read from a file or a message: all values must be finite and the reversals nested.
     !! Other functions only check a tag and the number of reversals.
+    !!
+    !! Since 0.1.0 (interface 6).
     real(mslip_real), intent(in) :: state(:)  !! A state.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, MSLIP_STATE_TOO_SHORT or MSLIP_BAD_STATE.
 
@@ -1107,6 +1139,8 @@ contains
 
   subroutine mslip_state_error(state, force_error, status)
     !! Bound on the error [N] of the force due to removed reversals: 0 if none was removed since the last gross slip.
+    !!
+    !! Since 0.1.0 (interface 6).
     real(mslip_real), intent(in) :: state(:)  !! A state.
     real(mslip_real), intent(inout), target :: force_error  !! Bound on the error [N].
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, MSLIP_STATE_TOO_SHORT or MSLIP_BAD_STATE.
@@ -1117,6 +1151,8 @@ contains
   subroutine mslip_masing_update(contact, state_old, displacement, state_new, status, force, stiffness, dissipated)
     !! Advances the contact state to a displacement [m]: force [N], tangent stiffness [N/m], and energy dissipated in
     !! this step [J] (Eq. 11, 12).
+    !!
+    !! Since 0.1.0 (interface 6).
     type(mslip_contact), intent(in) :: contact  !! An initialised contact.
     real(mslip_real), intent(in), target, contiguous :: state_old(:)  !! State before the step or path.
     real(mslip_real), intent(in) :: displacement  !! Displacement at the end of the step [m]; its magnitude is at most 1e150.
@@ -1157,6 +1193,8 @@ contains
   subroutine mslip_masing_path(contact, state_old, displacement, state_new, status, force, stiffness, dissipated)
     !! Advances the contact state through n displacements [m]; force(n) [N], stiffness(n) [N/m] and dissipated(n) [J]
     !! are those of each step.
+    !!
+    !! Since 0.1.0 (interface 6).
     type(mslip_contact), intent(in) :: contact  !! An initialised contact.
     real(mslip_real), intent(in), target, contiguous :: state_old(:)  !! State before the step or path.
     real(mslip_real), intent(in) :: displacement(:)  !! Displacement at the end of the step [m]; its magnitude is at most 1e150.
@@ -1210,6 +1248,8 @@ contains
 
   subroutine mslip_masing_tractions(contact, state, x, status, pressure, shear)
     !! Tractions [Pa] at x(n) [m] after an arbitrary load history (Eq. 21, superposed by Masing's rule).
+    !!
+    !! Since 0.1.0 (interface 6).
     type(mslip_contact), intent(in) :: contact  !! An initialised contact.
     real(mslip_real), intent(in) :: state(:)  !! A state.
     real(mslip_real), intent(in) :: x(:)  !! Positions from the centre [m].
@@ -1237,6 +1277,8 @@ contains
   subroutine mslip_hysteresis_loop(contact, amplitude, displacement, force, status)
     !! Hysteresis loop of the displacement amplitude cos(t), amplitude in [m]: displacement(n) [m] and force(n) [N] at n
     !! uniformly spaced instants of one period, from t = 0.
+    !!
+    !! Since 0.1.0 (interface 6).
     type(mslip_contact), intent(in) :: contact  !! An initialised contact.
     real(mslip_real), intent(in) :: amplitude  !! Amplitude of the displacement [m], 0 to 1e150.
     real(mslip_real), intent(inout), target, contiguous :: displacement(:)  !! Displacement of each point [m].
@@ -1326,6 +1368,8 @@ contains
   subroutine mslip_jenkins_equivalent(contact, amplitude, stiffness, slip_force, status)
     !! Jenkins element (spring and slider in series) with the same K' and K'' at a displacement amplitude [m]: stiffness
     !! [N/m] and slip force [N]. At amplitude 0: the initial stiffness and mu N. Both are 0 if mu N = 0.
+    !!
+    !! Since 0.1.0 (interface 6).
     type(mslip_contact), intent(in) :: contact  !! An initialised contact.
     real(mslip_real), intent(in) :: amplitude  !! Amplitude of the displacement [m], 0 to 1e150.
     real(mslip_real), intent(inout), target :: stiffness  !! Stiffness of the spring [N/m].
@@ -1340,6 +1384,8 @@ contains
     !! stiffness(n) [N/m], slip_force(n) [N] of sum mu N, and force_error, the maximum error of the force on the
     !! monotonic curve divided by mu N. After m nested reversals the error is at most (1 + 2m) force_error; measured: 3
     !! in loops, 10 to 15 in random histories, 6 to 43 in decaying vibrations. All are 0 if mu N = 0.
+    !!
+    !! Since 0.1.0 (interface 6).
     type(mslip_contact), intent(in) :: contact  !! An initialised contact.
     real(mslip_real), intent(inout), target, contiguous :: stiffness(:)  !! Stiffness of each spring [N/m].
     real(mslip_real), intent(inout), target, contiguous :: slip_force(:)
@@ -1365,6 +1411,8 @@ contains
   pure function mslip_harmonic_workspace_length(harmonics, samples, rule) result(length)
     !! Number of doubles in a workspace for H harmonics, H >= 1, more than 2H samples per period, and a rule,
     !! MSLIP_UNIFORM_SAMPLING or MSLIP_EVENT_DRIVEN; 0 if these are not allowed.
+    !!
+    !! Since 0.1.0 (interface 6).
     integer(mslip_size), intent(in) :: harmonics  !! Highest harmonic H, >= 1.
     integer(mslip_size), intent(in) :: samples  !! Samples per period, > 2H.
     integer(mslip_int), intent(in), optional :: rule  !! `MSLIP_UNIFORM_SAMPLING` (the default) or `MSLIP_EVENT_DRIVEN`.
@@ -1384,6 +1432,8 @@ contains
     !! exponentially, more slowly for more harmonics: 16 (H+1) nodes have worst measured errors of 1e-7 of mu N in the
     !! force and 1e-4 of the initial stiffness in the Jacobian; the energy is exact to rounding. It searches for
     !! reversals on a grid of at least `samples` and 16 H instants.
+    !!
+    !! Since 0.1.0 (interface 6).
     integer(mslip_size), intent(in) :: harmonics  !! Highest harmonic H, >= 1.
     integer(mslip_size), intent(in) :: samples  !! Samples per period, > 2H.
     real(mslip_real), intent(inout), target, contiguous :: workspace(:)
@@ -1408,6 +1458,8 @@ contains
     !!
     !! The contact is unloaded at displacement 0, so the mean force depends on the mean displacement c0 unless the
     !! motion slips grossly. For displacements measured from another position, pass c0 minus the unloaded position.
+    !!
+    !! Since 0.1.0 (interface 6).
     type(mslip_contact), intent(in) :: contact  !! An initialised contact.
     real(mslip_real), intent(inout), target, contiguous :: workspace(:)
       !! An initialised workspace; it decides H, and that of an element m.
@@ -1439,6 +1491,8 @@ contains
     !! With MSLIP_UNIFORM_SAMPLING the derivatives are the exact ones of the discrete force, one-sided if a sample is at
     !! the onset of gross slip. With MSLIP_EVENT_DRIVEN they are the rule applied to the exact derivatives of the
     !! integrals, and converge more slowly than the force.
+    !!
+    !! Since 0.1.0 (interface 6).
     type(mslip_contact), intent(in) :: contact  !! An initialised contact.
     real(mslip_real), intent(inout), target, contiguous :: workspace(:)
       !! An initialised workspace; it decides H, and that of an element m.
@@ -1468,6 +1522,8 @@ contains
   subroutine mslip_batch_complex_stiffness(contacts, amplitude, status, index, active, k_real, k_imag, dk_real, &
     dk_imag, failed_item)
     !! mslip_complex_stiffness for n items, one amplitude each.
+    !!
+    !! Since 0.1.0 (interface 6).
     type(mslip_contact), intent(in) :: contacts(:)  !! Initialised contacts.
     real(mslip_real), intent(in) :: amplitude(:)  !! Amplitude of the displacement [m], 0 to 1e150; 0 gives the initial stiffness.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, MSLIP_BAD_INDEX or the codes of mslip_complex_stiffness.
@@ -1508,6 +1564,8 @@ contains
     stiffness, dissipated, failed_item)
     !! mslip_masing_update for n items: states hold state_length doubles per item, contiguously; displacement, force,
     !! stiffness and dissipated one.
+    !!
+    !! Since 0.1.0 (interface 6).
     type(mslip_contact), intent(in) :: contacts(:)  !! Initialised contacts.
     real(mslip_real), intent(in), target, contiguous :: states_old(:, :)
       !! (state length, n): the state of each item before the step.
@@ -1595,6 +1653,8 @@ contains
     dissipated, failed_item)
     !! mslip_harmonic_force for n items with one workspace: displacement and force hold 2H+1 doubles per item, jacobian
     !! (2H+1)^2, dissipated one.
+    !!
+    !! Since 0.1.0 (interface 6).
     type(mslip_contact), intent(in) :: contacts(:)  !! Initialised contacts.
     real(mslip_real), intent(inout), target, contiguous :: workspace(:)
       !! An initialised workspace; it decides H, and that of an element m.
@@ -1652,6 +1712,8 @@ contains
     !! In a step the contact is open if w is at most 2^-150 of its value under normal_force, with two directions 2^-80.
     !! With two directions forces beyond 2^150 and approaches beyond 2^100 times that value are rejected as those of a
     !! contact too wide for its length.
+    !!
+    !! Since 0.1.0 (interface 6).
     type(mslip_parameters), intent(in) :: parameters  !! Geometry, load and materials.
     integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1 or 2.
     integer(mslip_int), intent(in) :: normal_input
@@ -1669,6 +1731,8 @@ contains
     !! parameters, > 0, is the force of the semi-axes and the largest one for which the element is tabulated; larger
     !! ones are exact, but slower, and with two directions less accurate. directions and normal_input are those of
     !! mslip_element_init.
+    !!
+    !! Since 0.1.0 (interface 6).
     type(mslip_elliptic_parameters), intent(in) :: parameters  !! Geometry, load and materials.
     integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1 or 2.
     integer(mslip_int), intent(in) :: normal_input
@@ -1684,6 +1748,8 @@ contains
   subroutine mslip_element_check(element, status)
     !! Validates an element that was read from a file or a message: its checksum must be that written at initialisation.
     !! Other functions only check a tag.
+    !!
+    !! Since 0.1.0 (interface 6).
     type(mslip_element), intent(in) :: element  !! The element.
     integer(mslip_int), intent(out) :: status  !! `MSLIP_OK`, or MSLIP_BAD_ELEMENT.
 
@@ -1818,6 +1884,8 @@ contains
     !! has a capacity of `pieces` pieces of the memory diagram, at least 4, and is never full: if the capacity is
     !! exceeded, the two adjacent pieces are merged for which later forces change least. For two directions the length
     !! is fixed, and `pieces` is ignored.
+    !!
+    !! Since 0.1.0 (interface 6).
     integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1 or 2.
     integer(mslip_size), intent(in) :: pieces  !! Pieces of the memory diagram, >= 0; ignored for two directions.
     integer(mslip_size) :: length  !! The length. It may dimension an array.
@@ -1827,6 +1895,8 @@ contains
 
   subroutine mslip_element_state_init(directions, state, status)
     !! Initialises the state of an element with 1 or 2 tangential directions: open, at zero displacement.
+    !!
+    !! Since 0.1.0 (interface 6).
     integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1 or 2.
     real(mslip_real), intent(inout), target, contiguous :: state(:)
       !! The state, of at least `mslip_element_state_length(directions, 4)` values. Its size decides how many pieces it
@@ -1839,6 +1909,8 @@ contains
   subroutine mslip_element_state_check(directions, state, status)
     !! Validates the state of an element that was read from a file or a message: all values must be finite and possible,
     !! for one direction the pieces nested. Other functions only check a tag and the number of pieces.
+    !!
+    !! Since 0.1.0 (interface 6).
     integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1 or 2.
     real(mslip_real), intent(in) :: state(:)  !! A state.
     integer(mslip_int), intent(out) :: status
@@ -1851,6 +1923,8 @@ contains
   subroutine mslip_element_state_error(directions, state, force_error, status)
     !! Bound on the error [N] of the tangential force due to merged pieces: 0 if none was merged since the last gross
     !! slip or separation. For two directions it is 0: the error of their law is not included.
+    !!
+    !! Since 0.1.0 (interface 6).
     integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1 or 2.
     real(mslip_real), intent(in) :: state(:)  !! A state.
     real(mslip_real), intent(inout), target :: force_error  !! Bound on the error [N].
@@ -1868,6 +1942,8 @@ contains
     !! consistent with the step and one-sided at corners, dissipated [J] the energy dissipated in this step. Only the
     !! used part of the new state is written: initialise both states to store or compare whole arrays. Within a step the
     !! path is straight in the tangential displacement and the tangential shift S of the contact size.
+    !!
+    !! Since 0.1.0 (interface 6).
     type(mslip_element), intent(in) :: element  !! An initialised element.
     real(mslip_real), intent(in), target, contiguous :: state_old(:)  !! State before the step or path.
     real(mslip_real), intent(in) :: displacement(:)
@@ -1931,6 +2007,8 @@ contains
     !! Advances the state of an element through n displacements. With m = 2 components for one tangential direction, [u,
     !! w], and m = 3 for two, [u, v, w], displacement and force hold m doubles per step, tangent m x m, dissipated one;
     !! units are those of mslip_element_update.
+    !!
+    !! Since 0.1.0 (interface 6).
     type(mslip_element), intent(in) :: element  !! An initialised element.
     real(mslip_real), intent(in), target, contiguous :: state_old(:)  !! State before the step or path.
     real(mslip_real), intent(in) :: displacement(:, :)
@@ -1993,6 +2071,8 @@ contains
   subroutine mslip_element_tractions(element, state, x, status, pressure, shear)
     !! Pressure and shear traction [Pa] at x(n) [m] along the width after a load history; 0 outside the contact.
     !! Elliptical: on the x axis. For one tangential direction.
+    !!
+    !! Since 0.1.0 (interface 6).
     type(mslip_element), intent(in) :: element  !! An initialised element.
     real(mslip_real), intent(in) :: state(:)  !! A state.
     real(mslip_real), intent(in) :: x(:)  !! Positions from the centre [m].
@@ -2017,6 +2097,8 @@ contains
   pure function mslip_element_workspace_length(directions, harmonics, samples, rule) result(length)
     !! Number of doubles in a workspace of elements with 1 or 2 tangential directions for H harmonics, H >= 1, more than
     !! 2H samples per period, and MSLIP_UNIFORM_SAMPLING; 0 if these are not allowed or not available.
+    !!
+    !! Since 0.1.0 (interface 6).
     integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1 or 2.
     integer(mslip_size), intent(in) :: harmonics  !! Highest harmonic H, >= 1.
     integer(mslip_size), intent(in) :: samples  !! Samples per period, > 2H.
@@ -2032,6 +2114,8 @@ contains
     !! Each thread needs its own. periods is the number of periods that are applied before the returned one, at most
     !! 65536. 0 is the default: 3 with two directions; 1 with one, where a larger number changes neither results nor
     !! time.
+    !!
+    !! Since 0.1.0 (interface 6).
     integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1 or 2.
     integer(mslip_size), intent(in) :: harmonics  !! Highest harmonic H, >= 1.
     integer(mslip_size), intent(in) :: samples  !! Samples per period, > 2H.
@@ -2070,6 +2154,8 @@ contains
     !! two periods, over mu times the largest normal force; 0 with one direction, and for a contact that opens, because
     !! that erases its memory. If the workspace has 1 period, the drift contains the first loading. A drift is not an
     !! error. While the force drifts, dissipated contains the change of the stored energy.
+    !!
+    !! Since 0.1.0 (interface 6).
     type(mslip_element), intent(in) :: element  !! An initialised element.
     real(mslip_real), intent(inout), target, contiguous :: workspace(:)
       !! An initialised workspace; it decides H, and that of an element m.
@@ -2107,6 +2193,8 @@ contains
     !! mslip_element_update for n items, all with the same number of tangential directions: states hold state_length
     !! doubles per item, contiguously; with m = 2 components for one direction, 3 for two, displacement and force hold m
     !! doubles per item, tangent m x m, dissipated one; m is that of the first item that is not skipped.
+    !!
+    !! Since 0.1.0 (interface 6).
     type(mslip_element), intent(in) :: elements(:)  !! Initialised elements.
     real(mslip_real), intent(in), target, contiguous :: states_old(:, :)
       !! (state length, n): the state of each item before the step.
@@ -2209,6 +2297,8 @@ contains
     !! mslip_element_harmonic_force for n items with one workspace: with m = 2 components for a workspace of one
     !! tangential direction, 3 for one of two, displacement and force hold m(2H+1) doubles per item, jacobian
     !! (m(2H+1))^2, dissipated and drift one.
+    !!
+    !! Since 0.1.0 (interface 6).
     type(mslip_element), intent(in) :: elements(:)  !! Initialised elements.
     real(mslip_real), intent(inout), target, contiguous :: workspace(:)
       !! An initialised workspace; it decides H, and that of an element m.

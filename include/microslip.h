@@ -320,40 +320,58 @@ extern "C" {
 #endif // __cplusplus
 
 // Version of the library, "1.2.3".
+//
+// Since 0.1.0 (interface 6).
 const char *mslip_version(void);
 
 // Version of this interface: equals MSLIP_ABI_VERSION of the header that belongs to the library.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_abi_version(void);
 
 // Message of a status code: a static string, never NULL.
+//
+// Since 0.1.0 (interface 6).
 const char *mslip_status_text(int32_t status);
 
 // Sets all parameters to NaN and the displacement reference to -1, so that an omitted one is rejected by its own status code, and
 // the layer to none. NULL is ignored.
+//
+// Since 0.1.0 (interface 6).
 void mslip_parameters_default(struct mslip_parameters *p);
 
 // Sets all parameters to NaN. NULL is ignored.
+//
+// Since 0.1.0 (interface 6).
 void mslip_elliptic_parameters_default(struct mslip_elliptic_parameters *p);
 
 // Warning i >= 0 of parameters that are valid but implausible: another unit, an exchanged pair, a contact for which the model is
 // inaccurate. A static text, NULL if there are no more: for the host to print. Lengths are in m and moduli in Pa, or in mm and MPa if
 // both moduli are at most 1.3e6. Any value of any parameter is accepted; errors are those of mslip_contact_init.
+//
+// Since 0.1.0 (interface 6).
 const char *mslip_parameters_warning(const struct mslip_parameters *p,
                                      int32_t i);
 
 // Warning i >= 0 of the parameters of an elliptical contact, as mslip_parameters_warning.
+//
+// Since 0.1.0 (interface 6).
 const char *mslip_elliptic_parameters_warning(const struct mslip_elliptic_parameters *p, int32_t i);
 
 // Initialises the contact of a flat with rounded edges, or of a cylinder (Eq. 1, 2, 10).
 //
 // Returns MSLIP_NULL_POINTER, the code of the first invalid parameter, MSLIP_LENGTH_TOO_SHORT or
 // MSLIP_OUT_OF_RANGE; the contact is unchanged then.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_contact_init(const struct mslip_parameters *p, struct mslip_contact *contact);
 
 // Initialises an elliptical Hertz contact (section 3.3); a sphere if both semi-axes are equal.
 //
 // Returns MSLIP_NULL_POINTER, the code of the first invalid parameter, or MSLIP_OUT_OF_RANGE; the contact is
 // unchanged then.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_contact_init_elliptic(const struct mslip_elliptic_parameters *p,
                                     struct mslip_contact *contact);
 
@@ -361,12 +379,16 @@ int32_t mslip_contact_init_elliptic(const struct mslip_elliptic_parameters *p,
 // only check a tag.
 //
 // Returns MSLIP_NULL_POINTER or MSLIP_BAD_CONTACT.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_contact_check(const struct mslip_contact *contact);
 
 // Tractions [Pa] at x[n] [m] along the width, under a monotonically increasing force [N] (Eq. 17, 21-24); 0 outside the
 // contact. Elliptical: on the x axis.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE, MSLIP_FORCE_EXCEEDS_SLIP or MSLIP_BAD_POSITION.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_tractions(const struct mslip_contact *contact,
                         double force,
                         size_t n,
@@ -379,6 +401,8 @@ int32_t mslip_tractions(const struct mslip_contact *contact,
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE, MSLIP_FORCE_EXCEEDS_SLIP, MSLIP_BAD_POSITION, or
 // MSLIP_NOT_AVAILABLE for an elliptical contact.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_slip(const struct mslip_contact *contact,
                    double force,
                    size_t n,
@@ -391,6 +415,8 @@ int32_t mslip_slip(const struct mslip_contact *contact,
 // the flat, a.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE or MSLIP_FORCE_EXCEEDS_SLIP.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_monotonic_displacement(const struct mslip_contact *contact,
                                      size_t n,
                                      const double *force,
@@ -403,6 +429,8 @@ int32_t mslip_monotonic_displacement(const struct mslip_contact *contact,
 // and stick half-width are 0.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_DISPLACEMENT.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_monotonic_force(const struct mslip_contact *contact,
                               size_t n,
                               const double *displacement,
@@ -421,6 +449,8 @@ int32_t mslip_monotonic_force(const struct mslip_contact *contact,
 // its loads, stay fixed. A reference_load of 0 stays at the N of the contact.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_ARRAY_SIZE or MSLIP_BAD_DISPLACEMENT.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_monotonic_sensitivity(const struct mslip_contact *contact,
                                     size_t n,
                                     const double *displacement,
@@ -429,23 +459,31 @@ int32_t mslip_monotonic_sensitivity(const struct mslip_contact *contact,
 
 // Number of doubles in a state with a capacity of `reversals` nested reversals, at least 2. A state is never full: if the capacity
 // is exceeded, the pair of adjacent reversals whose removal changes later forces least is removed.
+//
+// Since 0.1.0 (interface 6).
 size_t mslip_state_length(size_t reversals);
 
 // Initialises a state: unloaded, with zero force and displacement.
 //
 // Returns MSLIP_NULL_POINTER or MSLIP_STATE_TOO_SHORT.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_state_init(size_t state_length, double *state);
 
 // Validates a state that was read from a file or a message: all values must be finite and the reversals nested. Other functions only
 // check a tag and the number of reversals.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or MSLIP_BAD_STATE.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_state_check(size_t state_length,
                           const double *state);
 
 // Bound on the error [N] of the force due to removed reversals: 0 if none was removed since the last gross slip.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or MSLIP_BAD_STATE.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_state_error(size_t state_length,
                           const double *state,
                           double *force_error);
@@ -454,6 +492,8 @@ int32_t mslip_state_error(size_t state_length,
 // (Eq. 11, 12). state_new may alias state_old; if NULL, the new state is discarded.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE or MSLIP_BAD_DISPLACEMENT.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_masing_update(const struct mslip_contact *contact,
                             size_t state_length,
                             const double *state_old,
@@ -468,6 +508,8 @@ int32_t mslip_masing_update(const struct mslip_contact *contact,
 // evaluated with a capacity of at most 128 nested reversals.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE or MSLIP_BAD_DISPLACEMENT.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_masing_path(const struct mslip_contact *contact,
                           size_t state_length,
                           const double *state_old,
@@ -482,6 +524,8 @@ int32_t mslip_masing_path(const struct mslip_contact *contact,
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE, MSLIP_BAD_POSITION, or
 // MSLIP_FORCE_EXCEEDS_SLIP for the state of another contact.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_masing_tractions(const struct mslip_contact *contact,
                                size_t state_length,
                                const double *state,
@@ -494,6 +538,8 @@ int32_t mslip_masing_tractions(const struct mslip_contact *contact,
 // spaced instants of one period, from t = 0.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_hysteresis_loop(const struct mslip_contact *contact,
                               double amplitude,
                               size_t n,
@@ -503,6 +549,8 @@ int32_t mslip_hysteresis_loop(const struct mslip_contact *contact,
 // Energy [J] dissipated per cycle between +- force_amplitude[n] [N], each from 0 to mu N (Eq. 13-16).
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE_AMPLITUDE or MSLIP_FORCE_EXCEEDS_SLIP.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_dissipated_energy(const struct mslip_contact *contact,
                                 size_t n,
                                 const double *force_amplitude,
@@ -512,6 +560,8 @@ int32_t mslip_dissipated_energy(const struct mslip_contact *contact,
 // the amplitude [N/m^2] (section 3.4); at amplitude 0: the initial stiffness.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_complex_stiffness(const struct mslip_contact *contact,
                                 size_t n,
                                 const double *amplitude,
@@ -524,6 +574,8 @@ int32_t mslip_complex_stiffness(const struct mslip_contact *contact,
 // force [N]. At amplitude 0: the initial stiffness and mu N. Both are 0 if mu N = 0.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_jenkins_equivalent(const struct mslip_contact *contact,
                                  double amplitude,
                                  double *stiffness,
@@ -535,6 +587,8 @@ int32_t mslip_jenkins_equivalent(const struct mslip_contact *contact,
 // histories, 6 to 43 in decaying vibrations. All are 0 if mu N = 0.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_COUNT.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_iwan_equivalent(const struct mslip_contact *contact,
                               size_t n,
                               double *stiffness,
@@ -543,6 +597,8 @@ int32_t mslip_iwan_equivalent(const struct mslip_contact *contact,
 
 // Number of doubles in a workspace for H harmonics, H >= 1, more than 2H samples per period, and a rule, MSLIP_UNIFORM_SAMPLING or
 // MSLIP_EVENT_DRIVEN; 0 if these are not allowed.
+//
+// Since 0.1.0 (interface 6).
 size_t mslip_harmonic_workspace_length(size_t harmonics,
                                        size_t samples,
                                        int32_t rule);
@@ -556,6 +612,8 @@ size_t mslip_harmonic_workspace_length(size_t harmonics,
 // energy is exact to rounding. It searches for reversals on a grid of at least `samples` and 16 H instants.
 //
 // Returns MSLIP_BAD_RULE, MSLIP_BAD_HARMONICS, MSLIP_BAD_SAMPLES, MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_harmonic_workspace_init(size_t harmonics,
                                       size_t samples,
                                       int32_t rule,
@@ -565,6 +623,8 @@ int32_t mslip_harmonic_workspace_init(size_t harmonics,
 // Number of harmonics and of samples, and rule, of an initialised workspace. Outputs may be NULL.
 //
 // Returns MSLIP_NULL_POINTER or MSLIP_BAD_WORKSPACE.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_harmonic_workspace_size(const double *workspace,
                                       size_t *harmonics,
                                       size_t *samples,
@@ -572,6 +632,8 @@ int32_t mslip_harmonic_workspace_size(const double *workspace,
 
 // Number of doubles in a workspace of elements with 1 or 2 tangential directions for H harmonics, H >= 1, more than 2H samples per
 // period, and MSLIP_UNIFORM_SAMPLING; 0 if these are not allowed or not available.
+//
+// Since 0.1.0 (interface 6).
 size_t mslip_element_workspace_length(int32_t directions,
                                       size_t harmonics,
                                       size_t samples,
@@ -583,6 +645,8 @@ size_t mslip_element_workspace_length(int32_t directions,
 //
 // Returns MSLIP_BAD_DIRECTIONS, MSLIP_BAD_RULE, MSLIP_NOT_AVAILABLE for MSLIP_EVENT_DRIVEN, MSLIP_BAD_HARMONICS,
 // MSLIP_BAD_SAMPLES, MSLIP_BAD_PERIODS, MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_element_workspace_init(int32_t directions,
                                      size_t harmonics,
                                      size_t samples,
@@ -595,6 +659,8 @@ int32_t mslip_element_workspace_init(int32_t directions,
 // initialised workspace of elements. Outputs may be NULL.
 //
 // Returns MSLIP_NULL_POINTER or MSLIP_BAD_WORKSPACE.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_element_workspace_size(const double *workspace,
                                      int32_t *directions,
                                      size_t *harmonics,
@@ -624,6 +690,8 @@ int32_t mslip_element_workspace_size(const double *workspace,
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_WORKSPACE, MSLIP_BAD_DIRECTIONS for the workspace of another number of
 // directions, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE if the normal force of a sample is negative, or
 // MSLIP_LENGTH_TOO_SHORT if the contact would be too wide for its length at a sample.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_element_harmonic_force(const struct mslip_element *element,
                                      double *workspace,
                                      const double *displacement,
@@ -644,6 +712,8 @@ int32_t mslip_element_harmonic_force(const struct mslip_element *element,
 // grossly. For displacements measured from another position, pass c0 minus the unloaded position.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_WORKSPACE or MSLIP_BAD_DISPLACEMENT.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_harmonic_force(const struct mslip_contact *contact,
                              double *workspace,
                              const double *displacement,
@@ -661,6 +731,8 @@ int32_t mslip_harmonic_force(const struct mslip_contact *contact,
 // force.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_WORKSPACE or MSLIP_BAD_DISPLACEMENT.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_harmonic_sensitivity(const struct mslip_contact *contact,
                                    double *workspace,
                                    const double *displacement,
@@ -678,6 +750,8 @@ int32_t mslip_harmonic_sensitivity(const struct mslip_contact *contact,
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_INPUT, the code of the first invalid parameter,
 // MSLIP_LENGTH_TOO_SHORT, or MSLIP_OUT_OF_RANGE; the element is unchanged then.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_element_init(const struct mslip_parameters *p,
                            int32_t directions,
                            int32_t normal_input,
@@ -689,6 +763,8 @@ int32_t mslip_element_init(const struct mslip_parameters *p,
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_INPUT, the code of the first invalid parameter,
 // or MSLIP_OUT_OF_RANGE; the element is unchanged then.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_element_init_elliptic(const struct mslip_elliptic_parameters *p,
                                     int32_t directions,
                                     int32_t normal_input,
@@ -698,6 +774,8 @@ int32_t mslip_element_init_elliptic(const struct mslip_elliptic_parameters *p,
 // functions only check a tag.
 //
 // Returns MSLIP_NULL_POINTER or MSLIP_BAD_ELEMENT.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_element_check(const struct mslip_element *element);
 
 // The normal law: normal force [N], normal stiffness [N/m] and half-width of the contact [m] at approach[n] [m]. An
@@ -705,6 +783,8 @@ int32_t mslip_element_check(const struct mslip_element *element);
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_DISPLACEMENT, or MSLIP_LENGTH_TOO_SHORT for an approach at which the
 // contact would be too wide for its length.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_normal_force(const struct mslip_element *element,
                            size_t n,
                            const double *approach,
@@ -717,6 +797,8 @@ int32_t mslip_normal_force(const struct mslip_element *element,
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_NORMAL_FORCE, or MSLIP_LENGTH_TOO_SHORT for a force under which the
 // contact would be too wide for its length.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_normal_approach(const struct mslip_element *element,
                               size_t n,
                               const double *normal_force,
@@ -732,6 +814,8 @@ int32_t mslip_normal_approach(const struct mslip_element *element,
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_DIRECTIONS for another direction, MSLIP_BAD_NORMAL_FORCE,
 // MSLIP_LENGTH_TOO_SHORT for a normal force under which the contact would be too wide for its length, MSLIP_BAD_FORCE or
 // MSLIP_FORCE_EXCEEDS_SLIP.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_element_displacement(const struct mslip_element *element,
                                    int32_t direction,
                                    size_t n,
@@ -743,12 +827,16 @@ int32_t mslip_element_displacement(const struct mslip_element *element,
 // Number of doubles in the state of an element; 0 if directions is neither 1 nor 2. For one tangential direction it has a capacity
 // of `pieces` pieces of the memory diagram, at least 4, and is never full: if the capacity is exceeded, the two adjacent pieces
 // are merged for which later forces change least. For two directions the length is fixed, and `pieces` is ignored.
+//
+// Since 0.1.0 (interface 6).
 size_t mslip_element_state_length(int32_t directions,
                                   size_t pieces);
 
 // Initialises the state of an element with 1 or 2 tangential directions: open, at zero displacement.
 //
 // Returns MSLIP_BAD_DIRECTIONS, MSLIP_NULL_POINTER or MSLIP_STATE_TOO_SHORT.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_element_state_init(int32_t directions,
                                  size_t state_length,
                                  double *state);
@@ -758,6 +846,8 @@ int32_t mslip_element_state_init(int32_t directions,
 //
 // Returns MSLIP_BAD_DIRECTIONS, also for the state of another number of directions, MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or
 // MSLIP_BAD_STATE.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_element_state_check(int32_t directions,
                                   size_t state_length,
                                   const double *state);
@@ -767,6 +857,8 @@ int32_t mslip_element_state_check(int32_t directions,
 //
 // Returns MSLIP_BAD_DIRECTIONS, also for the state of another number of directions, MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or
 // MSLIP_BAD_STATE.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_element_state_error(int32_t directions,
                                   size_t state_length,
                                   const double *state,
@@ -782,6 +874,8 @@ int32_t mslip_element_state_error(int32_t directions,
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_DIRECTIONS for the state of another number of
 // directions, MSLIP_BAD_STATE, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE, or MSLIP_LENGTH_TOO_SHORT if the contact would be
 // too wide for its length.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_element_update(const struct mslip_element *element,
                              size_t state_length,
                              const double *state_old,
@@ -797,6 +891,8 @@ int32_t mslip_element_update(const struct mslip_element *element,
 // direction the path is then evaluated with a capacity of at most 256 pieces.
 //
 // Returns the codes of mslip_element_update.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_element_path(const struct mslip_element *element,
                            size_t state_length,
                            const double *state_old,
@@ -812,6 +908,8 @@ int32_t mslip_element_path(const struct mslip_element *element,
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_NOT_AVAILABLE for two directions, MSLIP_STATE_TOO_SHORT,
 // MSLIP_BAD_DIRECTIONS for the state of two directions, MSLIP_BAD_STATE or MSLIP_BAD_POSITION.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_element_tractions(const struct mslip_element *element,
                                 size_t state_length,
                                 const double *state,
@@ -823,6 +921,8 @@ int32_t mslip_element_tractions(const struct mslip_element *element,
 // mslip_complex_stiffness for n items, one amplitude each.
 //
 // Returns MSLIP_BAD_INDEX or the codes of mslip_complex_stiffness.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_batch_complex_stiffness(size_t n,
                                       size_t n_contacts,
                                       const struct mslip_contact *contacts,
@@ -839,6 +939,8 @@ int32_t mslip_batch_complex_stiffness(size_t n,
 // dissipated one. states_new may alias states_old.
 //
 // Returns MSLIP_BAD_INDEX or the codes of mslip_masing_update.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_batch_masing_update(size_t n,
                                   size_t n_contacts,
                                   const struct mslip_contact *contacts,
@@ -857,6 +959,8 @@ int32_t mslip_batch_masing_update(size_t n,
 // dissipated one.
 //
 // Returns MSLIP_BAD_INDEX or the codes of mslip_harmonic_force.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_batch_harmonic_force(size_t n,
                                    size_t n_contacts,
                                    const struct mslip_contact *contacts,
@@ -875,6 +979,8 @@ int32_t mslip_batch_harmonic_force(size_t n,
 //
 // Returns MSLIP_BAD_INDEX, MSLIP_BAD_DIRECTIONS for elements or states of different numbers of directions, or the codes of
 // mslip_element_update.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_batch_element_update(size_t n,
                                    size_t n_elements,
                                    const struct mslip_element *elements,
@@ -894,6 +1000,8 @@ int32_t mslip_batch_element_update(size_t n,
 //
 // Returns MSLIP_BAD_INDEX or the codes of mslip_element_harmonic_force, MSLIP_BAD_DIRECTIONS for an element with another number of
 // directions than the workspace.
+//
+// Since 0.1.0 (interface 6).
 int32_t mslip_batch_element_harmonic_force(size_t n,
                                            size_t n_elements,
                                            const struct mslip_element *elements,

@@ -5,6 +5,15 @@ use std::collections::HashMap;
 /// The facts that types do not state.
 const FACTS: &str = include_str!("../interface.txt");
 
+/// The version of the library, and of the interface, since which a function exists.
+pub fn since(name: &str) -> &'static str {
+    let mut lines = FACTS.lines().filter(|line| line.split([',', ' ']).next() == Some(name));
+    lines
+        .next()
+        .and_then(|line| line.split(", ").find_map(|word| word.strip_prefix("since ")))
+        .unwrap_or("0.1.0 (interface 6)")
+}
+
 /// A C declaration: an argument, a component, or the name and result of a function.
 #[derive(Clone)]
 pub struct Declaration<'a> {

@@ -34,7 +34,14 @@ pub fn header() -> String {
     // Excluded items have left blank lines.
     let mut lines: Vec<&str> = text.lines().collect();
     lines.dedup_by(|line, before| line.is_empty() && before.is_empty());
-    lines.join("\n") + "\n"
+    lines.into_iter().map(|line| since(line) + line + "\n").collect()
+}
+
+/// The end of the comment of a function that this line declares: since which version it exists.
+fn since(line: &str) -> String {
+    let declared = line.split_once('(').filter(|_| line.starts_with(char::is_alphabetic));
+    let name = declared.and_then(|(head, _)| head.rsplit([' ', '*']).next()).filter(|name| name.starts_with("mslip_"));
+    name.map_or(String::new(), |name| format!("//\n// Since {}.\n", interface::since(name)))
 }
 
 /// The functions of the interface, in the order of the source.
