@@ -6,9 +6,11 @@ mod table;
 use crate::error::Error;
 use crate::limits::{MAX_DISPLACEMENT, check_force, in_range};
 use crate::numerics::fp_class::{abs_le, in_0_to, le};
+use crate::numerics::guard::quotient;
 use crate::numerics::quadrature::gauss_nodes;
+use crate::numerics::total::Total;
 use crate::parameters::{Common, EllipticParameters, Parameters};
-use crate::shape::{Geometry, Layer, Quantity, Shape, TINY};
+use crate::shape::{Geometry, Layer, Quantity, Shape};
 use crate::tag::LAYOUT;
 use core::array::from_fn;
 pub(crate) use table::Curvature;
@@ -197,7 +199,7 @@ impl Element {
         let smallest = if directions == Directions::Two { SMALLEST_OF_SPRINGS } else { SMALLEST_LOAD };
         self.smallest_input = smallest * if input == NormalInput::Force { normal_force } else { approach };
         self.friction_coefficient = friction_coefficient;
-        self.per_two_mu = if friction_coefficient > 0.0 { 0.5 / friction_coefficient.max(TINY) } else { 0.0 };
+        self.per_two_mu = if friction_coefficient > 0.0 { quotient(0.5, friction_coefficient) } else { 0.0 };
         self.normal_force = normal_force;
         self.half_width = shape.half_width(size);
         self.approach = approach;
@@ -311,7 +313,7 @@ impl Element {
 
     /// N, U or S of the smallest size that is distinguished.
     fn smallest(&self, quantity: Quantity) -> f64 {
-        self.smallest.get(quantity as usize).copied().unwrap_or(0.0)
+        self.smallest.at(quantity as usize)
     }
 
     /// The normal force at an approach \[m\] that [`Element::check_approach`] accepts; 0 for an approach <= 0, an open contact.
@@ -537,7 +539,7 @@ impl Element {
     pub(crate) fn potential_at_shift(&self, shift: f64) -> f64 {
         match self.load_of_shift.position(shift) {
             Some(at) => {
-                let middle = self.potential.0.get(at.index).copied().unwrap_or(0.0);
+                let middle = self.potential.0.at(at.index);
                 middle + self.load_of_shift.integral_from_middle(at)
             }
             None => self.potential_outside(shift),

@@ -40,12 +40,6 @@ impl HarmonicOutput<'_> {
     }
 }
 
-/// A value of an array; 0 outside.
-#[inline(always)]
-pub(crate) fn at(values: &[f64], index: usize) -> f64 {
-    values.get(index).copied().unwrap_or(0.0)
-}
-
 /// The largest of a function of some values, without those beyond the last block of four.
 #[inline(always)]
 pub(crate) fn largest_of(values: &[f64], of: fn(f64) -> f64) -> f64 {

@@ -4,6 +4,9 @@
 pub(crate) mod chebyshev;
 pub(crate) mod const_math;
 pub(crate) mod fp_class;
+pub(crate) mod guard;
+pub(crate) mod lanes;
 pub(crate) mod polynomial;
 pub(crate) mod quadrature;
 pub(crate) mod roots;
+pub(crate) mod total;

@@ -31,11 +31,13 @@ pub(crate) mod stick_zone;
 pub(crate) mod tractions;
 
 use crate::error::Error;
+pub(crate) use crate::numerics::guard::TINY;
+use crate::numerics::guard::quotient;
 use crate::numerics::roots::logarithmic_newton;
 use crate::parameters::Common;
 pub(crate) use layer::Layer;
 pub(crate) use rounded_flat::size_under_load;
-pub(crate) use rounded_punch::{RoundedPunch, TINY};
+pub(crate) use rounded_punch::RoundedPunch;
 use tractions::{SurfacePoint, difference_of_heights};
 
 /// A complementary pair of amounts, `consumed + remaining`. Neither is computed from the other if it is the smaller.
@@ -148,7 +150,7 @@ impl Shape {
     fn own_compliance(&self, quantity: Quantity, punch: &RoundedPunch) -> f64 {
         match quantity {
             Quantity::Load => 1.0,
-            _ if self.is_elliptic() => self.constant(quantity) / punch.leg.max(TINY),
+            _ if self.is_elliptic() => quotient(self.constant(quantity), punch.leg),
             _ => self.compliance_scale * self.log_compliance(punch.half_width, self.constant(quantity)),
         }
     }
@@ -239,7 +241,7 @@ impl Shape {
             return [leg, 2.0 / 3.0 * (leg / load) * leg];
         }
         let punch = RoundedPunch::from_load(self.flat, load);
-        [punch.leg, 0.5 / (self.load_scale * punch.psi).max(TINY)]
+        [punch.leg, quotient(0.5, self.load_scale * punch.psi)]
     }
 
     /// The size under a normal force \[N\].

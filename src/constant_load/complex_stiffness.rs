@@ -24,11 +24,11 @@ use crate::constant_load::contact::{BLOCKS_IN_SLIP, Contact};
 use crate::error::Error;
 use crate::limits::MAX_DISPLACEMENT;
 use crate::numerics::fp_class::in_0_to;
+use crate::numerics::lanes::Lanes;
 use crate::numerics::polynomial::Rows;
 use crate::numerics::quadrature::{gauss_legendre, gauss_rule};
 use crate::simd::{dispatch, plus};
 use core::f64::consts::PI;
-use core::hint::black_box;
 
 /// Complex stiffness at one displacement amplitude.
 #[derive(Debug, Clone, Copy)]
@@ -72,11 +72,11 @@ static RULE_IN_SLIP: [[[f64; 4]; 3]; BLOCKS_IN_SLIP] = {
 
 /// `sinh²(4a)` and its derivative with respect to `sinh²(a)`, from this one.
 #[inline(always)]
-fn two_doublings(mut square: f64) -> (f64, f64) {
-    let mut rate = 1.0;
+fn two_doublings<const L: usize>(mut square: Lanes<L>) -> (Lanes<L>, Lanes<L>) {
+    let mut rate = Lanes([1.0; L]);
     for _ in 0..2 {
-        rate *= 4.0 + 8.0 * square;
-        square *= 4.0 + 4.0 * square;
+        rate = rate * (4.0 + 8.0 * square);
+        square = square * (4.0 + 4.0 * square);
     }
     (square, rate)
 }
@@ -144,14 +144,8 @@ impl Contact {
                 self.weights_in_slip.iter().zip(&RULE_IN_SLIP),
                 #[inline(always)]
                 |(weights, [rho, ..])| {
-                    let [mut terms, mut rates] = [*weights; 2];
-                    // As in `integrals`.
-                    let roots = *black_box(&rho.map(|rho| (rho - rho_0).sqrt()));
-                    for k in 0..4 {
-                        terms[k] *= roots[k];
-                        rates[k] /= roots[k];
-                    }
-                    [terms, rates]
+                    let (weights, roots) = (Lanes(*weights), (Lanes(*rho) - rho_0).sqrt());
+                    [(weights * roots).0, (weights / roots).0]
                 },
             )
         })
@@ -170,41 +164,30 @@ impl Contact {
             end /= 2.0 + 2.0 * (1.0 + end).sqrt();
         }
         // x is its product with t² at first.
-        let bend = (self.relative_distance_of_zero_compliance() / (6.0 * scale * end * two_doublings(end).1)).sqrt();
+        let bend = (self.relative_distance_of_zero_compliance()
+            / (6.0 * scale * end * two_doublings(Lanes([end])).1.0[0]))
+            .sqrt();
         let largest = if bend < 0.4 { (1.0 / bend).asinh() } else { 0.0 };
         sum(
             rule.iter(),
             #[inline(always)]
             |[nodes, weights]| {
-                let (mut t, mut weights) = (*nodes, *weights);
+                let (mut t, mut weights) = (Lanes(*nodes), Lanes(*weights));
                 if bend < 0.4 {
-                    for k in 0..4 {
-                        let sinh = (largest * t[k]).sinh();
-                        weights[k] *= bend * largest * (1.0 + sinh * sinh).sqrt();
-                        t[k] = bend * sinh;
-                    }
+                    let sinh = (largest * t).map(f64::sinh);
+                    weights = weights * (bend * largest * (1.0 + sinh * sinh).sqrt());
+                    t = bend * sinh;
                 }
-                let [mut x, mut rho, mut rates] = [[0.0; 4]; 3];
-                for k in 0..4 {
-                    let fraction = 1.0 - t[k] * t[k];
-                    let (square, rate) = two_doublings(end * (fraction * fraction));
-                    let step = scale * square;
-                    let y = y_0 + step;
-                    // ρ less its smallest value.
-                    let rise = step * (y * y + y * y_0 + y_0 * y_0);
-                    let rest = rise + excess;
-                    (x[k], rho[k]) = ((top - rise).max(0.0), below + rise);
-                    weights[k] *= (x[k] * rest).sqrt() * (12.0 * y * y) * (scale * end * rate * fraction * t[k]);
-                    rates[k] = weights[k] / rest;
-                }
-                // The compiler combines values in vectors where they are stored.
-                let [x, rho, mut weights, mut rates] = *black_box(&[x, rho, weights, rates]);
-                let stiffness = self.relative_stiffnesses(&x, &rho);
-                for k in 0..4 {
-                    weights[k] *= stiffness[k];
-                    rates[k] *= stiffness[k];
-                }
-                [weights, rates]
+                let fraction = 1.0 - t * t;
+                let (square, rate) = two_doublings(end * (fraction * fraction));
+                let step = scale * square;
+                let y = y_0 + step;
+                // ρ less its smallest value.
+                let rise = step * (y * y + y * y_0 + y_0 * y_0);
+                let (rest, x, rho) = (rise + excess, (top - rise).max(0.0), below + rise);
+                let weights = weights * ((x * rest).sqrt() * (12.0 * y * y) * (scale * end * rate * fraction * t));
+                let stiffness = self.relative_stiffnesses(x, rho);
+                [(weights * stiffness).0, (weights / rest * stiffness).0]
             },
         )
     }
@@ -223,9 +206,8 @@ impl Contact {
             return Rows::default();
         }
         RULE_IN_SLIP.map(|[rho, x, weights]| {
-            let mut products = self.relative_stiffnesses(&x, &rho);
-            products.iter_mut().zip(weights).zip(x).for_each(|((product, weight), x)| *product *= weight * x.sqrt());
-            products
+            let x = Lanes(x);
+            (self.relative_stiffnesses(x, Lanes(rho)) * (Lanes(weights) * x.sqrt())).0
         })
     }
 

@@ -5,6 +5,7 @@
 
 use crate::constant_load::contact::Contact;
 use crate::constant_load::interpolant::{END_OF_PIECES, Interval, root_of};
+use crate::numerics::lanes::Lanes;
 use crate::numerics::polynomial::values_and_slopes;
 use crate::shape::Complement;
 
@@ -119,15 +120,15 @@ impl Contact {
         if !self.interpolant().is_converged() {
             return None;
         }
-        let ([force], [stiffness]) = if displacement * self.inner_scale <= 1.0 {
-            self.inner::<1, true>(&[displacement])
+        let (Lanes([force]), Lanes([stiffness])) = if displacement * self.inner_scale <= 1.0 {
+            self.inner::<1, true>(Lanes([displacement]))
         } else {
             let v = root_of(remaining * self.outer_scale);
             let interval = Interval::of(v);
             if !interval.is_covered() {
                 return None;
             }
-            self.outer::<1, true>(interval, &[v])
+            self.outer::<1, true>(interval, Lanes([v]))
         };
         Some(Response { force, stiffness })
     }
@@ -150,8 +151,8 @@ impl Contact {
                 && let Some(x) = block(displacement, next)
                 && x[0] * self.inner_scale <= 1.0
             {
-                let (force, stiffness) = self.inner::<4, STIFFNESS>(x);
-                store::<STIFFNESS>(forces, stiffnesses, next, force, stiffness);
+                let (force, stiffness) = self.inner::<4, STIFFNESS>(Lanes(*x));
+                store::<STIFFNESS>(forces, stiffnesses, next, force.0, stiffness.0);
                 next += leading(x, |x| x * self.inner_scale <= 1.0);
             }
             if let (Some(roots), Some(displacement)) = (roots.get_mut(next..), displacement.get(next..)) {
@@ -171,8 +172,8 @@ impl Contact {
                 if !interval.is_covered() {
                     break;
                 }
-                let (force, stiffness) = self.outer::<4, STIFFNESS>(interval, v);
-                store::<STIFFNESS>(forces, stiffnesses, next, force, stiffness);
+                let (force, stiffness) = self.outer::<4, STIFFNESS>(interval, Lanes(*v));
+                store::<STIFFNESS>(forces, stiffnesses, next, force.0, stiffness.0);
                 next += leading(v, |v| Interval::of(v) == interval);
             }
         }
@@ -184,62 +185,42 @@ impl Contact {
     /// Tangent stiffnesses over the initial one, for integrals, at four rising x and remaining ρ = 1 - x over the displacement of gross
     /// slip: at once if all are on one polynomial of the force or beyond all of them.
     #[inline(always)]
-    pub(crate) fn relative_stiffnesses(&self, x: &[f64; 4], rho: &[f64; 4]) -> [f64; 4] {
-        let (per_initial, slip) = (1.0 / self.initial_stiffness, self.slip_displacement);
-        let [mut displacement, mut remaining, mut roots] = [[0.0; 4]; 3];
-        for k in 0..4 {
-            displacement[k] = x[k] * slip;
-            remaining[k] = (rho[k] * slip) * self.outer_scale;
-        }
+    pub(crate) fn relative_stiffnesses(&self, x: Lanes<4>, rho: Lanes<4>) -> Lanes<4> {
+        let slip = self.slip_displacement;
+        let (displacement, remaining) = (x * slip, rho * slip * self.outer_scale);
         let mut stiffnesses = None;
         if self.interpolant().is_converged() {
-            if remaining[0] < END_OF_PIECES {
-                stiffnesses =
-                    Some(self.interpolant().last_slopes(&remaining).map(|slope| slope * self.outer_stiffness()));
-            } else if displacement[3] * self.inner_scale <= 1.0 {
-                stiffnesses = Some(self.inner::<4, true>(&displacement).1);
+            if remaining.0[0] < END_OF_PIECES {
+                stiffnesses = Some(Lanes(self.interpolant().last_slopes(&remaining.0)) * self.outer_stiffness());
+            } else if displacement.0[3] * self.inner_scale <= 1.0 {
+                stiffnesses = Some(self.inner::<4, true>(displacement).1);
             } else {
-                for k in 0..4 {
-                    roots[k] = root_of((slip - displacement[k]) * self.outer_scale);
-                }
-                let interval = Interval::of(roots[0]);
-                let is_one = displacement[0] * self.inner_scale > 1.0 && Interval::of(roots[3]) == interval;
+                let roots = ((slip - displacement) * self.outer_scale).map(root_of);
+                let interval = Interval::of(roots.0[0]);
+                let is_one = displacement.0[0] * self.inner_scale > 1.0 && Interval::of(roots.0[3]) == interval;
                 if is_one && interval.is_covered() {
-                    stiffnesses = Some(self.outer::<4, true>(interval, &roots).1);
+                    stiffnesses = Some(self.outer::<4, true>(interval, roots).1);
                 }
             }
         }
-        let mut values = stiffnesses.unwrap_or_else(|| self.relative_stiffnesses_one_by_one(x, rho));
-        for value in &mut values {
-            *value *= per_initial;
-        }
-        values
+        stiffnesses.unwrap_or_else(|| Lanes(self.relative_stiffnesses_one_by_one(&x.0, &rho.0)))
+            * (1.0 / self.initial_stiffness)
     }
 
     /// Forces and, if requested, stiffnesses at displacements in the range of the first polynomial.
     #[inline(always)]
-    fn inner<const L: usize, const STIFFNESS: bool>(&self, displacement: &[f64; L]) -> ([f64; L], [f64; L]) {
-        let mut y = [0.0; L];
-        for k in 0..L {
-            y[k] = displacement[k] * self.inner_scale;
-        }
-        let (mut forces, mut stiffnesses) = values_and_slopes::<_, L, STIFFNESS>(self.interpolant().secant(), &y);
-        for k in 0..L {
-            stiffnesses[k] = if STIFFNESS { (forces[k] + stiffnesses[k] * y[k]) * self.initial_stiffness } else { 0.0 };
-            forces[k] *= self.initial_stiffness * displacement[k];
-        }
-        (forces, stiffnesses)
+    fn inner<const L: usize, const STIFFNESS: bool>(&self, displacement: Lanes<L>) -> (Lanes<L>, Lanes<L>) {
+        let y = displacement * self.inner_scale;
+        let (secant, slope) = values_and_slopes::<_, L, STIFFNESS>(self.interpolant().secant(), y);
+        let stiffness = if STIFFNESS { (secant + slope * y) * self.initial_stiffness } else { slope };
+        (secant * (self.initial_stiffness * displacement), stiffness)
     }
 
-    /// The same at places v of one interval.
+    /// Forces and, if requested, stiffnesses at places v of one interval.
     #[inline(always)]
-    fn outer<const L: usize, const STIFFNESS: bool>(&self, interval: Interval, v: &[f64; L]) -> ([f64; L], [f64; L]) {
-        let (mut forces, mut stiffnesses) = self.interpolant().complements_and_slopes::<L, STIFFNESS>(interval, v);
-        for k in 0..L {
-            forces[k] = self.slip_force - self.slip_force * forces[k];
-            stiffnesses[k] *= self.outer_stiffness();
-        }
-        (forces, stiffnesses)
+    fn outer<const L: usize, const STIFFNESS: bool>(&self, interval: Interval, v: Lanes<L>) -> (Lanes<L>, Lanes<L>) {
+        let (remaining, slope) = self.interpolant().complements_and_slopes::<L, STIFFNESS>(interval, v);
+        (self.slip_force - self.slip_force * remaining, slope * self.outer_stiffness())
     }
 
     #[inline(never)]
@@ -264,13 +245,14 @@ impl Contact {
             return None;
         }
         if displacement.consumed * self.inner_scale <= 1.0 {
-            let ([force], [stiffness]) = self.inner::<1, true>(&[displacement.consumed]);
+            let (Lanes([force]), Lanes([stiffness])) = self.inner::<1, true>(Lanes([displacement.consumed]));
             let consumed = force / self.slip_force.max(f64::MIN_POSITIVE);
             return Some((Complement { consumed, remaining: 1.0 - consumed }, stiffness));
         }
         let v = root_of(displacement.remaining * self.outer_scale);
         let interval = Interval::of(v);
-        let ([remaining], [slope]) = self.interpolant().complements_and_slopes::<1, true>(interval, &[v]);
+        let (Lanes([remaining]), Lanes([slope])) =
+            self.interpolant().complements_and_slopes::<1, true>(interval, Lanes([v]));
         interval
             .is_covered()
             .then_some((Complement { consumed: 1.0 - remaining, remaining }, self.outer_stiffness() * slope))

@@ -17,8 +17,9 @@
 
 use crate::numerics::chebyshev::{Interpolant, Polynomial, TERMS, Tangent, powers};
 use crate::numerics::const_math::tabulate;
+use crate::numerics::guard::{TINY, root};
+use crate::numerics::lanes::Lanes;
 use crate::numerics::polynomial::{rows, sum, value_and_slope, values_and_slopes};
-use crate::shape::rounded_punch::TINY;
 use crate::shape::stick_zone::{LoadPoint, StickZones};
 
 /// Fraction of x_s that the first polynomial covers.
@@ -145,19 +146,12 @@ impl ForceInterpolant {
     pub fn complements_and_slopes<const L: usize, const SLOPES: bool>(
         &self,
         Interval(exponent): Interval,
-        root: &[f64; L],
-    ) -> ([f64; L], [f64; L]) {
+        root: Lanes<L>,
+    ) -> (Lanes<L>, Lanes<L>) {
         let scale = power_of(exponent);
-        let mut z = [0.0; L];
-        for k in 0..L {
-            z[k] = 4.0 * (scale * root[k]) - 3.0;
-        }
         let piece = self.pieces.get((1022 - exponent) as usize).unwrap_or(&self.inner);
-        let (remaining, mut slopes) = values_and_slopes::<_, L, SLOPES>(piece, &z);
-        for k in 0..L {
-            slopes[k] = if SLOPES { 2.0 * scale * slopes[k] / root[k] } else { 0.0 };
-        }
-        (remaining, slopes)
+        let (remaining, slope) = values_and_slopes::<_, L, SLOPES>(piece, 4.0 * (scale * root) - 3.0);
+        (remaining, if SLOPES { 2.0 * scale * slope / root } else { slope })
     }
 
     /// The derivatives at places below the last interval of √ρ, for integrals, if converged.
@@ -215,7 +209,7 @@ impl DyadicPlace {
 
 #[inline(always)]
 fn eighth_root(x: f64) -> f64 {
-    x.max(0.0).sqrt().sqrt().sqrt()
+    root(x).sqrt().sqrt()
 }
 
 /// The root of ρ, at least a positive one.

@@ -12,6 +12,7 @@ use crate::error::Error;
 use crate::law::{Law, PathOutput, Requested, StepResult};
 use crate::limits::check_displacement;
 use crate::numerics::fp_class::is_finite;
+use crate::numerics::total::Total;
 use crate::simd::dispatch;
 use crate::tag::Kind;
 
@@ -143,9 +144,7 @@ impl StepRecord {
             if let Some(merge) = self.merge {
                 depth = merge.apply(self.initial.offset, reversals) + 1;
             }
-            if let Some(place) = reversals.get_mut(depth - 1) {
-                *place = [self.start.displacement, self.start.force, 0.0];
-            }
+            reversals.set(depth - 1, [self.start.displacement, self.start.force, 0.0]);
         }
         state::write_header(state, depth, self.initial, self.end);
     }
@@ -227,7 +226,7 @@ impl Law for ConstantLoad {
     fn path_in_copy(contact: &Contact, state: &[f64], path: &[f64], output: PathOutput<Self>) {
         let mut copy = [0.0; state::state_length(REVERSALS_OF_COPY)];
         let length = state.len().min(copy.len());
-        let copy = copy.get_mut(..length).unwrap_or(&mut []);
+        let copy = copy.part_mut(..length);
         state::copy(contact, state, copy);
         Self::path(contact, copy, path, output);
     }

@@ -11,6 +11,7 @@
 //! the force of the branch that leaves this reversal; it is 0 unless the stack was full (see [`merge`]).
 
 use crate::constant_load::contact::Contact;
+use crate::numerics::total::Total;
 
 /// A point of a load history.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -273,9 +274,7 @@ pub(crate) fn push(
         depth = merge.apply(offset, reversals);
         shift = merge.shift;
     }
-    if let Some(place) = reversals.get_mut(depth) {
-        *place = [newest.displacement, newest.force + shift, 0.0];
-    }
+    reversals.set(depth, [newest.displacement, newest.force + shift, 0.0]);
     (depth + 1, shift)
 }
 
@@ -367,9 +366,7 @@ impl Merge {
 fn remove(reversals: &mut [Reversal], from: usize, count: usize) -> usize {
     let mut to = from;
     while let Some(&reversal) = reversals.get(to + count) {
-        if let Some(place) = reversals.get_mut(to) {
-            *place = reversal;
-        }
+        reversals.set(to, reversal);
         to += 1;
     }
     to

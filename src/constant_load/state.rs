@@ -13,6 +13,7 @@ use crate::constant_load::contact::Contact;
 use crate::constant_load::memory::{InitialCurve, Memory, Point, Reversal, push};
 use crate::error::Error;
 use crate::law::Law;
+use crate::numerics::total::Total;
 use crate::tag::Kind;
 
 pub(crate) const HEADER: usize = 5;
@@ -41,7 +42,7 @@ pub(crate) fn memory(state: &[f64]) -> Memory<'_> {
     };
     let used = PER_REVERSAL * Kind::State.count(tag).unwrap_or(0);
     let (initial, now) = (InitialCurve { offset, slip_direction }, Point { displacement, force });
-    Memory { initial, now, reversals: reversals.get(..used).unwrap_or(&[]).as_chunks().0 }
+    Memory { initial, now, reversals: reversals.part(..used).as_chunks().0 }
 }
 
 /// Reads a state.
@@ -70,7 +71,7 @@ pub(crate) fn copy(contact: &Contact, from: &[f64], to: &mut [f64]) {
 /// The reversals of a state, used or not.
 #[inline(always)]
 pub(crate) fn reversals_mut(state: &mut [f64]) -> &mut [Reversal] {
-    state.get_mut(HEADER..).unwrap_or(&mut []).as_chunks_mut().0
+    state.part_mut(HEADER..).as_chunks_mut().0
 }
 
 /// Writes the header.

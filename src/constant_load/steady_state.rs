@@ -4,6 +4,7 @@ use crate::constant_load::contact::Contact;
 use crate::constant_load::energy::Dissipation;
 use crate::constant_load::evaluator::Response;
 use crate::constant_load::memory::{Branch, InitialCurve, Memory, Point, Reversal, push};
+use crate::numerics::total::Total;
 use crate::parameters::{Sensitivity, times};
 
 /// A contact with friction under a constant normal force in the steady state of a periodic displacement.
@@ -32,7 +33,7 @@ impl<'c, 's> SteadyState<'c, 's> {
 
     /// The memory with the present point at `now`.
     fn memory(&self, now: Point) -> Memory<'_> {
-        Memory { initial: self.initial, now, reversals: self.reversals.get(..self.depth).unwrap_or(&[]) }
+        Memory { initial: self.initial, now, reversals: self.reversals.part(..self.depth) }
     }
 
     /// Enters the steady state, with an empty stack, at the displacement of largest magnitude.
@@ -64,7 +65,7 @@ impl<'c, 's> SteadyState<'c, 's> {
     /// point is now a reversal on the stack.
     pub fn advance(&mut self, from: Point, displacement: f64) -> bool {
         let energy = &mut self.energy;
-        let reversals = self.reversals.get(..self.depth).unwrap_or(&[]);
+        let reversals = self.reversals.part(..self.depth);
         let memory = Memory { initial: self.initial, now: from, reversals };
         let transition = memory.locate(self.contact, displacement, |segment| {
             if let Some(energy) = energy {

@@ -14,6 +14,7 @@ use crate::error::Error;
 use crate::fourier::workspace::Layout;
 use crate::law::{Law, PathOutput, Requested};
 use crate::limits::check_coefficients;
+use crate::numerics::total::Total;
 use core::{ptr, slice};
 use libc::size_t;
 
@@ -223,7 +224,7 @@ unsafe fn update<L: Law>(
             prefetch::<1>(states_old.wrapping_add((i + CHECKED_AHEAD) * state_length));
             let displacement = displacement.get(i).ok_or(Error::BadArraySize)?;
             // A state of no length has no tag.
-            let tag = states.get(i * state_length).copied().unwrap_or(0.0);
+            let tag = states.at(i * state_length);
             L::check_state(tag, state_length)?;
             L::check_step(law, displacement)
         })?;

@@ -10,6 +10,7 @@
 use super::angle;
 use super::workspace::{Blocks, Parts, padded};
 use crate::error::Error;
+use crate::numerics::total::Total;
 use crate::simd::dispatch;
 use core::hint::black_box;
 
@@ -135,7 +136,7 @@ impl<'a> FoldedFourier<'a> {
         if let Some((period, next)) = values.split_at_mut_checked(samples) {
             period.iter_mut().zip(next).take(first).for_each(|(value, next)| *value = *next);
         }
-        self.sum_half_wave(first, half_wave, values.get_mut(..sample_length(samples)).unwrap_or(&mut []), sums);
+        self.sum_half_wave(first, half_wave, values.part_mut(..sample_length(samples)), sums);
     }
 
     /// Sums of a function. Under half-wave symmetry half a period of samples from `first` on is evaluated, after which the function
@@ -200,8 +201,8 @@ impl<'a> FoldedFourier<'a> {
     #[inline(always)]
     fn fold(&mut self, values: &[f64]) {
         let (samples, half) = (self.samples, self.samples / 2);
-        let upwards = |from: usize| values.get(from..).unwrap_or(&[]).as_chunks::<4>().0;
-        let downwards = |from: usize| values.get(..=from).unwrap_or(&[]).as_rchunks::<4>().1;
+        let upwards = |from: usize| values.part(from..).as_chunks::<4>().0;
+        let downwards = |from: usize| values.part(..=from).as_rchunks::<4>().1;
         let [here, opposite] = [upwards(0), upwards(half)];
         let [mirrored, mirrored_opposite] = [downwards(samples), downwards(half)];
         for (block, (weights, folded)) in self.weights.iter().zip(self.folded.iter_mut()).enumerate() {

@@ -6,6 +6,8 @@
 use super::angle;
 use super::workspace::{Blocks, Parts};
 use crate::error::Error;
+use crate::numerics::lanes::Lanes;
+use crate::numerics::total::Total;
 use core::f64::consts::PI;
 
 /// Blocks of four in a row over the coefficients 1, cos t, sin t, cos 2t, ...
@@ -21,17 +23,16 @@ pub(crate) type Strip<const N: usize> = [[f64; 4]; N];
 #[inline(always)]
 pub(crate) fn add_scaled<const N: usize>(target: &mut Strip<N>, scale: f64, row: &Strip<N>) {
     for block in 0..N {
-        for k in 0..4 {
-            target[block][k] += scale * row[block][k];
-        }
+        target[block] = (Lanes(target[block]) + scale * Lanes(row[block])).0;
     }
 }
 
 #[inline(always)]
 pub(crate) fn scaled<const N: usize>(scale: f64, row: &Strip<N>) -> Strip<N> {
-    let mut scaled = *row;
-    scaled.as_flattened_mut().iter_mut().for_each(|value| *value *= scale);
-    scaled
+    row.map(
+        #[inline(always)]
+        |block| (scale * Lanes(block)).0,
+    )
 }
 
 /// Tables of φ at all samples, and of the antiderivatives A, which are 0 for the constant and otherwise
@@ -95,8 +96,8 @@ impl<'a> Rows<'a> {
         let range = strip * self.samples..(strip + 1) * self.samples;
         RowStrips {
             is_first: strip == 0,
-            phi: self.phi.as_chunks().0.get(range.clone()).unwrap_or(&[]),
-            antiderivatives: self.antiderivatives.as_chunks().0.get(range).unwrap_or(&[]),
+            phi: self.phi.as_chunks().0.part(range.clone()),
+            antiderivatives: self.antiderivatives.as_chunks().0.part(range),
         }
     }
 }
@@ -105,13 +106,10 @@ impl<const N: usize> RowStrips<'_, N> {
     /// The sum of φ over `count` samples, from sample `from` to the one before `to`.
     #[inline(always)]
     pub fn sum_between(&self, from: usize, to: usize, count: usize) -> Strip<N> {
-        let (Some(last), Some(first)) = (self.antiderivatives.get(to), self.antiderivatives.get(from)) else {
-            return [[0.0; 4]; N];
-        };
-        let mut sum = *last;
-        add_scaled(&mut sum, -1.0, first);
-        if let (true, Some([constant, ..])) = (self.is_first, sum.first_mut()) {
-            *constant = count as f64;
+        let mut sum = self.antiderivatives.at(to);
+        add_scaled(&mut sum, -1.0, &self.antiderivatives.at(from));
+        if self.is_first {
+            sum.as_flattened_mut().set(0, count as f64);
         }
         sum
     }
@@ -153,10 +151,8 @@ impl<const N: usize, const D: usize> Terms<'_, N, D> {
     /// Appends a term.
     #[inline(always)]
     pub fn push(&mut self, y: [Strip<N>; D], phi: &Strip<N>) {
-        if let (Some(y_place), Some(phi_place)) = (self.y.get_mut(*self.count), self.phi.get_mut(*self.count)) {
-            (*y_place, *phi_place) = (y, *phi);
-            *self.count += 1;
-        }
+        self.y.set(*self.count, y);
+        *self.count += usize::from(self.phi.set(*self.count, *phi));
     }
 }
 
@@ -185,8 +181,8 @@ impl<'a> OuterProducts<'a> {
         self.count = 0;
         Terms {
             count: &mut self.count,
-            y: self.y.as_chunks_mut::<N>().0.as_chunks_mut().0.get_mut(range.clone()).unwrap_or(&mut []),
-            phi: self.phi.as_chunks_mut().0.get_mut(range).unwrap_or(&mut []),
+            y: self.y.as_chunks_mut::<N>().0.as_chunks_mut().0.part_mut(range.clone()),
+            phi: self.phi.as_chunks_mut().0.part_mut(range),
         }
     }
 
@@ -202,23 +198,19 @@ impl<'a> OuterProducts<'a> {
         let (strips, of_each) = (self.strips::<N>(), self.of_each.max(1));
         let terms = |strip: usize| strip * self.capacity..strip * self.capacity + self.count;
         for (strip, columns) in products.as_chunks_mut::<N>().0.chunks_mut((4 * N * strips).max(1)).enumerate() {
-            let phi = phi_rows.get(terms(strip)).unwrap_or(&[]);
+            let phi = phi_rows.part(terms(strip));
             for row_strip in 0..strips {
                 let terms = terms(row_strip);
-                let y_rows = y_rows.get(of_each * terms.start..of_each * terms.end).unwrap_or(&[]);
+                let y_rows = y_rows.part(of_each * terms.start..of_each * terms.end);
                 for pair in 0..2 * N {
                     let (mut one, mut two) = ([[0.0; 4]; N], [[0.0; 4]; N]);
                     for (y, phi) in y_rows.chunks_exact(of_each).zip(phi) {
-                        let Some(row) = y.get(index) else { break };
-                        let phi = phi.as_flattened();
-                        add_scaled(&mut one, phi[2 * pair], row);
-                        add_scaled(&mut two, phi[2 * pair + 1], row);
+                        let (row, phi) = (y.at(index), phi.as_flattened());
+                        add_scaled(&mut one, phi[2 * pair], &row);
+                        add_scaled(&mut two, phi[2 * pair + 1], &row);
                     }
-                    for (column, sums) in [(2 * pair, one), (2 * pair + 1, two)] {
-                        if let Some(place) = columns.get_mut(column * strips + row_strip) {
-                            *place = sums;
-                        }
-                    }
+                    columns.set(2 * pair * strips + row_strip, one);
+                    columns.set((2 * pair + 1) * strips + row_strip, two);
                 }
             }
         }

@@ -12,6 +12,7 @@
 use super::rows::{OuterProducts, row_blocks};
 use super::workspace::{Blocks, Parts};
 use crate::error::Error;
+use crate::numerics::total::Total;
 use crate::simd::{dispatch, plus};
 
 #[derive(Debug)]
@@ -63,14 +64,13 @@ impl<'a> Assembly<'a> {
     pub fn write_sums(&mut self, columns: &mut [f64], stride: usize, offset: usize) {
         dispatch!({
             let length = 2 * self.harmonics + 1;
-            let columns = columns
-                .chunks_exact_mut(stride.max(1))
-                .map(|column| column.get_mut(offset..offset + length).unwrap_or(&mut []));
+            let columns =
+                columns.chunks_exact_mut(stride.max(1)).map(|column| column.part_mut(offset..offset + length));
             self.extend();
             let harmonics = self.harmonics;
             for (index, column) in columns.enumerate() {
                 let (order, is_sine) = (index.div_ceil(2), index % 2 == 0 && index > 0);
-                let from = |order: usize| self.pairs.get(order..).unwrap_or(&[]);
+                let from = |order: usize| self.pairs.part(order..);
                 let Some((constant, rows)) = column.split_first_mut() else { continue };
                 let [cosine, sine] = from(order + harmonics).first().copied().unwrap_or_default();
                 *constant = if is_sine { sine } else { cosine };
@@ -110,7 +110,7 @@ impl<'a> Assembly<'a> {
     #[inline(always)]
     fn products_kernel(&mut self, symmetry: Option<f64>, columns: &mut [f64], stride: usize) {
         let rows = 2 * self.harmonics + 1;
-        let columns = columns.chunks_exact_mut(stride.max(1)).map(|column| column.get_mut(..rows).unwrap_or(&mut []));
+        let columns = columns.chunks_exact_mut(stride.max(1)).map(|column| column.part_mut(..rows));
         let weight = self.weight;
         let length = row_blocks(self.harmonics).max(1);
         for (c, column) in columns.enumerate() {

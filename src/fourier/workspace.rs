@@ -214,6 +214,13 @@ macro_rules! record {
         // SAFETY: the fields are records whose size is a multiple of their alignment, that of doubles.
         #[allow(unsafe_code)]
         unsafe impl $crate::fourier::workspace::Record for $name where $($type: $crate::fourier::workspace::Record),+ {}
+
+        impl $crate::numerics::total::Zero for $name {
+            #[inline(always)]
+            fn zero() -> Self {
+                $name { $($field: $crate::numerics::total::Zero::zero()),+ }
+            }
+        }
     };
 }
 

@@ -2,6 +2,7 @@
 
 use super::const_math::{cosine, tabulate};
 use crate::numerics::polynomial::Rows;
+use crate::numerics::total::Total;
 
 /// Number of coefficients of a polynomial, and largest number of interpolation points.
 pub(crate) const TERMS: usize = 20;
@@ -179,6 +180,6 @@ pub(crate) fn powers<const R: usize>(series: &[f64]) -> Rows<R> {
 fn add_powers(powers: &mut [f64], series: &[f64]) {
     let size = series.iter().fold(0.0, |size: f64, term| size.max(term.abs()));
     let used = series.iter().rposition(|term| term.abs() > f64::EPSILON * size).map_or(0, |last| last + 1);
-    let kept = series.get(..used.min(powers.len())).unwrap_or(&[]);
+    let kept = series.part(..used.min(powers.len()));
     add_triangle(powers, kept, AROUND_MIDDLE.as_flattened(), AROUND_MIDDLE.len());
 }

@@ -1,6 +1,7 @@
 //! Polynomials evaluated by four interleaved Horner schemes, two vectors of two, to shorten the chain of dependent operations.
 
 use super::const_math::tabulate;
+use super::lanes::Lanes;
 use wide::f64x2;
 
 /// Coefficients of x⁰, x¹, ... in rows of four.
@@ -53,41 +54,33 @@ pub(crate) fn value_and_slope<const R: usize>(rows: &Rows<R>, x: f64) -> (f64, f
 #[inline(always)]
 pub(crate) fn values_and_slopes<const R: usize, const L: usize, const SLOPES: bool>(
     rows: &Rows<R>,
-    x: &[f64; L],
-) -> ([f64; L], [f64; L]) {
+    x: Lanes<L>,
+) -> (Lanes<L>, Lanes<L>) {
+    let zero = Lanes([0.0; L]);
     if L == 1 {
-        let (value, slope) = value_and_slope(rows, x[0]);
-        return ([value; L], [slope; L]);
+        let (value, slope) = value_and_slope(rows, x.0[0]);
+        return (Lanes([value; L]), Lanes([slope; L]));
     }
-    let (mut square, mut step) = ([0.0; L], [0.0; L]);
-    for k in 0..L {
-        square[k] = x[k] * x[k];
-        step[k] = square[k] * square[k];
-    }
-    // Sums of every fourth power, and their derivatives by x⁴, at the places.
-    let (mut sums, mut slopes) = ([[0.0; L]; 4], [[0.0; L]; 4]);
+    let square = x * x;
+    let step = square * square;
+    // Sums of every fourth power, and their derivatives by x⁴.
+    let (mut sums, mut slopes) = ([zero; 4], [zero; 4]);
     for (n, row) in rows.iter().rev().enumerate() {
         for c in 0..4 {
-            for k in 0..L {
-                if SLOPES && n > 0 {
-                    slopes[c][k] = if n > 1 { slopes[c][k] * step[k] + sums[c][k] } else { sums[c][k] };
-                }
-                sums[c][k] = if n > 0 { sums[c][k] * step[k] + row[c] } else { row[c] };
+            if SLOPES && n > 0 {
+                slopes[c] = if n > 1 { slopes[c] * step + sums[c] } else { sums[c] };
             }
+            sums[c] = if n > 0 { sums[c] * step + row[c] } else { Lanes([row[c]; L]) };
         }
     }
-    let (mut values, mut derivatives) = ([0.0; L], [0.0; L]);
-    for k in 0..L {
-        let (even, odd) = (sums[0][k] + sums[2][k] * square[k], sums[1][k] + sums[3][k] * square[k]);
-        values[k] = even + odd * x[k];
-        if SLOPES {
-            let (twice, cube) = (2.0 * x[k], 4.0 * (square[k] * x[k]));
-            let even_rate = sums[2][k] * twice + (slopes[0][k] + slopes[2][k] * square[k]) * cube;
-            let odd_rate = sums[3][k] * twice + (slopes[1][k] + slopes[3][k] * square[k]) * cube;
-            derivatives[k] = odd + (even_rate + odd_rate * x[k]);
-        }
+    let value = (sums[0] + sums[2] * square) + (sums[1] + sums[3] * square) * x;
+    if !SLOPES {
+        return (value, zero);
     }
-    (values, derivatives)
+    let (twice, cube) = (2.0 * x, 4.0 * (square * x));
+    let even_rate = sums[2] * twice + (slopes[0] + slopes[2] * square) * cube;
+    let odd_rate = sums[3] * twice + (slopes[1] + slopes[3] * square) * cube;
+    (value, (sums[1] + sums[3] * square) + (even_rate + odd_rate * x))
 }
 
 /// Number of rows, at most `all`, after which a series with coefficients near 1 is converged to double precision at x.

@@ -12,6 +12,7 @@
 //! This covers a load that rises, falls or stays, slip of either direction, and its erasure by a falling load.
 
 use crate::element::{Element, Normal};
+use crate::numerics::total::Total;
 
 /// A knot of the diagram.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -244,7 +245,7 @@ pub(crate) struct Polygon<'a> {
 impl Diagram for Polygon<'_> {
     #[inline(always)]
     fn knots(&self) -> &[[f64; 4]] {
-        self.knots.get(..self.used).unwrap_or(&[])
+        self.knots.part(..self.used)
     }
 
     #[inline(always)]
@@ -311,7 +312,7 @@ impl Polygon<'_> {
         if removed == 0 {
             return 0.0;
         }
-        let outer = self.knots.get_mut(removed..self.used).unwrap_or(&mut []);
+        let outer = self.knots.part_mut(removed..self.used);
         for index in 1..outer.len() {
             if let Some(&[xi, eta, load, force]) = outer.get(index)
                 && let Some(place) = outer.get_mut(index - 1)

@@ -10,6 +10,7 @@ use crate::error::Error;
 use crate::law::{Law, PathOutput, Requested};
 use crate::limits::check_displacement;
 use crate::numerics::fp_class::is_finite;
+use crate::numerics::total::Total;
 use crate::one_direction::diagram::Polygon;
 use crate::one_direction::step::{Header, step};
 use crate::one_direction::{OneDirection, Step};
@@ -104,7 +105,7 @@ impl Law for OneDirection {
     }
 
     fn force_error(state: &[f64]) -> f64 {
-        state.get(ERROR).copied().unwrap_or(0.0)
+        state.at(ERROR)
     }
 
     #[inline(always)]
@@ -137,7 +138,7 @@ impl Law for OneDirection {
     /// The copy is as long, but for at most 256 pieces.
     fn path_in_copy(element: &Element, state: &[f64], path: &[[f64; 2]], output: PathOutput<Self>) {
         let mut buffer = [0.0; COPY_LENGTH];
-        let copied = buffer.get_mut(..state.len().min(COPY_LENGTH)).unwrap_or(&mut []);
+        let copied = buffer.part_mut(..state.len().min(COPY_LENGTH));
         copy(element, state, copied);
         Self::path(element, copied, path, output);
     }

@@ -19,8 +19,9 @@
 
 use crate::error::Error;
 use crate::limits::in_range;
+use crate::numerics::guard::quotient;
 use crate::parameters::{Common, EllipticParameters, Pair, positive};
-use crate::shape::{Geometry, Layer, RoundedPunch, Shape, TINY};
+use crate::shape::{Geometry, Layer, RoundedPunch, Shape};
 use core::f64::consts::{FRAC_PI_2, PI};
 
 impl Geometry for EllipticParameters {
@@ -91,7 +92,7 @@ fn cerruti_integrals(along: f64, across: f64) -> (f64, f64) {
         geometric = (mean * geometric).sqrt();
         mean = next;
         let next_half = half * half / (2.0 * (mean + geometric));
-        square *= (next_half / half.max(TINY)) * (next_half / half.max(TINY));
+        square *= quotient(next_half, half) * quotient(next_half, half);
         half = next_half;
         power *= 2.0;
         if square <= 1e-18 {

@@ -15,9 +15,10 @@
 
 use crate::error::Error;
 use crate::limits::in_range;
+use crate::numerics::guard::{TINY, quotient};
 use crate::parameters;
 use crate::shape::series::{ORDER, Series};
-use crate::shape::{Complement, Quantity, TINY};
+use crate::shape::{Complement, Quantity};
 
 /// The layer of a contact, in absolute terms.
 #[repr(C)]
@@ -86,7 +87,7 @@ impl Layer {
     pub fn extent(&self, load: f64) -> f64 {
         let x = self.stiffening * load;
         // The next term of the series is x²/3.
-        if x < 1e-8 { load * (1.0 - 0.5 * x) } else { x.ln_1p() / self.stiffening.max(TINY) }
+        if x < 1e-8 { load * (1.0 - 0.5 * x) } else { quotient(x.ln_1p(), self.stiffening) }
     }
 
     /// The load at which [`Layer::extent`] has a value, at most a value of the size of the largest loads.

@@ -22,14 +22,12 @@
 //! as ln c is that of the others. With `ψ = 3 leg/4` the load of both has the derivative `dg/d leg = 4 leg ψ`.
 
 use crate::numerics::const_math::tabulate;
+use crate::numerics::guard::{TINY, quotient};
 use crate::numerics::polynomial::{self, Rows, rows};
 use core::f64::consts::PI;
 
 /// Terms of the series; the first omitted term is below 3⁻³⁶ of the sum.
 const TERMS: usize = 36;
-
-/// Lower bound of a divisor or of the argument of a logarithm whose result is not used.
-pub(crate) const TINY: f64 = 1e-300;
 
 type Table = Rows<{ TERMS / 4 }>;
 
@@ -125,7 +123,7 @@ impl RoundedPunch {
 
     /// t = tan²(ψ/2) if the series apply.
     fn series_argument(&self) -> Option<f64> {
-        let root = self.leg / (self.flat + self.half_width).max(TINY);
+        let root = quotient(self.leg, self.flat + self.half_width);
         (self.leg * self.leg <= 3.0 * self.flat * self.flat).then_some(root * root)
     }
 
@@ -139,7 +137,7 @@ impl RoundedPunch {
         let (a, leg, c) = (self.flat, self.leg, self.half_width);
         match self.series_argument() {
             _ if self.is_elliptic() => leg * leg * leg,
-            Some(t) => 8.0 * leg * leg * (leg / (a + c).max(TINY)) * sum(&LOAD, t),
+            Some(t) => 8.0 * leg * leg * quotient(leg, a + c) * sum(&LOAD, t),
             None => 2.0 * (leg * leg * self.psi - a * self.leg_minus_arc()),
         }
     }
@@ -153,7 +151,7 @@ impl RoundedPunch {
     #[inline(always)]
     pub fn decrease(&self) -> [f64; 2] {
         if self.is_elliptic() {
-            let compliance = 1.0 / self.leg.max(TINY);
+            let compliance = quotient(1.0, self.leg);
             return [compliance, -compliance];
         }
         let share = self.leg * self.leg / (self.half_width * self.half_width).max(TINY);
@@ -164,9 +162,9 @@ impl RoundedPunch {
     pub fn beta(&self, load: f64) -> f64 {
         let (a, leg) = (self.flat, self.leg);
         match self.series_argument() {
-            _ if self.is_elliptic() => 0.5 / leg.max(TINY),
+            _ if self.is_elliptic() => quotient(0.5, leg),
             Some(t) => t * sum(&BETA, t),
-            None => (leg * leg * self.psi - 3.0 * a * self.leg_minus_arc()) / load.max(TINY),
+            None => quotient(leg * leg * self.psi - 3.0 * a * self.leg_minus_arc(), load),
         }
     }
 
@@ -174,7 +172,7 @@ impl RoundedPunch {
     pub fn gamma(&self, load: f64) -> f64 {
         let (a, leg) = (self.flat, self.leg);
         match self.series_argument() {
-            _ if self.is_elliptic() => 0.2 / leg.max(TINY),
+            _ if self.is_elliptic() => quotient(0.2, leg),
             Some(t) => t * sum(&GAMMA, t),
             None => {
                 let c2 = (a * a + leg * leg).max(TINY);
@@ -193,7 +191,7 @@ impl RoundedPunch {
         let mut now = RoundedPunch::new(flat, RoundedPunch::initial_guess_leg(flat, load));
         for _ in 0..4 {
             let found = now.load();
-            let inverse = now.inverse(found, now.load_slope() / found.max(TINY), now.rates(), [0.0; 2]);
+            let inverse = now.inverse(found, quotient(now.load_slope(), found), now.rates(), [0.0; 2]);
             let (leg, step) = (now.leg, inverse.step(load));
             now = RoundedPunch::new(flat, leg + step);
             if step.abs() <= 2e-5 * leg {
@@ -248,7 +246,7 @@ impl RoundedPunch {
     /// [`RoundedPunch::from_load`].
     pub fn newton_step_from(start: RoundedPunch, load: f64) -> RoundedPunch {
         let RoundedPunch { leg, psi, half_width, flat, .. } = start;
-        let step = (load - start.load()) / (4.0 * leg * psi).max(TINY);
+        let step = quotient(load - start.load(), 4.0 * leg * psi);
         if step.abs() > 1e-9 * leg {
             return RoundedPunch::from_load(flat, load);
         }
@@ -287,7 +285,7 @@ impl InversePower {
     /// leg - leg_0.
     pub fn step(&self, value: f64) -> f64 {
         let [first, second, third] = self.coefficients;
-        let x = (value - self.value) / (value + self.value).max(TINY);
+        let x = quotient(value - self.value, value + self.value);
         // leg changes by at most a factor of 3.
         let ratio = (x * (first + x * (second + x * third))).clamp(-0.5, 0.5);
         2.0 * self.leg * ratio / (1.0 - ratio)

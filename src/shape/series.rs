@@ -1,6 +1,7 @@
 //! N, U and S as Taylor series of one of them about a size, for the tables of elements.
 
 use crate::numerics::const_math::tabulate;
+use crate::numerics::total::Total;
 use crate::shape::{Quantity, Shape};
 use core::array::from_fn;
 
@@ -28,9 +29,7 @@ impl Reversed {
     /// Sets the coefficient k.
     #[inline(always)]
     pub fn set(&mut self, k: usize, value: f64) {
-        if let Some(coefficient) = self.0.get_mut((ORDER - 1).wrapping_sub(k)) {
-            *coefficient = value;
-        }
+        self.0.set((ORDER - 1).wrapping_sub(k), value);
     }
 
     /// Term k of the product with another series.
@@ -164,9 +163,7 @@ const PER_ORDER: [f64; ORDER] = tabulate!(ORDER, |k| 1.0 / (k + 1) as f64);
 
 /// Sets a coefficient that the next round requires, if there is one.
 fn set(series: &mut Series, k: usize, value: f64) {
-    if let Some(coefficient) = series.get_mut(k) {
-        *coefficient = value;
-    }
+    series.set(k, value);
 }
 
 /// Powers of the series t(ε) that inverts `f(t) = f_0 (1 + ε)`, at `[power][order]`.

@@ -39,7 +39,8 @@
 pub(crate) mod small_load;
 
 use crate::numerics::chebyshev::{Interpolant, Tangent};
-use crate::shape::rounded_punch::{InversePower, RoundedPunch, TINY};
+use crate::numerics::guard::TINY;
+use crate::shape::rounded_punch::{InversePower, RoundedPunch};
 use crate::shape::tractions::{self, SurfacePoint, difference_of_heights};
 use crate::shape::{Complement, Layer};
 use core::f64::consts::PI;

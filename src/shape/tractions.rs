@@ -12,8 +12,9 @@
 //! cancellation (a narrow slip zone, a nearly flat contact), the integral is computed by 16-point Gauss-Legendre quadrature, which is
 //! accurate to rounding: the integrand is smooth and positive.
 
+use crate::numerics::guard::{TINY, quotient, root};
 use crate::numerics::quadrature::gauss;
-use crate::shape::rounded_punch::{RoundedPunch, TINY};
+use crate::shape::rounded_punch::RoundedPunch;
 
 /// A point along the width. The differences are computed from the dimensional lengths: for a nearly flat contact the rounding error of
 /// x/b may exceed the distance from flat to edge.
@@ -37,8 +38,8 @@ impl SurfacePoint {
 
 /// The difference of the roots of two numbers, 0 of a negative one, given the difference of these.
 pub(crate) fn difference_of_heights(outer: f64, inner: f64, difference: f64) -> f64 {
-    let root = outer.max(0.0).sqrt();
-    if inner > 0.0 { difference / (root + inner.sqrt()).max(TINY) } else { root }
+    let root = root(outer);
+    if inner > 0.0 { quotient(difference, root + inner.sqrt()) } else { root }
 }
 
 /// Ratio of a sum to its terms below which quadrature is used: six bits lost to cancellation.
@@ -48,7 +49,7 @@ const CANCELLATION_LIMIT: f64 = 1.0 / 64.0;
 /// difference `to² - from²`, computed without cancellation for a narrow slip zone.
 pub(crate) fn pressure_between(flat: f64, from: f64, to: f64, squares: f64, point: &SurfacePoint) -> f64 {
     let outside = outside(flat, point);
-    let edge = outside.max(0.0).sqrt();
+    let edge = root(outside);
     if edge >= to {
         return 0.0;
     }
@@ -75,7 +76,7 @@ pub(crate) fn pressure_between(flat: f64, from: f64, to: f64, squares: f64, poin
         // The substitution root_inside removes the square root at c' = |x|.
         let first = if from > edge { root_inside(from) } else { 0.0 };
         // root_inside(to)² >= to² - from²; the bound matters only if root_inside(to) vanishes, with rounding downward.
-        let length = squares / (root_inside(to) + first).max(0.5 * squares.max(0.0).sqrt()).max(TINY);
+        let length = squares / (root_inside(to) + first).max(0.5 * root(squares)).max(TINY);
         gauss(length, |step| {
             let root_inside = first + step;
             (root_inside * root_inside + outside).sqrt().atan2(flat)
@@ -126,7 +127,7 @@ fn log_ratio(leg: f64, root_inside: f64, outside: f64) -> f64 {
 pub(crate) fn slip_beyond(stick: &RoundedPunch, point: &SurfacePoint) -> f64 {
     let RoundedPunch { flat: a, leg, half_width: c, psi, .. } = *stick;
     let x = point.x;
-    let leg_at_x = outside(a, point).max(0.0).sqrt();
+    let leg_at_x = root(outside(a, point));
     if leg_at_x <= leg {
         return 0.0;
     }

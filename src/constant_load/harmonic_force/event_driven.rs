@@ -29,6 +29,7 @@ use crate::fourier::rows::row_blocks;
 use crate::fourier::sampled_jacobian::Assembly;
 use crate::fourier::workspace::{Blocks, Layout, Parts, Size};
 use crate::fourier::{complete_half_wave, normalise};
+use crate::numerics::total::Total;
 use crate::parameters::PARAMETERS;
 use crate::tag::Kind;
 use core::f64::consts::PI;
@@ -186,13 +187,13 @@ impl Buffers<'_> {
 
     #[inline(always)]
     fn instant(&self, index: usize) -> Instant {
-        self.instants.get(index).copied().unwrap_or_default()
+        self.instants.at(index)
     }
 
     /// Evaluates ∫ φ between two instants.
     fn integrate_phi(&mut self, from: f64, to: f64) {
         let coefficients = self.coefficients();
-        fill_integrals(self.phi_integrals.as_flattened_mut().get_mut(..coefficients).unwrap_or(&mut []), from, to);
+        fill_integrals(self.phi_integrals.as_flattened_mut().part_mut(..coefficients), from, to);
     }
 }
 
@@ -293,7 +294,7 @@ impl Period<'_, '_, '_> {
         {
             let k = self.now.stiffness;
             let (phi, gradient) = (phi.as_flattened_mut(), gradient.as_flattened_mut());
-            fill_phi(phi.get_mut(..2 * buffers.harmonics + 1).unwrap_or(&mut []), at.t);
+            fill_phi(phi.part_mut(..2 * buffers.harmonics + 1), at.t);
             gradient.iter_mut().zip(phi.iter()).for_each(|(gradient, phi)| *gradient = k * phi);
             if left > 0
                 && let Some((phi, before)) =
@@ -340,7 +341,7 @@ impl Period<'_, '_, '_> {
         }
         let orders = if stiffness { 2 * buffers.harmonics } else { buffers.harmonics };
         let Buffers { nodes, segment_stiffness, assembly, force: force_sums, .. } = buffers;
-        let sums = segment_stiffness.as_flattened_mut().get_mut(..2 * coefficients - 1).unwrap_or(&mut []);
+        let sums = segment_stiffness.as_flattened_mut().part_mut(..2 * coefficients - 1);
         sums.fill(0.0);
         let values = |displacement| {
             let Response { force, stiffness } = branch.response(self.law.contact, displacement);
@@ -356,7 +357,7 @@ impl Period<'_, '_, '_> {
             let rows = gradients.chunks_exact((2 * row).max(1)).nth(branch.depth.wrapping_sub(1));
             if let Some((phi, gradient)) = rows.and_then(|rows| rows.split_at_checked(row)) {
                 let columns = [gradient, phi].map(<[_]>::as_flattened);
-                assembly.add_products(columns, [phi_integrals, segment_stiffness.get(..row).unwrap_or(&[])]);
+                assembly.add_products(columns, [phi_integrals, segment_stiffness.part(..row)]);
             }
         }
     }

@@ -3,6 +3,7 @@
 use crate::fourier::folded::FoldedFourier;
 use crate::fourier::workspace::record;
 use crate::numerics::roots::bracketed_newton;
+use crate::numerics::total::Total;
 use core::f64::consts::PI;
 
 record! {
@@ -68,7 +69,7 @@ impl<'a> Motion<'a> {
         }
         fourier.synthesise(coefficients, rate);
         let half = *points / 2;
-        let rate = rate.get_mut(..2 * half).unwrap_or(&mut []);
+        let rate = rate.part_mut(..2 * half);
         let half_wave_symmetric =
             self.mean == 0.0 && self.pairs.iter().skip(1).step_by(2).all(|pair| *pair == [0.0; 2]);
         let searched = if half_wave_symmetric { half } else { 2 * half };

@@ -10,6 +10,7 @@
 
 use crate::fourier::rows::{OuterProducts, RowStrips, Rows, Strip, Terms, add_scaled, row_blocks, with_strips};
 use crate::fourier::workspace::{Blocks, record};
+use crate::numerics::total::Total;
 use crate::simd::dispatch;
 
 record! {
@@ -61,7 +62,7 @@ impl ReversalTerms<'_> {
                     stack.pop(depth);
                     if depth > stack.depth {
                         let before = first - 1;
-                        stack.push(before, stiffness.get(before).copied().unwrap_or(0.0));
+                        stack.push(before, stiffness.at(before));
                     }
                     stack.add(first, count, stiffness);
                 }
@@ -124,10 +125,10 @@ impl<const N: usize> Stack<'_, N> {
         let (from, to) = (self.in_period(first), self.in_period(first + count));
         let Some([covered, y]) = self.depth.checked_sub(1).and_then(|top| self.sums.get_mut(top)) else { return };
         add_scaled(covered, 1.0, &self.rows.sum_between(from, to, count));
-        let (rows, weights) = (self.rows.phi, stiffness.get(first..first + count).unwrap_or(&[]));
+        let (rows, weights) = (self.rows.phi, stiffness.part(first..first + count));
         let (before_end, after_end) =
             weights.split_at_checked(rows.len().saturating_sub(from)).unwrap_or((weights, &[]));
-        for (rows, weights) in [(rows.get(from..).unwrap_or(&[]), before_end), (rows, after_end)] {
+        for (rows, weights) in [(rows.part(from..), before_end), (rows, after_end)] {
             rows.iter().zip(weights).for_each(|(row, weight)| add_scaled(y, -weight, row));
         }
     }

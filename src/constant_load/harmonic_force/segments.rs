@@ -7,6 +7,7 @@ use super::motion::Motion;
 use crate::error::Error;
 use crate::fourier::workspace::{Parts, Size};
 use crate::numerics::quadrature::{MAX_GAUSS_BLOCKS, gauss_rule};
+use crate::numerics::total::Total;
 use crate::simd::dispatch;
 use core::f64::consts::PI;
 
@@ -96,7 +97,7 @@ impl<'a> NodalFourier<'a> {
         for panel in 0..panels {
             let [times, weights] = segment.nodes(panel, panels, rule);
             let mut displacement: Nodes = [[0.0; 4]; _];
-            fill_rows(self.rows, motion, orders, times.get(..rule.len()).unwrap_or(&[]), &mut displacement);
+            fill_rows(self.rows, motion, orders, times.part(..rule.len()), &mut displacement);
             let mut values: [Nodes; K] = [[[0.0; 4]; _]; _];
             for (block, displacement) in displacement.iter().enumerate().take(rule.len()) {
                 let at_nodes = displacement.map(&functions);
@@ -106,7 +107,7 @@ impl<'a> NodalFourier<'a> {
                 }
             }
             for (values, sums) in values.iter().zip(&mut sums).filter(|(_, sums)| !sums.is_empty()) {
-                self.add(weights.get(..rule.len()).unwrap_or(&[]), values, sums);
+                self.add(weights.part(..rule.len()), values, sums);
             }
         }
     }
@@ -126,7 +127,7 @@ impl<'a> NodalFourier<'a> {
                 }
             }
             *constant += total(sum);
-            let products = products.get(..weights.len()).unwrap_or(&[]);
+            let products = products.part(..weights.len());
             for ([by_cosine, by_sine], [cosines, sines]) in
                 pairs.as_chunks_mut::<2>().0.iter_mut().zip(self.rows.iter())
             {

@@ -16,7 +16,8 @@ use crate::fourier::folded::FoldedFourier;
 use crate::fourier::rows::{OuterProducts, Rows, row_blocks};
 use crate::fourier::sampled_jacobian::Assembly;
 use crate::fourier::workspace::{Layout, Parts, Size, padded};
-use crate::fourier::{at, largest_of, normalise};
+use crate::fourier::{largest_of, normalise};
+use crate::numerics::total::{Stack, Total};
 use crate::parameters::{PARAMETERS, Sensitivity};
 use crate::simd::dispatch;
 use crate::tag::Kind;
@@ -95,7 +96,7 @@ pub(super) fn harmonic_force(
         normalise(force, 1.0 / size.samples as f64);
     }
     if let Some(jacobian) = jacobian {
-        terms.gather(path.branches.get(..branches).unwrap_or(&[]), path.stiffness);
+        terms.gather(path.branches.part(..branches), path.stiffness);
         fourier.sum_from(farthest + 1, symmetry(1.0), path.stiffness, assembly.sums);
         assembly.set_products(&terms.outer, 0);
         assembly.write(symmetry(1.0), jacobian, size.coefficients());
@@ -113,22 +114,22 @@ pub(super) fn harmonic_sensitivity(
     let Part { farthest, length, half_wave } = sample(size.samples, fourier, displacement, path.displacement);
     let mut law = SteadyState::new(contact, reversals, false);
     let mut stack = ReversalSensitivities::new(terms.sums.as_flattened_mut());
-    let mut from = at(path.displacement, farthest);
+    let mut from = path.displacement.at(farthest);
     law.begin(from);
     let mut now = law.sensitivity(from);
-    let samples = path.displacement.get(farthest + 1..=farthest + length).unwrap_or(&[]);
-    for (&displacement, place) in samples.iter().zip(derivatives.iter_mut()) {
+    for (i, &displacement) in path.displacement.part(farthest + 1..=farthest + length).iter().enumerate() {
         if displacement != from {
             if law.advance(Point { displacement: from, force: 0.0 }, displacement) {
                 stack.store(&law, now);
             }
             (now, from) = (stack.at(&law, displacement), displacement);
         }
-        *place = now;
+        derivatives.set(i, now);
     }
     for (parameter, column) in (0..PARAMETERS).zip(sensitivity.chunks_exact_mut(size.coefficients().max(1))) {
-        let values = path.force.iter_mut().skip(farthest + 1);
-        values.zip(derivatives.iter()).for_each(|(value, derivatives)| *value = derivatives[parameter]);
+        for (i, derivatives) in derivatives.iter().enumerate() {
+            path.force.set(farthest + 1 + i, derivatives[parameter]);
+        }
         fourier.sum_from(farthest + 1, half_wave.then_some(-1.0), path.force, column);
         normalise(column, 1.0 / size.samples as f64);
     }
@@ -153,7 +154,7 @@ fn sample(count: usize, fourier: &FoldedFourier, displacement: &[f64], samples: 
         let half_wave = count.is_multiple_of(2) && only_odd_orders;
         let length = if half_wave { count / 2 } else { count };
         // The first of these samples with the largest magnitude, which no sample exceeds.
-        let largest = largest_of(samples.get(..padded(length)).unwrap_or(&[]), f64::abs);
+        let largest = largest_of(samples.part(..padded(length)), f64::abs);
         let farthest = samples.iter().position(|value| value.abs() == largest).unwrap_or(0);
         Part { farthest, length, half_wave }
     })
@@ -175,47 +176,37 @@ impl Path<'_> {
     /// number of branches.
     fn advance(&mut self, law: &mut SteadyState, farthest: usize, length: usize, requested: Requested) -> usize {
         let Path { displacement, force, stiffness, scratch, branches } = self;
-        let mut from = Point { displacement: at(displacement, farthest), force: 0.0 };
+        let mut from = Point { displacement: displacement.at(farthest), force: 0.0 };
         let response = law.begin(from.displacement);
         from.force = response.force;
-        if let Some(stiffness) = stiffness.get_mut(farthest) {
-            *stiffness = response.stiffness;
-        }
-        let mut used = 0;
+        stiffness.set(farthest, response.stiffness);
+        let mut branches = Stack { values: branches, depth: 0 };
         let (mut next, last) = (farthest + 1, farthest + length);
         while next <= last {
-            let entered = at(displacement, next);
+            let (entered, rest) = (displacement.at(next), displacement.part(next..));
             law.advance(from, entered);
             let branch = law.branch();
-            let Some(rest) = displacement.get(next..) else { break };
             let count = count_on_branch(rest, &branch).min(last + 1 - next);
-            if let Some(place) = branches.get_mut(used) {
-                let [first, count, depth] = [next, count, branch.depth].map(|number| number as u64);
-                *place = reversal_terms::Branch { first, count, depth };
-                used += 1;
-            }
-            from.displacement = at(displacement, next + count - 1);
+            let [first, on_branch, depth] = [next, count, branch.depth].map(|number| number as u64);
+            branches.push(reversal_terms::Branch { first, count: on_branch, depth });
+            from.displacement = displacement.at(next + count - 1);
             law.account_for(entered, from.displacement);
-            if requested.force
-                && let (Some(force), Some(stiffness)) = (force.get_mut(next..), stiffness.get_mut(next..))
-            {
+            if requested.force {
+                let (force, stiffness) = (force.part_mut(next..), stiffness.part_mut(next..));
+                let [one, two] = scratch;
                 if branch.gross_slip {
-                    let slip_force = branch.response(law.contact, 0.0).force;
-                    force.iter_mut().take(count).for_each(|force| *force = slip_force);
-                    stiffness.iter_mut().take(count).for_each(|stiffness| *stiffness = 0.0);
+                    force.part_mut(..count).fill(branch.response(law.contact, 0.0).force);
+                    stiffness.part_mut(..count).fill(0.0);
+                } else if requested.stiffness {
+                    branch.along::<true>(law.contact, count, rest, [one, two], force, stiffness);
                 } else {
-                    let [one, two] = scratch;
-                    if requested.stiffness {
-                        branch.along::<true>(law.contact, count, rest, [one, two], force, stiffness);
-                    } else {
-                        branch.along::<false>(law.contact, count, rest, [one, two], force, stiffness);
-                    }
+                    branch.along::<false>(law.contact, count, rest, [one, two], force, stiffness);
                 }
-                from.force = at(force, count - 1);
+                from.force = force.at(count - 1);
             }
             next += count;
         }
-        used
+        branches.depth
     }
 }
 
@@ -227,6 +218,5 @@ fn count_on_branch(samples: &[f64], branch: &Branch) -> usize {
         let (continues, is_inside) = (direction * next >= direction * last, direction * next < end);
         continues & is_inside
     };
-    let later = samples.get(1..).unwrap_or(&[]);
-    1 + samples.iter().zip(later).take_while(|(last, next)| continues(last, next)).count()
+    1 + samples.iter().zip(samples.part(1..)).take_while(|(last, next)| continues(last, next)).count()
 }

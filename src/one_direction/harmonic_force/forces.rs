@@ -1,7 +1,7 @@
 //! Tangential forces of the samples, run by run.
 
 use crate::element::Element;
-use crate::fourier::at;
+use crate::numerics::total::Total;
 use crate::one_direction::harmonic_force::runs::{Place, Run};
 use crate::one_direction::harmonic_force::samples::Samples;
 use crate::simd::dispatch;
@@ -26,7 +26,7 @@ impl Forces<'_> {
     fn at_place(&self, samples: &Samples, place: Place) -> [f64; 2] {
         let sample = place.sample();
         if place.is_end() {
-            [at(samples.load, sample), at(self.force, sample)]
+            [samples.load.at(sample), self.force.at(sample)]
         } else {
             self.last_cut.get(sample).copied().unwrap_or([0.0; 2])
         }
@@ -57,20 +57,20 @@ impl Forces<'_> {
                 let range = run.samples();
                 let inner = self.at_place(samples, run.inner);
                 let loads = run.of(samples.load);
-                let forces = self.force.get_mut(range.clone()).unwrap_or(&mut []);
+                let forces = self.force.part_mut(range.clone());
                 let mu = run.sign * friction_coefficient;
                 match run.kind {
                     Run::OPEN | Run::GROSS_SLIP => {
                         forces.iter_mut().zip(loads).for_each(|(force, load)| *force = mu * load);
                     }
                     Run::STUCK => {
-                        let slopes = self.slope.get_mut(range.clone()).unwrap_or(&mut []);
+                        let slopes = self.slope.part_mut(range.clone());
                         stick(samples, run, mu, slopes, inner, forces);
                     }
                     _ => {
                         let [inner_load, inner_force] = inner;
                         let slope = friction_coefficient * run.parameter;
-                        let cuts = self.cut_load.get(run.cuts()).unwrap_or(&[]);
+                        let cuts = self.cut_load.part(run.cuts());
                         for ((force, &load), &cut_load) in forces.iter_mut().zip(loads).zip(cuts) {
                             *force = inner_force + slope * (cut_load - inner_load) + mu * (load - cut_load);
                         }
@@ -90,7 +90,7 @@ fn stick(samples: &Samples, run: &Run, mu: f64, slopes: &mut [f64], inner: [f64;
     let [mut load_before, mut force_before] = inner;
     let before = samples.before(run.samples().start);
     let [mut xi_before, mut eta_before] =
-        if run.inner == Place::CENTRE { [run.parameter; 2] } else { [at(samples.xi, before), at(samples.eta, before)] };
+        if run.inner == Place::CENTRE { [run.parameter; 2] } else { [samples.xi.at(before), samples.eta.at(before)] };
     for ((slope, &xi), &eta) in slopes.iter_mut().zip(run.of(samples.xi)).zip(run.of(samples.eta)) {
         let (falling, rising) = (xi_before - xi, eta - eta_before);
         *slope = mu * ((rising - falling) / (rising + falling).max(f64::MIN_POSITIVE));

@@ -19,9 +19,10 @@
 //! removed, the sum is added to those of the one or two samples that made it; in the end the Jacobian grows by `Σ Y_j ⊗ φ_j`.
 
 use crate::element::Element;
-use crate::fourier::at;
 use crate::fourier::rows::{OuterProducts, RowStrips, Rows, Strip, Terms, add_scaled, row_blocks, scaled, with_strips};
 use crate::fourier::workspace::{Blocks, record};
+use crate::numerics::guard::quotient;
+use crate::numerics::total::{Stack, Total, Zero};
 use crate::one_direction::harmonic_force::runs::{Run, closing};
 use crate::one_direction::harmonic_force::samples::{Part, Samples};
 use crate::one_direction::step::Crossing;
@@ -123,7 +124,7 @@ impl Context<'_> {
     #[inline(always)]
     fn contact_at(&self, sample: usize) -> [f64; 3] {
         let Samples { shift, load, stiffness, .. } = self.samples;
-        [at(shift, sample), at(load, sample), at(stiffness, sample)]
+        [shift.at(sample), load.at(sample), stiffness.at(sample)]
     }
 }
 
@@ -139,8 +140,7 @@ impl Sensitivity<'_> {
     fn write_own(&mut self, context: &Context, run: &Run) {
         let Context { element, samples, cut_stiffnesses, .. } = *context;
         let [by_u, by_input] = &mut self.own;
-        let by_u = by_u.get_mut(run.samples()).unwrap_or(&mut []);
-        let by_input = by_input.get_mut(run.samples()).unwrap_or(&mut []);
+        let (by_u, by_input) = (by_u.part_mut(run.samples()), by_input.part_mut(run.samples()));
         let mu = run.sign * element.friction_coefficient;
         match run.kind {
             Run::OPEN | Run::GROSS_SLIP => {
@@ -149,10 +149,10 @@ impl Sensitivity<'_> {
             }
             Run::STUCK => {
                 by_input.fill(0.0);
-                by_u.iter_mut().zip(run.of(samples.stiffness)).for_each(|(weight, stiffness)| *weight = *stiffness);
+                by_u.copy_from(run.of(samples.stiffness));
             }
             _ => {
-                let cuts = cut_stiffnesses.get(run.cuts()).unwrap_or(&[]);
+                let cuts = cut_stiffnesses.part(run.cuts());
                 let values = cuts.iter().zip(run.of(samples.stiffness)).zip(run.of(samples.shift_slope));
                 for ((by_u, by_input), ((cut, stiffness), slope)) in by_u.iter_mut().zip(by_input).zip(values) {
                     *by_u = *cut;
@@ -170,7 +170,7 @@ impl Sensitivity<'_> {
             for strip in 0..outer.strips::<N>() {
                 places.fill(-1.0);
                 let (rows, terms) = (rows.strips(strip), outer.terms(strip));
-                let stack = Stack { pieces, depth: 0 };
+                let stack = Stack { values: pieces, depth: 0 };
                 let mut gathering = Gathering { context, rows, stack, stored, places, terms };
                 gathering.gather(runs);
             }
@@ -179,19 +179,9 @@ impl Sensitivity<'_> {
 }
 
 /// Pieces of the diagram: piece k ends at knot k, counted from the centre.
-struct Stack<'c> {
-    pieces: &'c mut [Piece],
-    depth: usize,
-}
+type Pieces<'c> = Stack<'c, Piece>;
 
-impl Stack<'_> {
-    fn push(&mut self, piece: &Piece) {
-        if let Some(place) = self.pieces.get_mut(self.depth) {
-            *place = *piece;
-            self.depth += 1;
-        }
-    }
-
+impl Pieces<'_> {
     /// Pushes a piece for each sample of a run that sticks. Compiled once, not for each length of a row.
     #[inline(never)]
     fn stick(&mut self, context: &Context, run: &Run, now: usize) {
@@ -203,10 +193,10 @@ impl Stack<'_> {
         for (since, sample) in (now..).zip(range) {
             let outer = context.contact_at(sample);
             // S rises, or rounding made two values equal.
-            let parameter = 1.0 / (outer[0] - inner[0]).max(1e-300);
+            let parameter = quotient(1.0, outer[0] - inner[0]);
             let weights = weights_of_stuck(parameter, inner, outer);
             let (sample, since) = (sample as u64, since as u64);
-            self.push(&Piece { made, sample, weights, since, parameter, ..Piece::default() });
+            self.push(Piece { made, sample, weights, since, parameter, ..Piece::default() });
             inner = outer;
             made = Piece::BY_STICKING;
         }
@@ -217,7 +207,7 @@ impl Stack<'_> {
 struct Gathering<'c, const N: usize> {
     context: &'c Context<'c>,
     rows: RowStrips<'c, N>,
-    stack: Stack<'c>,
+    stack: Pieces<'c>,
     stored: &'c mut [[Strip<N>; 2]],
     places: &'c mut [f64],
     terms: Terms<'c, N, 2>,
@@ -240,25 +230,25 @@ impl<const N: usize> Gathering<'_, N> {
             let line = Piece {
                 made: if run.sign > 0.0 { Piece::FORWARDS } else { Piece::BACKWARDS },
                 sample: last as u64,
-                weights: [at(samples.stiffness, last), 0.0],
+                weights: [samples.stiffness.at(last), 0.0],
                 since: (now + count) as u64,
                 ..Piece::default()
             };
             match run.kind {
                 Run::OPEN => {}
-                Run::GROSS_SLIP => self.stack.push(&line),
+                Run::GROSS_SLIP => self.stack.push(line),
                 Run::STUCK => self.stack.stick(self.context, run, now),
                 _ => {
                     let packed = run.cuts();
                     let stack = &mut self.stack;
                     if stack.depth < run.kept() {
-                        stack.push(&Piece { made: Piece::NEVER, ..line });
+                        stack.push(Piece { made: Piece::NEVER, ..line });
                     }
-                    if let Some(piece) = stack.depth.checked_sub(1).and_then(|top| stack.pieces.get_mut(top)) {
+                    if let Some(piece) = stack.top() {
                         piece.cut = Cut { step: now as u64, count: count as u64, packed: packed.start as u64 };
                     }
-                    let cut = at(self.context.cut_stiffnesses, packed.end.saturating_sub(1));
-                    stack.push(&Piece { weights: [line.weights[0] - cut, 0.0], parameter: cut, ..line });
+                    let cut = self.context.cut_stiffnesses.at(packed.end.saturating_sub(1));
+                    stack.push(Piece { weights: [line.weights[0] - cut, 0.0], parameter: cut, ..line });
                 }
             }
             now += count;
@@ -280,10 +270,7 @@ impl<const N: usize> Gathering<'_, N> {
     /// The sums of a piece before a step; updates its weights to those at its last cut.
     #[inline(always)]
     fn sums(&self, index: usize, piece: &mut Piece, now: usize) -> [Strip<N>; 2] {
-        let mut sums = [[[0.0; 4]; N]; 2];
-        if let (1, Some(stored)) = (piece.stored, self.stored.get(index)) {
-            sums = *stored;
-        }
+        let mut sums = if piece.stored > 0 { self.stored.at(index) } else { Zero::zero() };
         let Piece { since, cut: Cut { step, count, packed }, .. } = *piece;
         let [since, step, count, packed] = [since, step, count, packed].map(|number| number as usize);
         if count == 0 {
@@ -292,11 +279,11 @@ impl<const N: usize> Gathering<'_, N> {
         }
         self.add_covered(&mut sums, piece.weights, since, step);
         let first = self.context.sample_at(step);
-        let rows = self.rows.phi.get(first..first + count).unwrap_or(&[]);
+        let rows = self.rows.phi.part(first..first + count);
         let packed = packed..packed + count;
         let Context { cut_shifts, cut_loads, cut_stiffnesses, .. } = *self.context;
         let [shifts, loads, stiffnesses] =
-            [cut_shifts, cut_loads, cut_stiffnesses].map(|values| values.get(packed.clone()).unwrap_or(&[]));
+            [cut_shifts, cut_loads, cut_stiffnesses].map(|cuts| cuts.part(packed.clone()));
         let [constant, linear] = &mut sums;
         if piece.is_stuck() {
             let inner = self.context.contact_at(self.context.samples.before(piece.sample as usize));
@@ -318,9 +305,9 @@ impl<const N: usize> Gathering<'_, N> {
     /// Removes the pieces beyond those that stay. The last one of these, if it is cut again, stores its sums.
     #[inline(always)]
     fn remove_beyond(&mut self, kept: usize, is_cut: bool, now: usize) {
-        while let Some(index) = self.stack.depth.checked_sub(1)
-            && let Some(mut piece) = self.stack.pieces.get(index).copied()
-        {
+        while self.stack.depth > 0 {
+            let index = self.stack.depth - 1;
+            let mut piece = self.stack.values.at(index);
             let (removes, was_cut) = (self.stack.depth > kept, piece.cut.count > 0);
             if !(removes || is_cut && was_cut && self.stack.depth == kept) {
                 return;
@@ -330,15 +317,15 @@ impl<const N: usize> Gathering<'_, N> {
                 let sums = self.sums(index, &mut piece, now);
                 if removes {
                     self.distribute(&piece, &sums);
-                } else if let Some(place) = self.stored.get_mut(index) {
-                    *place = sums;
+                } else {
+                    self.stored.set(index, sums);
                     (piece.stored, piece.since, piece.cut) = (1, now as u64, Cut::default());
                 }
             }
             if removes {
                 self.stack.depth = index;
             } else {
-                self.stack.pieces.iter_mut().skip(index).take(1).for_each(|place| *place = piece);
+                self.stack.values.set(index, piece);
                 return;
             }
         }
@@ -350,17 +337,17 @@ impl<const N: usize> Gathering<'_, N> {
     fn distribute(&mut self, piece: &Piece, [constant, linear]: &[Strip<N>; 2]) {
         let Context { element, samples, slopes, .. } = *self.context;
         let (made, sample) = (piece.made, piece.sample as usize);
-        let shift_slope = at(samples.shift_slope, sample);
+        let shift_slope = samples.shift_slope.at(sample);
         let mut difference = *linear;
         add_scaled(&mut difference, -1.0, constant);
-        let (before, slope) = (samples.before(sample), at(slopes, sample));
+        let (before, slope) = (samples.before(sample), slopes.at(sample));
         let own = (sample, linear, [-1.0, slope * shift_slope]);
         // One call in a loop: the function is long, and inlined.
         let (parts, count) = if !piece.is_stuck() {
             let mu = element.friction_coefficient * if made == Piece::FORWARDS { 1.0 } else { -1.0 };
             ([(sample, constant, [-1.0, mu * shift_slope]), own, own], 1)
         } else if made == Piece::BY_STICKING {
-            let inner = (before, &difference, [1.0, -slope * at(samples.shift_slope, before)]);
+            let inner = (before, &difference, [1.0, -slope * samples.shift_slope.at(before)]);
             ([own, inner, own], 2)
         } else {
             let Crossing { fraction, rest, slope, .. } = closing(samples, element, sample);
@@ -378,17 +365,15 @@ impl<const N: usize> Gathering<'_, N> {
     /// Adds a row times the derivatives by u and by the input to the rows Y of a sample.
     #[inline(always)]
     fn add(&mut self, sample: usize, row: &Strip<N>, [by_u, by_input]: [f64; 2]) {
-        let Some(place) = self.places.get_mut(sample) else { return };
-        if *place < 0.0 {
-            *place = *self.terms.count as f64;
-            if let Some(phi) = self.rows.phi.get(sample) {
-                self.terms.push([scaled(by_u, row), scaled(by_input, row)], phi);
-            }
-        } else if let Some(y) = self.terms.y.get_mut(*place as usize) {
-            let [mut u_row, mut input_row] = *y;
+        let place = self.places.at(sample);
+        if place < 0.0 {
+            self.places.set(sample, *self.terms.count as f64);
+            self.terms.push([scaled(by_u, row), scaled(by_input, row)], &self.rows.phi.at(sample));
+        } else {
+            let [mut u_row, mut input_row] = self.terms.y.at(place as usize);
             add_scaled(&mut u_row, by_u, row);
             add_scaled(&mut input_row, by_input, row);
-            *y = [u_row, input_row];
+            self.terms.y.set(place as usize, [u_row, input_row]);
         }
     }
 }

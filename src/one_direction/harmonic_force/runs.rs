@@ -4,8 +4,8 @@
 //! afterwards, all at once: the shifts of these boundaries are packed in the order of the samples that slip.
 
 use crate::element::Element;
-use crate::fourier::at;
 use crate::fourier::workspace::record;
+use crate::numerics::total::Total;
 use crate::one_direction::diagram::slope;
 use crate::one_direction::harmonic_force::samples::{Part, Samples, ranges};
 use crate::one_direction::step::Crossing;
@@ -79,7 +79,7 @@ impl Run {
     /// The values of the samples.
     #[inline(always)]
     pub fn of<'v>(&self, values: &'v [f64]) -> &'v [f64] {
-        values.get(self.samples()).unwrap_or(&[])
+        values.part(self.samples())
     }
 
     /// Slip: the packed boundaries.
@@ -222,15 +222,15 @@ impl PeriodicPath<'_> {
     fn slip_grossly(&mut self, first: usize, x: f64, [xi, eta, inputs]: [&[f64]; 3]) -> Run {
         let (sign, moving) = if self.knot(0).xi <= x { (1.0, xi) } else { (-1.0, eta) };
         let later = |values| <[f64]>::get(values, first + 1..).unwrap_or(&[]).iter();
-        let mut before = sign * at(moving, first);
+        let mut before = sign * moving.at(first);
         let continues = |(moving, input): &(&f64, &f64)| {
             let continues = sign * *moving >= before && **input > 0.0;
             before = sign * *moving;
             continues
         };
         let last = first + later(moving).zip(later(inputs)).take_while(continues).count();
-        self.push(Knot::centre(at(moving, last)));
-        self.push(Knot { xi: at(xi, last), eta: at(eta, last), place: Place::end(last) });
+        self.push(Knot::centre(moving.at(last)));
+        self.push(Knot { xi: xi.at(last), eta: eta.at(last), place: Place::end(last) });
         Run { kind: Run::GROSS_SLIP, count: (last + 1 - first) as u64, sign, ..Run::default() }
     }
 
@@ -252,7 +252,7 @@ impl PeriodicPath<'_> {
         };
         let ratio = if change > 0.0 { change / by.max(SMALLEST) } else { 0.0 };
         let (mut sample, mut last, mut last_cut) = (first, [f64::MIN; 2], 0.0);
-        let places = self.cut_shift.get_mut(self.cut_count..).unwrap_or(&mut []);
+        let places = self.cut_shift.part_mut(self.cut_count..);
         for place in places {
             let (Some(moving), Some(other)) = (moving.get(sample), other.get(sample)) else { break };
             let (x, y) = (sign * moving, sign * other);
@@ -302,15 +302,15 @@ impl PeriodicPath<'_> {
         }
         let (runs, cuts) = (self.run_count, self.cut_count);
         // Fills the last block of four.
-        let last = cuts.checked_sub(1).map_or(0.0, |last| at(self.cut_shift, last));
+        let last = cuts.checked_sub(1).map_or(0.0, |last| self.cut_shift.at(last));
         self.cut_shift.iter_mut().skip(cuts).take(3).for_each(|place| *place = last);
         let cut_shift = self.cut_shift.as_chunks().0.get(..cuts.div_ceil(4));
-        (self.runs.get(..runs).unwrap_or(&[]), cut_shift.unwrap_or(&[]))
+        (self.runs.part(..runs), cut_shift.unwrap_or(&[]))
     }
 }
 
 /// Where the path from the open sample before a sample closes the contact.
 pub(super) fn closing(samples: &Samples, element: &Element, sample: usize) -> Crossing {
-    let motion = |sample| [at(samples.displacement, sample), at(samples.input, sample)];
+    let motion = |sample| [samples.displacement.at(sample), samples.input.at(sample)];
     Crossing::between(element, motion(samples.before(sample)), motion(sample))
 }

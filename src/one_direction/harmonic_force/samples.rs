@@ -2,7 +2,7 @@
 
 use super::MotionKind;
 use crate::element::{Element, Normal};
-use crate::fourier::at;
+use crate::numerics::total::Total;
 use crate::simd::dispatch;
 
 /// Arrays over the samples of a period, continued periodically to whole blocks of four.
@@ -47,7 +47,7 @@ impl Samples<'_> {
     }
 
     pub fn is_open(&self, sample: usize) -> bool {
-        at(self.input, sample) <= 0.0
+        self.input.at(sample) <= 0.0
     }
 
     /// The normal state of all samples under a constant input > 0.

@@ -1,0 +1,89 @@
+//! Quotients and roots that no value makes infinite, NaN or a trap.
+//!
+//! Compilers divide before they compare: `if b > 0 { a / b } else { 0 }` may divide by 0 and set the flag that a program traps. Two
+//! choices by one comparison are joined into one, too. So divisors and radicands are limited by a maximum, which no optimisation
+//! removes.
+
+use super::lanes::Lanes;
+use core::ops::Div;
+
+/// Lower bound of a divisor or of the argument of a logarithm whose result is not used.
+pub(crate) const TINY: f64 = 1e-300;
+
+/// A number, or several.
+pub(crate) trait Guarded: Copy + Div<Output = Self> {
+    /// The number, or the limit if that is larger or the number is NaN.
+    fn at_least(self, least: f64) -> Self;
+    fn sqrt(self) -> Self;
+}
+
+impl Guarded for f64 {
+    #[inline(always)]
+    fn at_least(self, least: f64) -> f64 {
+        self.max(least)
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> f64 {
+        f64::sqrt(self)
+    }
+}
+
+impl<const L: usize> Guarded for Lanes<L> {
+    #[inline(always)]
+    fn at_least(self, least: f64) -> Self {
+        self.max(least)
+    }
+
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Lanes::sqrt(self)
+    }
+}
+
+/// a/b of b >= 0.
+#[inline(always)]
+pub(crate) fn quotient<X: Guarded>(a: X, b: X) -> X {
+    a / b.at_least(TINY)
+}
+
+/// √x of x >= 0 but for rounding.
+#[inline(always)]
+pub(crate) fn root<X: Guarded>(x: X) -> X {
+    x.at_least(0.0).sqrt()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use core::hint::black_box;
+
+    #[allow(unsafe_code)]
+    unsafe extern "C" {
+        safe fn feclearexcept(flags: i32) -> i32;
+        safe fn fetestexcept(flags: i32) -> i32;
+    }
+
+    /// Invalid operation, division by zero, overflow.
+    const TRAPS: i32 = if cfg!(target_arch = "x86_64") { 1 | 4 | 8 } else { 1 | 2 | 4 };
+
+    /// The results, and whether an exception was raised that a program may trap. A quotient that a comparison of its own divisor
+    /// discards is computed all the same.
+    fn compute(numbers: [f64; 4]) -> ([[f64; 4]; 3], bool) {
+        feclearexcept(TRAPS);
+        let numbers = black_box(numbers);
+        let discarded = numbers.map(|b| if b > 0.0 { quotient(b, b) } else { 0.0 });
+        let found = black_box([*quotient(Lanes([1.0; 4]), Lanes(numbers)), *root(Lanes(numbers)), discarded]);
+        (found, fetestexcept(TRAPS) != 0)
+    }
+
+    #[test]
+    #[cfg_attr(miri, ignore = "floating-point flags")]
+    fn quotients_and_roots_raise_no_exception() {
+        let (found, raised) = compute([0.0, -1e-20, 4.0, 1e-310]);
+        let (most, small) = (1.0 / TINY, 1e-310_f64);
+        let expected = [[most, most, 0.25, most], [0.0, 0.0, 2.0, small.sqrt()], [0.0, 0.0, 1.0, small / TINY]];
+        assert_eq!(found, expected);
+        assert!(!raised);
+    }
+}

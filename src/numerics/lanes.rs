@@ -1,0 +1,101 @@
+//! Numbers that are computed together: one vector of the processor, or several.
+//!
+//! Operators act lane by lane, in the order in which they are written: a lane has the bits of the same formula for one number.
+//! Nothing is fused, and the compiler sees whole vectors, whatever memory they are stored to.
+
+use core::ops::{Add, AddAssign, Deref, DerefMut, Div, Mul, Sub, SubAssign};
+
+/// L numbers.
+#[repr(transparent)]
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Lanes<const L: usize>(pub [f64; L]);
+
+impl<const L: usize> Lanes<L> {
+    pub const ZERO: Self = Lanes([0.0; L]);
+
+    #[inline(always)]
+    pub fn map(self, function: impl Fn(f64) -> f64) -> Self {
+        let mut values = self.0;
+        for value in &mut values {
+            *value = function(*value);
+        }
+        Lanes(values)
+    }
+
+    #[inline(always)]
+    pub fn sqrt(self) -> Self {
+        self.map(f64::sqrt)
+    }
+
+    #[inline(always)]
+    pub fn max(self, least: f64) -> Self {
+        self.map(|value| value.max(least))
+    }
+}
+
+impl<const L: usize> Default for Lanes<L> {
+    #[inline(always)]
+    fn default() -> Self {
+        Self::ZERO
+    }
+}
+
+impl<const L: usize> Deref for Lanes<L> {
+    type Target = [f64; L];
+    #[inline(always)]
+    fn deref(&self) -> &[f64; L] {
+        &self.0
+    }
+}
+
+impl<const L: usize> DerefMut for Lanes<L> {
+    #[inline(always)]
+    fn deref_mut(&mut self) -> &mut [f64; L] {
+        &mut self.0
+    }
+}
+
+macro_rules! operator {
+    ($($trait:ident $name:ident $operator:tt;)*) => { $(
+        impl<const L: usize> $trait for Lanes<L> {
+            type Output = Self;
+            #[inline(always)]
+            fn $name(self, other: Self) -> Self {
+                let mut values = self.0;
+                for k in 0..L {
+                    values[k] $operator other.0[k];
+                }
+                Lanes(values)
+            }
+        }
+        impl<const L: usize> $trait<f64> for Lanes<L> {
+            type Output = Self;
+            #[inline(always)]
+            fn $name(self, other: f64) -> Self {
+                self.$name(Lanes([other; L]))
+            }
+        }
+        impl<const L: usize> $trait<Lanes<L>> for f64 {
+            type Output = Lanes<L>;
+            #[inline(always)]
+            fn $name(self, other: Lanes<L>) -> Lanes<L> {
+                Lanes([self; L]).$name(other)
+            }
+        }
+    )* };
+}
+operator! { Add add +=; Sub sub -=; Mul mul *=; Div div /=; }
+
+impl<const L: usize> AddAssign for Lanes<L> {
+    #[inline(always)]
+    fn add_assign(&mut self, other: Self) {
+        *self = *self + other;
+    }
+}
+
+impl<const L: usize> SubAssign for Lanes<L> {
+    #[inline(always)]
+    fn sub_assign(&mut self, other: Self) {
+        *self = *self - other;
+    }
+}

@@ -1,0 +1,121 @@
+//! Slices whose length the compiler does not know: those of the caller and of workspaces.
+//!
+//! Every index is inside. The compiler cannot prove it, and `[i]` would compile to a panic, which the library must not contain.
+//! Here a value outside is 0, is not stored, and a part that reaches outside is empty. Arrays of a known length keep `[i]`.
+
+use core::slice::SliceIndex;
+
+/// What is read outside.
+pub(crate) trait Zero: Copy {
+    fn zero() -> Self;
+}
+
+impl Zero for f64 {
+    #[inline(always)]
+    fn zero() -> f64 {
+        0.0
+    }
+}
+
+impl Zero for u64 {
+    #[inline(always)]
+    fn zero() -> u64 {
+        0
+    }
+}
+
+impl<T: Zero, const N: usize> Zero for [T; N] {
+    #[inline(always)]
+    fn zero() -> [T; N] {
+        [T::zero(); N]
+    }
+}
+
+pub(crate) trait Total<T> {
+    /// The value at an index.
+    fn at(&self, index: usize) -> T;
+
+    /// Stores a value at an index; whether it is inside.
+    fn set(&mut self, index: usize, value: T) -> bool;
+
+    /// The values of a range.
+    fn part<R: SliceIndex<[T], Output = [T]>>(&self, range: R) -> &[T];
+    fn part_mut<R: SliceIndex<[T], Output = [T]>>(&mut self, range: R) -> &mut [T];
+
+    /// Copies the values that both have.
+    fn copy_from(&mut self, source: &[T]);
+}
+
+impl<T: Zero> Total<T> for [T] {
+    #[inline(always)]
+    fn at(&self, index: usize) -> T {
+        match self.get(index) {
+            Some(value) => *value,
+            None => T::zero(),
+        }
+    }
+
+    #[inline(always)]
+    fn set(&mut self, index: usize, value: T) -> bool {
+        match self.get_mut(index) {
+            Some(place) => {
+                *place = value;
+                true
+            }
+            None => false,
+        }
+    }
+
+    #[inline(always)]
+    fn part<R: SliceIndex<[T], Output = [T]>>(&self, range: R) -> &[T] {
+        self.get(range).unwrap_or_default()
+    }
+
+    #[inline(always)]
+    fn part_mut<R: SliceIndex<[T], Output = [T]>>(&mut self, range: R) -> &mut [T] {
+        self.get_mut(range).unwrap_or_default()
+    }
+
+    #[inline(always)]
+    fn copy_from(&mut self, source: &[T]) {
+        self.iter_mut().zip(source).for_each(|(place, value)| *place = *value);
+    }
+}
+
+/// A stack in a slice: what does not fit is lost.
+#[derive(Debug)]
+pub(crate) struct Stack<'a, T> {
+    pub values: &'a mut [T],
+    pub depth: usize,
+}
+
+impl<T: Zero> Stack<'_, T> {
+    #[inline(always)]
+    pub fn push(&mut self, value: T) {
+        self.depth += usize::from(self.values.set(self.depth, value));
+    }
+
+    /// The last value, if there is one.
+    #[inline(always)]
+    pub fn top(&mut self) -> Option<&mut T> {
+        self.values.get_mut(self.depth.checked_sub(1)?)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn outside_is_zero_and_not_stored() {
+        let mut values = [1.0, 2.0];
+        let values = values.as_mut_slice();
+        assert_eq!([values.at(1), values.at(2), values.at(usize::MAX)], [2.0, 0.0, 0.0]);
+        assert!(values.set(0, 3.0) && !values.set(2, 4.0));
+        assert_eq!((values.part(..1), values.part(1..3)), ([3.0].as_slice(), [].as_slice()));
+        let mut stack = Stack { values, depth: 1 };
+        stack.push(5.0);
+        stack.push(6.0);
+        assert_eq!((stack.depth, stack.top().copied()), (2, Some(5.0)));
+    }
+}
