@@ -175,7 +175,7 @@ typedef struct {
     const sliders *sliders;
     size_t state_length;
     int in_place;
-    double states[2][5 + 3 * REVERSALS], forces[MOST_SLIDERS], force[STEPS], stiffness[STEPS];
+    double states[2][6 + 3 * REVERSALS], forces[MOST_SLIDERS], force[STEPS], stiffness[STEPS];
 } step_job;
 
 static double run_steps(void *context)

@@ -200,12 +200,12 @@ FUNCTION(int32_t, mslip_batch_element_harmonic_force, (size_t n, size_t n_elemen
      const int32_t *index, const int32_t *active, double *workspace, const double *displacement, double *force, double *jacobian,
      double *dissipated, double *drift, size_t *failed_item))
 
-LENGTH(mslip_state_length(0), 11)
-LENGTH(mslip_state_length(16), 53)
+LENGTH(mslip_state_length(0), 12)
+LENGTH(mslip_state_length(16), 54)
 LENGTH(mslip_harmonic_workspace_length(5, 128, MSLIP_UNIFORM_SAMPLING), 13448)
 LENGTH(mslip_harmonic_workspace_length(5, 128, MSLIP_EVENT_DRIVEN), 2712)
-LENGTH(mslip_element_state_length(1, 0), 28)
-LENGTH(mslip_element_state_length(1, 16), 76)
+LENGTH(mslip_element_state_length(1, 0), 29)
+LENGTH(mslip_element_state_length(1, 16), 77)
 LENGTH(mslip_element_workspace_length(1, 5, 128, MSLIP_UNIFORM_SAMPLING), 17316)
 LENGTH(mslip_element_state_length(2, 0), 1524)
 LENGTH(mslip_element_state_length(2, 16), 1524)

@@ -159,13 +159,14 @@ static int same(const double *p, const double *q, size_t n)
     return memcmp(p, q, n * sizeof *p) == 0;
 }
 
-/* The doubles of a state in use: the number of reversals or knots is in the tag; the springs of two directions fill theirs. */
+/* The doubles of a state in use: the number of reversals or pieces is the second one; the springs of two directions fill theirs. */
 static size_t used(const law *l, const double *state)
 {
-    uint64_t tag;
-    memcpy(&tag, state, sizeof tag);
-    const size_t count = (size_t)(tag & 0xff);
-    return l->element == NULL ? 5 + 3 * count : l->element->directions == 1 ? 8 + 4 * count : mslip_element_state_length(2, 0);
+    if (l->element != NULL && l->element->directions == 2) {
+        return mslip_element_state_length(2, 0);
+    }
+    const size_t count = (size_t)state[1];
+    return l->element == NULL ? 6 + 3 * count : 9 + 4 * (count + 1);
 }
 
 static int same_results(const law *l, const results *r, size_t n, const double *force, const double *tangent, const double *energy,

@@ -107,15 +107,18 @@ module microslip
     !! reference_load of a layer must be between 0 (for normal_force) and 1e150; the compliances under normal_force may
     !! be at most 2^40 times those under this load
   integer(mslip_int), parameter, public :: MSLIP_BAD_CONTACT = 20
-    !! invalid contact: uninitialised, corrupted, or created by an incompatible version of the library
+    !! invalid contact: uninitialised, corrupted, written as text of fewer than 17 digits, or created by an incompatible
+    !! version of the library
   integer(mslip_int), parameter, public :: MSLIP_BAD_STATE = 21
-    !! invalid state: uninitialised, truncated, corrupted, or created by an incompatible version of the library
+    !! invalid state: uninitialised, truncated, corrupted, written as text of too few digits (17 are always enough), or
+    !! created by an incompatible version of the library
   integer(mslip_int), parameter, public :: MSLIP_BAD_WORKSPACE = 22
     !! invalid workspace: uninitialised, or created by an incompatible version of the library
   integer(mslip_int), parameter, public :: MSLIP_STATE_TOO_SHORT = 23
     !! state_length must be at least mslip_state_length(0) or mslip_element_state_length(directions, 0)
   integer(mslip_int), parameter, public :: MSLIP_BAD_ELEMENT = 24
-    !! invalid element: uninitialised, corrupted, or created by an incompatible version of the library
+    !! invalid element: uninitialised, corrupted, written as text of fewer than 17 digits, or created by an incompatible
+    !! version of the library
   integer(mslip_int), parameter, public :: MSLIP_WORKSPACE_TOO_SHORT = 25
     !! workspace_length must be at least mslip_harmonic_workspace_length or mslip_element_workspace_length
   integer(mslip_int), parameter, public :: MSLIP_BAD_FORCE = 30  !! a force must be finite
@@ -932,8 +935,9 @@ contains
   end subroutine mslip_contact_init_elliptic
 
   subroutine mslip_contact_check(contact, status)
-    !! Validates a contact that was read from a file or a message: its checksum must be that written at initialisation.
-    !! Other functions only check a tag.
+    !! Validates a contact that was read from a file or a message: its checksum must be that written at initialisation,
+    !! which detects any single changed bit. Text needs 17 digits; initialise it again instead. Other functions only
+    !! check a tag.
     !!
     !! Since 0.1.0 (interface 6).
     type(mslip_contact), intent(in) :: contact  !! The contact.
@@ -1129,6 +1133,12 @@ contains
   subroutine mslip_state_check(state, status)
     !! Validates a state that was read from a file or a message: all values must be finite and the reversals nested.
     !! Other functions only check a tag and the number of reversals.
+    !!
+    !! A state that was decimal text of 17 significant digits has every bit. With 15 or 16 digits later forces are right
+    !! to 1e-12 mu N (if reversals were removed, within mslip_state_error), or the state is rejected, because rounding
+    !! has moved one reversal onto another; with fewer digits it is rejected. Not detected: values that another history
+    !! leads to, such as a force or a displacement of which one bit has changed. A file needs a checksum of its own
+    !! against that.
     !!
     !! Since 0.1.0 (interface 6).
     real(mslip_real), intent(in) :: state(:)  !! A state.
@@ -1746,8 +1756,9 @@ contains
   end subroutine mslip_element_init_elliptic
 
   subroutine mslip_element_check(element, status)
-    !! Validates an element that was read from a file or a message: its checksum must be that written at initialisation.
-    !! Other functions only check a tag.
+    !! Validates an element that was read from a file or a message: its checksum must be that written at initialisation,
+    !! which detects any single changed bit. Text needs 17 digits; initialise it again instead. Other functions only
+    !! check a tag.
     !!
     !! Since 0.1.0 (interface 6).
     type(mslip_element), intent(in) :: element  !! The element.
@@ -1909,6 +1920,12 @@ contains
   subroutine mslip_element_state_check(directions, state, status)
     !! Validates the state of an element that was read from a file or a message: all values must be finite and possible,
     !! for one direction the pieces nested. Other functions only check a tag and the number of pieces.
+    !!
+    !! A state that was decimal text of 17 significant digits has every bit. With 15 or 16 digits later forces of one
+    !! direction are right to 1e-12 mu N (if pieces were merged, within mslip_element_state_error); two directions need
+    !! 17 digits unless the contact is open. A state of fewer digits is rejected. Not detected: values that another
+    !! history leads to, such as a force or a displacement of which one bit has changed. A file needs a checksum of its
+    !! own against that.
     !!
     !! Since 0.1.0 (interface 6).
     integer(mslip_int), intent(in) :: directions  !! Number of tangential directions, 1 or 2.

@@ -69,15 +69,15 @@ status_codes! {
     BadReferenceLoad, MSLIP_BAD_REFERENCE_LOAD = 18:
         "reference_load of a layer must be between 0 (for normal_force) and 1e150; the compliances under normal_force may be at most 2^40 times those under this load";
     BadContact, MSLIP_BAD_CONTACT = 20:
-        "invalid contact: uninitialised, corrupted, or created by an incompatible version of the library";
+        "invalid contact: uninitialised, corrupted, written as text of fewer than 17 digits, or created by an incompatible version of the library";
     BadState, MSLIP_BAD_STATE = 21:
-        "invalid state: uninitialised, truncated, corrupted, or created by an incompatible version of the library";
+        "invalid state: uninitialised, truncated, corrupted, written as text of too few digits (17 are always enough), or created by an incompatible version of the library";
     BadWorkspace, MSLIP_BAD_WORKSPACE = 22:
         "invalid workspace: uninitialised, or created by an incompatible version of the library";
     StateTooShort, MSLIP_STATE_TOO_SHORT = 23:
         "state_length must be at least mslip_state_length(0) or mslip_element_state_length(directions, 0)";
     BadElement, MSLIP_BAD_ELEMENT = 24:
-        "invalid element: uninitialised, corrupted, or created by an incompatible version of the library";
+        "invalid element: uninitialised, corrupted, written as text of fewer than 17 digits, or created by an incompatible version of the library";
     WorkspaceTooShort, MSLIP_WORKSPACE_TOO_SHORT = 25:
         "workspace_length must be at least mslip_harmonic_workspace_length or mslip_element_workspace_length";
     BadForce, MSLIP_BAD_FORCE = 30: "a force must be finite";

@@ -51,15 +51,18 @@ pub trait Law: Sized {
 
     /// The least length of a state.
     const STATE_LENGTH: usize;
-    /// Tag of the state of a new contact, open or unloaded, whose other values are 0.
-    const NEW_STATE: f64;
+    /// Kind of the tag of a state. In the state of a new contact, open or unloaded, the other values are 0.
+    const STATE: Kind;
     /// Kind of the tag of a state for the other number of directions.
     const OTHER_STATE: Option<Kind> = None;
 
     /// Checks that a contact or an element is initialised, and belongs to this law.
     fn check(item: &Self::Item) -> Result<(), Error>;
-    /// Rejects a tag that no state of that length has.
-    fn check_tag(tag: f64, state_length: usize) -> Result<(), Error>;
+    /// Whether a state with a valid tag is as long as its counts require.
+    #[inline(always)]
+    fn contains_counted(_state: &[f64]) -> bool {
+        true
+    }
     /// Checks the end of a step.
     /// Errors: `BadDisplacement`, `BadNormalForce` or `LengthTooShort`.
     fn check_step(item: &Self::Item, displacement: &Self::Vector) -> Result<(), Error>;
@@ -114,23 +117,22 @@ pub trait Law: Sized {
             return Err(Error::StateTooShort);
         }
         state.fill(0.0);
-        state.first_mut().into_iter().for_each(|tag| *tag = Self::NEW_STATE);
+        state.first_mut().into_iter().for_each(|tag| *tag = Self::STATE.tag());
         Ok(())
     }
 
-    /// Checks length and tag of a state; that of the other number of directions is distinguished.
-    #[inline(always)]
-    fn check_state(tag: f64, state_length: usize) -> Result<(), Error> {
-        let is_short = state_length < Self::STATE_LENGTH;
-        match if is_short { Err(Error::StateTooShort) } else { Self::check_tag(tag, state_length) } {
-            Err(_) if Self::OTHER_STATE.is_some_and(|other| other.count(tag).is_some()) => Err(Error::BadDirections),
-            checked => checked,
-        }
-    }
-
-    /// Checks length and tag of a state. Errors: `StateTooShort`, `BadState`, `BadDirections`.
+    /// Checks length, tag and counts of a state.
+    /// Errors: `StateTooShort`, `BadState`; `BadDirections` for a state for the other number of directions.
     #[inline(always)]
     fn check_header(state: &[f64]) -> Result<(), Error> {
-        Self::check_state(state.first().copied().unwrap_or(0.0), state.len())
+        let has_tag_of = |kind: Kind| state.first().is_some_and(|tag| kind.is_tag(*tag));
+        let is_short = state.len() < Self::STATE_LENGTH;
+        if !is_short && has_tag_of(Self::STATE) && Self::contains_counted(state) {
+            Ok(())
+        } else if Self::OTHER_STATE.is_some_and(has_tag_of) {
+            Err(Error::BadDirections)
+        } else {
+            Err(if is_short { Error::StateTooShort } else { Error::BadState })
+        }
     }
 }

@@ -1,12 +1,13 @@
 //! Tags: the first double of each buffer that the library initialises in memory of the calling application.
 //!
-//! A tag encodes the kind of the buffer, the version of its layout and one count, so that uninitialised memory and buffers of other
-//! versions are detected by one comparison. It is a normal double, preserved by decimal output with 17 digits.
+//! A tag encodes the kind of the buffer and the version of its layout, so that uninitialised memory and buffers of other versions are
+//! detected by one comparison. It is a whole number of 15 digits of which the last is not 0: decimal text of 15 significant digits or
+//! more preserves it, and text of fewer digits does not. Counts follow as doubles of their own, which are whole numbers too.
 
 /// Version of the layout of contacts, states and workspaces.
-pub(crate) const LAYOUT: u64 = 5;
+pub(crate) const LAYOUT: u64 = 6;
 
-/// Kind of a buffer: the leading 16 bits of its tag, a double of about 1e64.
+/// Kind of a buffer: the leading five digits of its tag.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(u16)]
 pub enum Kind {
@@ -15,30 +16,44 @@ pub enum Kind {
     UniformSampling = 0x4d55,
     EventDriven = 0x4d3a,
     ElementSampling = 0x4d46,
-    Samples = 0x4d4e,
     TwoDirectionsState = 0x4d58,
     TwoDirectionsSampling = 0x4d57,
-    Periods = 0x4d50,
 }
 
-const COUNT_BITS: u32 = 40;
-
 impl Kind {
+    /// Tag of a buffer of this kind.
     #[inline(always)]
-    const fn leading_bits(self) -> u64 {
-        ((self as u64) << 8) | LAYOUT
+    pub const fn tag(self) -> f64 {
+        (self as u64 * 10_000_000_000 + 10 * LAYOUT + 1) as f64
     }
 
-    /// Tag of a buffer of this kind with a count below 2^40.
     #[inline(always)]
-    pub const fn tag(self, count: usize) -> f64 {
-        f64::from_bits((self.leading_bits() << COUNT_BITS) | (count as u64 & ((1 << COUNT_BITS) - 1)))
+    pub const fn is_tag(self, value: f64) -> bool {
+        value.to_bits() == self.tag().to_bits()
     }
+}
 
-    /// Count in a tag; `None` unless it is a tag of this kind and layout.
-    #[inline(always)]
-    pub const fn count(self, tag: f64) -> Option<usize> {
-        let bits = tag.to_bits();
-        if bits >> COUNT_BITS == self.leading_bits() { Some((bits & ((1 << COUNT_BITS) - 1)) as usize) } else { None }
+/// 2^52: the sum with a smaller whole number has this number as its last 52 bits.
+const WHOLE: f64 = f64::from_bits((1023 + 52) << 52);
+
+/// A count as a double. Unsigned integers would be converted by a subtraction, which gives -0 if the rounding direction is downwards.
+#[inline(always)]
+pub(crate) fn stored(count: usize) -> f64 {
+    count.cast_signed() as f64
+}
+
+/// A count that was stored as a double; `None` for what no count is stored as. The nearest whole number if it was changed since then.
+#[inline(always)]
+pub(crate) fn count(stored: f64) -> Option<usize> {
+    // The bit patterns of negative doubles and NaNs are larger.
+    if stored.to_bits() >= WHOLE.to_bits() {
+        None
+    } else {
+        usize::try_from((stored + WHOLE).to_bits() - WHOLE.to_bits()).ok()
     }
+}
+
+/// Whether a double is a count.
+pub(crate) fn is_count(stored: f64) -> bool {
+    count(stored).is_some_and(|count| count as f64 == stored)
 }

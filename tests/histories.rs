@@ -6,14 +6,16 @@
 
 mod common;
 
-use common::{Random, advance, harmonic, outputs, seed, unloaded};
+use common::{Random, advance, as_text, harmonic, outputs, seed, unloaded};
 use microslip::constant_load::harmonic_force::Rule;
 use microslip::constant_load::{ConstantLoad, Law};
 use microslip::element::{Directions, Element, NormalInput};
+use microslip::law::StepOf;
 use microslip::one_direction::harmonic_force as line;
 use microslip::one_direction::tractions::tractions;
 use microslip::one_direction::{self as varying, OneDirection, Step};
 use microslip::parameters::CENTRE_POINT;
+use microslip::two_directions::TwoDirections;
 use microslip::{Contact, EllipticParameters, Error, Layer, Material, Parameters};
 use std::f64::consts::{PI, TAU};
 use std::sync::Mutex;
@@ -437,8 +439,7 @@ fn steps_may_be_divided() {
                 }
                 from = to;
             }
-            // The number of reversals is in the last 40 bits of the first double.
-            let used = 5 + 3 * (whole[0].to_bits() & 0xff_ffff_ffff) as usize;
+            let used = 6 + 3 * whole[1] as usize;
             assert_eq!(whole[..used], divided[..used]);
         }
     }
@@ -647,7 +648,7 @@ impl<'c> Bounded<'c> {
     fn check_erased(&self) {
         for state in &self.short {
             assert_eq!(ConstantLoad::force_error(state), 0.0);
-            assert_eq!(state.first_chunk::<5>(), self.exact.first_chunk::<5>());
+            assert_eq!(state.first_chunk::<6>(), self.exact.first_chunk::<6>());
         }
     }
 }
@@ -731,4 +732,119 @@ fn bounded_states_in_random_histories() {
             bounded.check_erased();
         }
     }
+}
+
+/// Restarts from states that were decimal text of 15, 16 and 17 digits.
+#[derive(Default, Debug)]
+struct Restarts {
+    rejected: [usize; 3],
+    /// Rounding has decided which parts of the memory a full state has merged.
+    undecided: usize,
+}
+
+impl Restarts {
+    /// Rejects the state, or all later forces are right: with 17 digits to the bit.
+    fn check<L: Law>(
+        &mut self,
+        (item, state): (&L::Item, &[f64]),
+        later: &[L::Vector],
+        number_of_digits: &[usize],
+        change: impl Fn(&StepOf<L>, &StepOf<L>) -> f64,
+    ) {
+        for &digits in number_of_digits {
+            let (mut text, mut exact) = (as_text(state, digits), state.to_vec());
+            if let Err(error) = L::state_check(&text) {
+                assert!(digits < 17 && error == Error::BadState, "{digits}: {error}");
+                self.rejected[digits - 15] += 1;
+                continue;
+            }
+            for to in later {
+                let [step, restarted] = [&mut exact, &mut text].map(|state| L::step(item, state, *to).unwrap());
+                let change = change(&step, &restarted);
+                // Rounding of the displacements, at most 5e-15 of the largest, times a stiffness of a few mu N over that.
+                let allowed = if digits < 17 { 1e-12 * SLIP_FORCE } else { 0.0 };
+                if change > allowed {
+                    let merged = L::force_error(&exact) + L::force_error(&text);
+                    assert!(digits < 17 && change <= allowed + merged, "{digits}: {change:e} {merged:e} {state:?}");
+                    self.undecided += 1;
+                    break;
+                }
+            }
+        }
+    }
+}
+
+/// A series of values: each anywhere, or on or beside an earlier one, within rounding or farther.
+fn series(random: &mut Random, first: f64, length: usize, anywhere: impl Fn(&mut Random, f64) -> f64) -> Vec<f64> {
+    let mut values = vec![first];
+    while values.len() < length {
+        let (earlier, last) = (values[random.below(values.len())], values[values.len() - 1]);
+        values.push(match random.below(8) {
+            0 => earlier,
+            1 => earlier * (1.0 - 4.0 * f64::EPSILON * random.signed()),
+            2 => earlier + 10f64.powf(-16.0 * random.next()) * random.signed(),
+            _ => anywhere(random, last),
+        });
+    }
+    values
+}
+
+#[test]
+fn states_as_text_are_right_or_rejected() {
+    const STATES: usize = 10_000;
+    const LATER: usize = 8;
+    const ALL: [usize; 3] = [15, 16, 17];
+    let mut random = Random(seed());
+    let inputs = inputs(&LAYERS[1..5]);
+    let with_normal_inputs =
+        inputs.iter().flat_map(|input| [(input, NormalInput::Force), (input, NormalInput::Approach)]);
+    let laws: Vec<(Contact, [Element; 2])> = with_normal_inputs
+        .map(|(input, normal)| {
+            (input.contact(), [Directions::One, Directions::Two].map(|one| input.element(one, normal)))
+        })
+        .collect();
+    let [mut constant, mut line, mut plane] = [(); 3].map(|()| Restarts::default());
+    for number in 0..STATES {
+        let (contact, [one, two]) = &laws[number % laws.len()];
+        let (capacity, steps) = ([2, 4, 8, 64][random.below(4)], 2 + random.below(30));
+        let whole = if one.normal_input == NormalInput::Force as i32 { NORMAL_FORCE } else { one.approach };
+        let [u, v] = [(); 2].map(|()| {
+            series(&mut random, 0.0, steps + LATER, |random, _| [1.2, 1.2, 2.0][random.below(3)] * random.signed())
+        });
+        let loads = series(&mut random, 1.0, steps + LATER, |random, last| match random.below(6) {
+            0 => (0.5 + random.signed()).max(0.0),
+            1 => random.next(),
+            _ => last,
+        });
+        let path: Vec<[f64; 3]> = (0..steps + LATER)
+            .map(|k| {
+                [u[k] * contact.slip_displacement, v[k] * contact.slip_displacement, loads[k].clamp(0.0, 1.0) * whole]
+            })
+            .collect();
+
+        let (mut state, displacements) = (unloaded(capacity), path.iter().map(|[u, ..]| *u).collect::<Vec<_>>());
+        displacements[..steps].iter().for_each(|u| _ = advance(contact, &mut state, *u));
+        constant.check::<ConstantLoad>((contact, &state), &displacements[steps..], &ALL, |step, other| {
+            (step.force - other.force).abs()
+        });
+
+        let (mut history, on_line) =
+            (History::new(one, capacity), path.iter().map(|[u, _, w]| [*u, *w]).collect::<Vec<_>>());
+        on_line[..steps].iter().for_each(|[u, w]| _ = history.step(*u, *w));
+        line.check::<OneDirection>((one, &history.state), &on_line[steps..], &ALL, |step, other| {
+            (step.force[0] - other.force[0]).abs()
+        });
+
+        let mut contact = common::two_directions::Contact::new(two);
+        path[..steps].iter().for_each(|to| _ = contact.to(*to));
+        plane.check::<TwoDirections>((two, &contact.state), &path[steps..], &ALL[number % 3..][..1], |step, other| {
+            (step.force[0] - other.force[0]).hypot(step.force[1] - other.force[1])
+        });
+    }
+    for Restarts { rejected, undecided } in [&constant, &line, &plane] {
+        assert!(rejected[2] == 0 && *undecided <= STATES / 200, "{rejected:?} {undecided}");
+    }
+    // Reversals that rounding has moved onto each other.
+    assert!(constant.rejected[0] <= STATES / 20 && constant.rejected[1] <= STATES / 100, "{constant:?}");
+    assert!(line.rejected[0] <= STATES / 100, "{line:?}");
 }

@@ -62,7 +62,7 @@ const ROUGH: f64 = 0.01;
 const POINTS: usize = 128; // of the curve, of a path, samples and items
 const HARMONICS: usize = 5;
 const N: usize = 2 * HARMONICS + 1;
-const STATE: usize = 5 + 3 * 16; // 16 reversals
+const STATE: usize = 6 + 3 * 16; // 16 reversals
 
 type Call = Box<dyn FnMut() -> i32>;
 
@@ -252,7 +252,7 @@ fn batch_harmonics(b: Batch) -> Call {
     })
 }
 
-const ELEMENT_STATE: usize = 8 + 4 * 17; // 16 pieces
+const ELEMENT_STATE: usize = 9 + 4 * 17; // 16 pieces
 
 fn element() -> &'static mslip_element {
     let mut element = Box::new(MaybeUninit::uninit());

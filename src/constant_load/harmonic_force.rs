@@ -24,7 +24,7 @@ mod uniform_sampling;
 
 use crate::constant_load::contact::Contact;
 use crate::error::Error;
-use crate::fourier::workspace::{Layout, Size, TAGS};
+use crate::fourier::workspace::{HEADER, Layout, Size};
 use crate::limits::check_coefficients;
 use crate::parameters::PARAMETERS;
 
@@ -62,15 +62,15 @@ impl Rule {
     }
 
     /// The rule of a workspace, from its tag.
-    fn of_workspace([tag, ..]: &[f64; TAGS]) -> Rule {
-        if event_driven::Workspace::KIND.count(*tag).is_some() { Rule::EventDriven } else { Rule::UniformSampling }
+    fn of_workspace([tag, ..]: &[f64; HEADER]) -> Rule {
+        if event_driven::Workspace::KIND.is_tag(*tag) { Rule::EventDriven } else { Rule::UniformSampling }
     }
 }
 
 /// Rule, size and number of doubles of an initialised workspace, from its header.
 ///
 /// Errors: `BadWorkspace` if uninitialised.
-pub(crate) fn workspace_size(header: &[f64; TAGS]) -> Result<(Rule, Size, usize), Error> {
+pub(crate) fn workspace_size(header: &[f64; HEADER]) -> Result<(Rule, Size, usize), Error> {
     let rule = Rule::of_workspace(header);
     let (size, length) = match rule {
         Rule::UniformSampling => uniform_sampling::Workspace::read(header)?,

@@ -14,7 +14,7 @@ use crate::limits::check_displacement;
 use crate::numerics::fp_class::is_finite;
 use crate::numerics::total::Total;
 use crate::simd::dispatch;
-use crate::tag::Kind;
+use crate::tag::{Kind, is_count};
 
 impl Branch {
     /// Force and stiffness at a displacement on the branch.
@@ -100,15 +100,23 @@ pub(crate) fn continued(contact: &Contact, state: &[f64], displacement: f64) -> 
     Some(branch.on_branch(contact, response))
 }
 
+/// Relative change of a displacement by decimal text of 15 digits, at most.
+const TEXT: f64 = 1e-14;
+
 /// Finds the step of a contact from a state to a displacement \[m\], both checked.
 #[inline(always)]
 fn step(contact: &Contact, state: &[f64], displacement: f64) -> StepRecord {
     let memory = state::memory(state);
-    let Transition { branch, reversed } = memory.locate(contact, displacement, |_| {});
+    let Transition { mut branch, mut reversed } = memory.locate(contact, displacement, |_| {});
+    let is_full = reversed && state::is_full(state);
+    if is_full && (displacement - memory.now.displacement).abs() <= TEXT * displacement.abs() {
+        // A step of no length but for rounding: it continues the present branch, so that no reversals are removed.
+        (branch, reversed) = (memory.branch(contact, memory.depth(), -branch.direction), false);
+    }
     let Response { force, stiffness } = branch.response(contact, displacement);
     let initial = memory.initial.after(contact, &branch, displacement);
     let (mut start, mut end, mut merge) = (memory.now, Point { displacement, force }, None);
-    if reversed && state::is_full(state) {
+    if reversed && is_full {
         let pair = Merge::new(contact, initial.offset, memory.reversals, start.displacement);
         let limit = contact.slip_force;
         [start.force, end.force] = [start.force, force].map(|force| (force + pair.shift).min(limit).max(-limit));
@@ -156,7 +164,7 @@ impl Law for ConstantLoad {
     type Tangent = f64;
 
     const STATE_LENGTH: usize = state::state_length(0);
-    const NEW_STATE: f64 = Kind::State.tag(0);
+    const STATE: Kind = Kind::State;
 
     #[inline(always)]
     fn check(contact: &Contact) -> Result<(), Error> {
@@ -164,11 +172,8 @@ impl Law for ConstantLoad {
     }
 
     #[inline(always)]
-    fn check_tag(tag: f64, state_length: usize) -> Result<(), Error> {
-        match Kind::State.count(tag) {
-            Some(depth) if HEADER + PER_REVERSAL * depth <= state_length => Ok(()),
-            _ => Err(Error::BadState),
-        }
+    fn contains_counted(state: &[f64]) -> bool {
+        state::depth(state).is_some_and(|depth| depth <= state.len().saturating_sub(HEADER) / PER_REVERSAL)
     }
 
     #[inline(always)]
@@ -180,14 +185,20 @@ impl Law for ConstantLoad {
         let Memory { initial: InitialCurve { offset, slip_direction }, now, reversals } = state::read(state)?;
         let header = [now.displacement, now.force, offset, slip_direction];
         let finite = header.iter().chain(reversals.as_flattened()).all(|value| is_finite(*value));
-        if !finite || ![-1.0, 0.0, 1.0].contains(&slip_direction) || reversals.iter().any(|[.., error]| *error < 0.0) {
+        let whole = state.get(1).is_some_and(|depth| is_count(*depth));
+        if !finite
+            || !whole
+            || ![-1.0, 0.0, 1.0].contains(&slip_direction)
+            || reversals.iter().any(|[.., error]| *error < 0.0)
+        {
             return Err(Error::BadState);
         }
-        // Each lies between the two before it; the oldest and its mirror point enclose all others.
+        // Each lies between the two before it; the oldest and its mirror point enclose all others. If rounding has moved one onto the
+        // one before it, the direction of the branch between them is lost.
         if let Some(([oldest, ..], later)) = reversals.split_first() {
             let (mut before, mut last) = (2.0 * offset - oldest, *oldest);
             for displacement in later.iter().map(|[displacement, ..]| *displacement).chain([now.displacement]) {
-                if displacement < before.min(last) || displacement > before.max(last) {
+                if displacement < before.min(last) || displacement > before.max(last) || displacement == last {
                     return Err(Error::BadState);
                 }
                 (before, last) = (last, displacement);

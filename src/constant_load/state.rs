@@ -1,7 +1,7 @@
 //! The state of a history in the caller's memory: an array of doubles.
 //!
 //! ```text
-//! [tag with the number of reversals, displacement, slip direction, force, offset,
+//! [tag, number of reversals, displacement, slip direction, force, offset,
 //!      displacement, force and error of each reversal, oldest first]
 //! ```
 //!
@@ -14,9 +14,9 @@ use crate::constant_load::memory::{InitialCurve, Memory, Point, Reversal, push};
 use crate::error::Error;
 use crate::law::Law;
 use crate::numerics::total::Total;
-use crate::tag::Kind;
+use crate::tag::{Kind, count, stored};
 
-pub(crate) const HEADER: usize = 5;
+pub(crate) const HEADER: usize = 6;
 pub(crate) const PER_REVERSAL: usize = 3;
 /// Reversals that every state holds: merging needs a pair.
 const MIN_REVERSALS: usize = 2;
@@ -27,20 +27,25 @@ pub const fn state_length(reversals: usize) -> usize {
     reversals.saturating_mul(PER_REVERSAL).saturating_add(HEADER)
 }
 
+/// The number of reversals in a state.
+#[inline(always)]
+pub(crate) fn depth(state: &[f64]) -> Option<usize> {
+    state.get(1).copied().and_then(count)
+}
+
 /// Whether a state whose header was checked holds as many reversals as fit.
 #[inline(always)]
 pub(crate) fn is_full(state: &[f64]) -> bool {
-    let depth = Kind::State.count(state.first().copied().unwrap_or(0.0)).unwrap_or(0);
-    HEADER + PER_REVERSAL * (depth + 1) > state.len()
+    HEADER + PER_REVERSAL * (depth(state).unwrap_or(0) + 1) > state.len()
 }
 
 /// The memory in a state whose header was checked.
 #[inline(always)]
 pub(crate) fn memory(state: &[f64]) -> Memory<'_> {
-    let &[tag, displacement, slip_direction, force, offset, ref reversals @ ..] = state else {
+    let &[_, depth, displacement, slip_direction, force, offset, ref reversals @ ..] = state else {
         return Memory::UNLOADED;
     };
-    let used = PER_REVERSAL * Kind::State.count(tag).unwrap_or(0);
+    let used = PER_REVERSAL * count(depth).unwrap_or(0);
     let (initial, now) = (InitialCurve { offset, slip_direction }, Point { displacement, force });
     Memory { initial, now, reversals: reversals.part(..used).as_chunks().0 }
 }
@@ -79,14 +84,14 @@ pub(crate) fn reversals_mut(state: &mut [f64]) -> &mut [Reversal] {
 pub(crate) fn write_header(state: &mut [f64], depth: usize, initial: InitialCurve, now: Point) {
     if let Some(header) = state.first_chunk_mut::<HEADER>() {
         let InitialCurve { offset, slip_direction } = initial;
-        *header = [Kind::State.tag(depth), now.displacement, slip_direction, now.force, offset];
+        *header = [Kind::State.tag(), stored(depth), now.displacement, slip_direction, now.force, offset];
     }
 }
 
 /// Sets displacement and force in the header.
 #[inline(always)]
 pub(crate) fn set_point(state: &mut [f64], now: Point) {
-    if let Some([_, displacement, _, force, _]) = state.first_chunk_mut::<HEADER>() {
+    if let Some([_, _, displacement, _, force, _]) = state.first_chunk_mut::<HEADER>() {
         (*displacement, *force) = (now.displacement, now.force);
     }
 }

@@ -223,9 +223,7 @@ unsafe fn update<L: Law>(
         items.check::<L>(|i, law| {
             prefetch::<1>(states_old.wrapping_add((i + CHECKED_AHEAD) * state_length));
             let displacement = displacement.get(i).ok_or(Error::BadArraySize)?;
-            // A state of no length has no tag.
-            let tag = states.at(i * state_length);
-            L::check_state(tag, state_length)?;
+            L::check_header(states.part(i * state_length..(i + 1) * state_length))?;
             L::check_step(law, displacement)
         })?;
     }

@@ -87,8 +87,8 @@ pub unsafe extern "C" fn mslip_contact_init_elliptic(p: *const EllipticParameter
     initialise(p, contact, Contact::elliptic)
 }
 
-/// Validates a contact that was read from a file or a message: its checksum must be that written at initialisation. Other functions
-/// only check a tag.
+/// Validates a contact that was read from a file or a message: its checksum must be that written at initialisation, which detects any
+/// single changed bit. Text needs 17 digits; initialise it again instead. Other functions only check a tag.
 ///
 /// Returns MSLIP_NULL_POINTER or MSLIP_BAD_CONTACT.
 #[unsafe(no_mangle)]

@@ -25,6 +25,11 @@ pub unsafe extern "C" fn mslip_state_init(state_length: size_t, state: *mut f64)
 /// Validates a state that was read from a file or a message: all values must be finite and the reversals nested. Other functions only
 /// check a tag and the number of reversals.
 ///
+/// A state that was decimal text of 17 significant digits has every bit. With 15 or 16 digits later forces are right to 1e-12 mu N (if
+/// reversals were removed, within mslip_state_error), or the state is rejected, because rounding has moved one reversal onto another;
+/// with fewer digits it is rejected. Not detected: values that another history leads to, such as a force or a displacement of which one
+/// bit has changed. A file needs a checksum of its own against that.
+///
 /// Returns MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or MSLIP_BAD_STATE.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_state_check(state_length: size_t, state: *const f64) -> i32 {

@@ -10,7 +10,7 @@ use crate::constant_load::contact::Contact;
 use crate::constant_load::harmonic_force::{Workspace, workspace_size};
 use crate::element::{Directions, Element};
 use crate::error::Error;
-use crate::fourier::workspace::{Layout, Size, TAGS};
+use crate::fourier::workspace::{HEADER, Layout, Size};
 use core::{ptr, slice};
 
 /// The status of a call.
@@ -135,10 +135,10 @@ pub fn set<T>(place: Option<&mut T>, value: impl FnOnce() -> T) {
 }
 
 /// Header of a workspace.
-pub unsafe fn workspace_header(pointer: *const f64) -> Result<[f64; TAGS], Error> {
+pub unsafe fn workspace_header(pointer: *const f64) -> Result<[f64; HEADER], Error> {
     check_alignment(pointer)?;
     not_null(pointer)?;
-    Ok(pointer.cast::<[f64; TAGS]>().read())
+    Ok(pointer.cast::<[f64; HEADER]>().read())
 }
 
 /// An initialised workspace.

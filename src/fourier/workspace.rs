@@ -1,18 +1,15 @@
 //! Workspaces of the harmonic force: size, header and layout.
 //!
 //! ```text
-//! [tag with harmonics, tag with samples, tag with periods, 0 | tables | scratch memory]
+//! [tag, harmonics, samples, periods | tables | scratch memory]
 //! ```
 //!
 //! The tables are filled once and only read afterwards. Each quadrature rule implements [`Layout`].
 
 use crate::error::Error;
-use crate::tag::Kind;
+use crate::tag::{Kind, count, stored};
 
-/// Tags at the beginning.
-pub(crate) const TAGS: usize = 3;
-
-/// Doubles before the tables: the tags, padded so that the tables keep the alignment of the workspace.
+/// Doubles before the tables, which keep the alignment of the workspace.
 pub(crate) const HEADER: usize = 4;
 
 /// Doubles in blocks of four.
@@ -95,15 +92,19 @@ pub(crate) trait Layout<'a>: Sized {
         let (header, buffers) = memory.split_first_chunk_mut::<HEADER>().ok_or(Error::WorkspaceTooShort)?;
         Self::take(size, &mut Parts::Taking(buffers))?.fill();
         let Size { harmonics, samples, periods } = size;
-        *header = [Self::KIND.tag(harmonics), Kind::Samples.tag(samples), Kind::Periods.tag(periods), 0.0];
+        *header = [Self::KIND.tag(), stored(harmonics), stored(samples), stored(periods)];
         Ok(())
     }
 
     /// Size and number of doubles of an initialised workspace, from its header.
     #[inline(always)]
-    fn read(&[first, second, third]: &[f64; TAGS]) -> Result<(Size, usize), Error> {
-        let counts = (Self::KIND.count(first), Kind::Samples.count(second), Kind::Periods.count(third));
-        let (Some(harmonics), Some(samples), Some(periods @ 1..)) = counts else { return Err(Error::BadWorkspace) };
+    fn read(&[tag, ref counts @ ..]: &[f64; HEADER]) -> Result<(Size, usize), Error> {
+        let [Some(harmonics), Some(samples), Some(periods @ 1..)] = counts.map(count) else {
+            return Err(Error::BadWorkspace);
+        };
+        if !Self::KIND.is_tag(tag) {
+            return Err(Error::BadWorkspace);
+        }
         let size = Self::check_size(Size { harmonics, samples, periods }).map_err(|_| Error::BadWorkspace)?;
         Ok((size, Self::length(size)))
     }
@@ -113,7 +114,7 @@ pub(crate) trait Layout<'a>: Sized {
     #[inline(always)]
     fn open(workspace: &'a mut [f64]) -> Result<Self, Error> {
         let (header, buffers) = workspace.split_first_chunk_mut::<HEADER>().ok_or(Error::BadWorkspace)?;
-        let (size, _) = Self::read(header.first_chunk().ok_or(Error::BadWorkspace)?)?;
+        let (size, _) = Self::read(header)?;
         Self::take(size, &mut Parts::Taking(buffers))
     }
 }

@@ -1,7 +1,7 @@
 //! The state of an element in the caller's memory, and steps from it.
 //!
 //! ```text
-//! [tag with the number of knots, displacement, normal component, N, S, dN/d(input), dS/d(input), force error,
+//! [tag, number of pieces, displacement, normal component, N, S, dN/d(input), dS/d(input), force error,
 //!      ξ, η, N and T of each knot, from the centre outwards]
 //! ```
 
@@ -14,9 +14,9 @@ use crate::numerics::total::Total;
 use crate::one_direction::diagram::Polygon;
 use crate::one_direction::step::{Header, step};
 use crate::one_direction::{OneDirection, Step};
-use crate::tag::Kind;
+use crate::tag::{Kind, count, is_count, stored};
 
-const HEADER: usize = 8;
+const HEADER: usize = 9;
 const PER_KNOT: usize = 4;
 /// Pieces that every state holds.
 const MIN_PIECES: usize = 4;
@@ -28,22 +28,27 @@ pub const fn state_length(pieces: usize) -> usize {
     pieces.saturating_add(1).saturating_mul(PER_KNOT).saturating_add(HEADER)
 }
 
-const ERROR: usize = 7;
+const ERROR: usize = 8;
 
 impl Header {
     #[inline(always)]
-    fn read(&[_, displacement, input, load, shift, load_slope, shift_slope, error]: &[f64; HEADER]) -> Header {
+    fn read(&[_, _, displacement, input, load, shift, load_slope, shift_slope, error]: &[f64; HEADER]) -> Header {
         Header { displacement, input, normal: Normal { load, shift, load_slope, shift_slope }, error }
     }
+}
+
+/// Number of knots in use: one more than pieces.
+#[inline(always)]
+fn used_knots(&[_, pieces, ..]: &[f64; HEADER]) -> usize {
+    count(pieces).unwrap_or(0) + 1
 }
 
 /// Header and knots in use of a state whose header was checked.
 #[inline(always)]
 pub(crate) fn read(state: &[f64]) -> (Header, &[[f64; PER_KNOT]]) {
     let (header, knots) = state.split_first_chunk().unwrap_or((&[0.0; HEADER], &[]));
-    let used = Kind::ElementState.count(header[0]).unwrap_or(0);
     let knots = knots.as_chunks().0;
-    (Header::read(header), knots.get(..used).unwrap_or(knots))
+    (Header::read(header), knots.get(..used_knots(header)).unwrap_or(knots))
 }
 
 impl Law for OneDirection {
@@ -52,7 +57,7 @@ impl Law for OneDirection {
     type Tangent = [f64; 4];
 
     const STATE_LENGTH: usize = state_length(0);
-    const NEW_STATE: f64 = Kind::ElementState.tag(1);
+    const STATE: Kind = Kind::ElementState;
     const OTHER_STATE: Option<Kind> = Some(Kind::TwoDirectionsState);
 
     #[inline(always)]
@@ -61,11 +66,9 @@ impl Law for OneDirection {
     }
 
     #[inline(always)]
-    fn check_tag(tag: f64, state_length: usize) -> Result<(), Error> {
-        match Kind::ElementState.count(tag) {
-            Some(knots) if knots > 0 && HEADER + PER_KNOT * knots <= state_length => Ok(()),
-            _ => Err(Error::BadState),
-        }
+    fn contains_counted(state: &[f64]) -> bool {
+        let pieces = state.get(1).copied().and_then(count);
+        pieces.is_some_and(|pieces| pieces < state.len().saturating_sub(HEADER) / PER_KNOT)
     }
 
     #[inline(always)]
@@ -78,8 +81,9 @@ impl Law for OneDirection {
         OneDirection::check_header(state)?;
         let (Header { displacement, normal, error, .. }, knots) = read(state);
         let Normal { load, shift, load_slope, shift_slope } = normal;
+        let whole = state.get(1).is_some_and(|pieces| is_count(*pieces));
         let finite = state.iter().take(HEADER + PER_KNOT * knots.len()).all(|value| is_finite(*value));
-        if !finite || error < 0.0 || [load, shift, load_slope, shift_slope].iter().any(|value| *value < 0.0) {
+        if !finite || !whole || error < 0.0 || [load, shift, load_slope, shift_slope].iter().any(|value| *value < 0.0) {
             return Err(Error::BadState);
         }
         let (Some([xi, eta, first, _]), Some([last_xi, last_eta, last, _])) = (knots.first(), knots.last()) else {
@@ -125,13 +129,12 @@ impl Law for OneDirection {
     #[inline(never)]
     fn advance(element: &Element, state: &mut [f64], displacement: [f64; 2], requested: Requested) -> Step {
         let Some((header, knots)) = state.split_first_chunk_mut::<HEADER>() else { return Step::NONE };
-        let used = Kind::ElementState.count(header[0]).unwrap_or(0);
-        let mut polygon = Polygon::new(element.friction_coefficient, knots, used);
+        let mut polygon = Polygon::new(element.friction_coefficient, knots, used_knots(header));
         let (step, to) = step(element, &Header::read(header), &mut polygon, displacement, requested.energy);
         let Header { displacement, input, normal: Normal { load, shift, load_slope, shift_slope }, error } = to;
-        let (tag, error) =
-            (Kind::ElementState.tag(polygon.used), polygon.error + if polygon.anew { 0.0 } else { error });
-        *header = [tag, displacement, input, load, shift, load_slope, shift_slope, error];
+        let error = polygon.error + if polygon.anew { 0.0 } else { error };
+        let pieces = stored(polygon.used.saturating_sub(1));
+        *header = [Kind::ElementState.tag(), pieces, displacement, input, load, shift, load_slope, shift_slope, error];
         step
     }
 
@@ -156,6 +159,6 @@ fn copy(element: &Element, from: &[f64], to: &mut [f64]) {
     let mut polygon = Polygon::new(element.friction_coefficient, target, 0);
     read(from).1.iter().for_each(|knot| polygon.push((*knot).into()));
     *header = *source;
-    header[0] = Kind::ElementState.tag(polygon.used);
+    header[1] = stored(polygon.used.saturating_sub(1));
     header[ERROR] += polygon.error;
 }

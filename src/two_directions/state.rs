@@ -3,7 +3,7 @@
 //! ```text
 //! [tag, v, u, normal component, key of the element, units of the springs (3), springs under the flat, last shell and part,
 //!  N | the normal state in the units of the springs and its derivatives (7 each), stiffnesses at the edge (2), force of the springs (2),
-//!  derivative of N | rows of the edge | turned | C⁻¹ | springs | tables]
+//!  derivative of N, a double that needs 17 digits | rows of the edge | turned | C⁻¹ | springs | tables]
 //! ```
 //!
 //! in rows of as many doubles as springs. The tables are aligned with a load: the state carries them, as they change with its history only.
@@ -34,6 +34,10 @@ const OUTGROWN: f64 = 1.02;
 /// The least power: below, loads are aligned with the least reference load.
 const LEAST_LEVEL: f64 = -300.0;
 
+/// Decimal text of 16 significant digits or fewer changes this double, which is halfway between two numbers of 16 digits: the state of a
+/// closed contact is rejected then. Its springs at the edge are so stiff that rounding errors of their limits would be amplified.
+const ALL_DIGITS: f64 = 1_000.000_000_000_000_5;
+
 const HEADER_ROWS: usize = 3;
 const EDGE_ROWS: usize = 5;
 const TURNED_ROWS: usize = 2;
@@ -47,17 +51,12 @@ impl Law for TwoDirections {
     type Tangent = [f64; 9];
 
     const STATE_LENGTH: usize = LENGTH;
-    const NEW_STATE: f64 = Kind::TwoDirectionsState.tag(0);
+    const STATE: Kind = Kind::TwoDirectionsState;
     const OTHER_STATE: Option<Kind> = Some(Kind::ElementState);
 
     #[inline(always)]
     fn check(element: &Element) -> Result<(), Error> {
         element.check_directions(Directions::Two)
-    }
-
-    #[inline(always)]
-    fn check_tag(tag: f64, _state_length: usize) -> Result<(), Error> {
-        if Kind::TwoDirectionsState.count(tag) == Some(0) { Ok(()) } else { Err(Error::BadState) }
     }
 
     #[inline(always)]
@@ -90,10 +89,12 @@ impl Law for TwoDirections {
         let start = starts(contact.under_flat);
         let within = (0..2).all(|k| {
             let rounding = 1e-9 * contact.now.shift[k];
-            let limit = |j: usize| contact.limit(&&*memory.tables, k, start[j]) + rounding;
-            (0..=contact.last.min(N - 1)).all(|j| memory.springs[k][j].abs() <= limit(j))
+            let limit = |start: usize| contact.limit(&&*memory.tables, k, start) + rounding;
+            let mut springs = memory.springs[k].iter().zip(start).take(contact.last + 1);
+            springs.all(|(spring, start)| spring.abs() <= limit(*start))
         });
-        if within && held && edge && small && positive.iter().all(|value| *value > 0.0) {
+        let [.., [.., all_digits, _, _, _, _]] = *memory.header;
+        if all_digits == ALL_DIGITS && within && held && edge && small && positive.iter().all(|value| *value > 0.0) {
             Ok(())
         } else {
             Err(Error::BadState)
@@ -242,13 +243,13 @@ impl Memory<'_> {
         let Header { displacement: [u, v, input], normal_force, load_slope, key, units, force } = *header;
         let Units { load, shift, size } = units;
         let [flat, last, part] = [contact.under_flat, contact.last, contact.part].map(|count| count as f64);
-        let tag = Kind::TwoDirectionsState.tag(0);
+        let tag = Kind::TwoDirectionsState.tag();
         let [[a, b, c, d, e, f, g], [p, q, r, s, t, w, x]] = [contact.now, contact.slopes].map(Pressed::values);
         let [w_x, w_y] = contact.stiffness;
         *self.header = [
             [tag, v, u, input, key, load, shift, size, flat, last, part, normal_force],
             [a, b, c, d, e, f, g, w_x, w_y, force[0], force[1], load_slope],
-            [p, q, r, s, t, w, x, 0.0, 0.0, 0.0, 0.0, 0.0],
+            [p, q, r, s, t, w, x, ALL_DIGITS, 0.0, 0.0, 0.0, 0.0],
         ];
         let ([edge_x, edge_y], [fine_x, fine_y]) = (contact.edge, contact.fine);
         *self.edge = [edge_x, edge_y, contact.per_pressure, fine_x, fine_y];
@@ -329,7 +330,7 @@ impl Memory<'_> {
             (*self.inverse, *self.tables) = ([[[0.0; N]; N]; 2], [[0.0; N]; ROWS]);
             *self.header = [[0.0; N]; HEADER_ROWS];
         }
-        let tag = Kind::TwoDirectionsState.tag(0);
+        let tag = Kind::TwoDirectionsState.tag();
         [self.header[0][0], self.header[0][1], self.header[0][2], self.header[0][3]] = [tag, v, u, input];
     }
 

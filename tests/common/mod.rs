@@ -71,3 +71,8 @@ pub fn advance(contact: &Contact, state: &mut [f64], displacement: f64) -> (f64,
     let step = ConstantLoad::step(contact, state, displacement).unwrap();
     (step.force, step.tangent, step.dissipated)
 }
+
+/// A state after decimal text of this number of significant digits, as C and Fortran print it.
+pub fn as_text(state: &[f64], digits: usize) -> Vec<f64> {
+    state.iter().map(|value| format!("{value:.*e}", digits - 1).parse().unwrap()).collect()
+}

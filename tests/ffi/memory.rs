@@ -5,9 +5,6 @@ use super::values::{NON_FINITE, accepted};
 use super::*;
 use calls::mutation::{Bytes, mutated_call};
 
-/// The count of a tag is in its lower 40 bits.
-const COUNT: u64 = (1 << 40) - 1;
-
 /// Pseudorandom bytes, the same in every run.
 fn pseudorandom(seed: u64, length: usize) -> Vec<u8> {
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
@@ -35,7 +32,7 @@ fn laws() -> impl Iterator<Item = (&'static Call, &'static Law)> {
     contacts.chain(calls::elements().iter().map(|law| (call("mslip_element_check"), law)))
 }
 
-/// Any changed bit of a contact or an element is found, and any mixture of two, but no copy.
+/// Any changed bit of a contact or an element is found, any mixture of two, and text that has changed it, but no copy.
 #[test]
 fn changed_contacts_and_elements() {
     for (check, law) in laws() {
@@ -52,6 +49,12 @@ fn changed_contacts_and_elements() {
             words[bit / 64] ^= 1 << (bit % 64);
             expect(&words, status);
             words[bit / 64] ^= 1 << (bit % 64);
+        }
+        for digits in 15..=17 {
+            let text =
+                |word: &u64| format!("{:.*e}", digits - 1, f64::from_bits(*word)).parse::<f64>().unwrap().to_bits();
+            let text: Vec<u64> = valid.iter().map(text).collect();
+            expect(&text, if text == valid { MSLIP_OK } else { status });
         }
         for (_, other) in laws().filter(|(_, other)| other.bytes.len() == law.bytes.len() && other.bytes != law.bytes) {
             let other = self::words(&other.bytes);
@@ -72,16 +75,15 @@ fn changed_contacts_and_elements() {
 }
 
 /// Where the tags of an argument are, and their bits that no call accepts otherwise. The others are the geometry, the normal input and
-/// the directions of an element, and counts.
+/// the directions of an element.
 fn tags(call: &Call, kind: Kind, length: usize) -> (Vec<usize>, u64) {
     let items = call.items();
     let each = |word: usize| (0..items).map(|i| i * length / items + word).collect();
     match kind {
         Contact => (each(6), !0),
         Element => (each(8), !7),
-        State => (each(0), !COUNT),
-        Workspace => (vec![0, 1, 2], !COUNT),
-        _ => (vec![0], !COUNT),
+        State => (each(0), !0),
+        _ => (vec![0], !0),
     }
 }
 
@@ -108,12 +110,12 @@ fn tags_are_checked() {
                 }
             }
             expect(&[&words[1..], &words[..1]].concat());
-            let count = |count: u64| (words[0] & !COUNT) | count;
             match argument.kind {
                 State if !(call.is_of_element() && law.directions == 2) => {
-                    for many in [2000, 1 << 32, COUNT] {
-                        expect(&[&[count(many)], &words[1..]].concat());
+                    for count in [2000.0, 2f64.powi(32), 2f64.powi(52), 2f64.powi(60), -1.0] {
+                        expect(&[&words[..1], &[f64::to_bits(count)], &words[2..]].concat());
                     }
+                    NON_FINITE.into_iter().for_each(|count| expect(&[&words[..1], &[count], &words[2..]].concat()));
                 }
                 Workspace => {
                     for sizes in [
@@ -125,8 +127,7 @@ fn tags_are_checked() {
                         [2, 16, 0],
                         [2, 16, (1 << 16) + 1],
                     ] {
-                        let tags = [0, 1, 2].map(|i| (words[i] & !COUNT) | sizes[i]);
-                        expect(&[&tags, &words[3..]].concat());
+                        expect(&[&words[..1], &sizes.map(|size| (size as f64).to_bits()), &words[4..]].concat());
                     }
                 }
                 _ => {}
@@ -276,9 +277,9 @@ fn invalid_states() {
         match (of_element, law.directions) {
             (false, _) => {
                 // Displacement, force and error of each reversal.
-                const FIRST: usize = 5;
-                for (i, value) in [(2, 0.5), (2, -2.0), (1, 1.0), (1, -1.0)] {
-                    found(i, value, "a slip direction, a displacement outside of the last branch");
+                const FIRST: usize = 6;
+                for (i, value) in [(1, 2.5), (3, 0.5), (3, -2.0), (2, 1.0), (2, -1.0)] {
+                    found(i, value, "a count, a slip direction, a displacement outside of the last branch");
                 }
                 for i in 0..REVERSALS {
                     let sign = if i % 2 == 0 { 1.0 } else { -1.0 };
@@ -288,19 +289,21 @@ fn invalid_states() {
                 }
             }
             (true, 1) => {
-                const FIRST: usize = 8;
-                (3..FIRST).for_each(|i| _ = found(i, -1e-3, "negative"));
+                const FIRST: usize = 9;
+                found(1, PIECES as f64 - 0.5, "a count");
+                (4..FIRST).for_each(|i| _ = found(i, -1e-3, "negative"));
                 for i in (FIRST..FIRST + 4 * PIECES).step_by(4) {
                     found(i, -1.0, "a size that decreases");
                     found(i + 1, 1.0, "a size that decreases");
                     found(i + 2, -1.0, "a negative force");
                 }
-                found(1, 1.0, "a displacement outside of the last knot");
-                let load = found(3, -1.0, "negative");
-                found(3, 1e-6 * load, "less than the last knot");
+                found(2, 1.0, "a displacement outside of the last knot");
+                let load = found(4, -1.0, "negative");
+                found(4, 1e-6 * load, "less than the last knot");
             }
             _ => {
                 [5, 6, 7, 11, 12, 13, 14, 36, 48, 60].into_iter().for_each(|i| _ = found(i, -1.0, "a negative size"));
+                found(31, 1000.0, "text of 16 digits");
                 found(24, 1e50, "a derivative that overflows");
                 [96, 108, 408, 420].into_iter().for_each(|i| _ = found(i, 1e10, "a turn, or a spring that is too far"));
                 [408, 420].into_iter().for_each(|i| _ = found(i, 10.0, "a spring beyond its limit"));
@@ -329,7 +332,7 @@ fn unused_memory() {
             return;
         }
         let mut arguments = Arguments::new(call, law, Before::Filled);
-        let mut used = 3;
+        let mut used = 4;
         if call.has(State) {
             used = set_filled_state(call, law, &mut arguments, input);
         } else if call.has(Workspace) {
