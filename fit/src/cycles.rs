@@ -63,8 +63,12 @@ const SAMPLES: usize = 250;
 /// A rest at a reversal: within this fraction of the range for more than this fraction of a branch. A sine stays there for 0.09.
 const REST: [f64; 2] = [5e-3, 0.2];
 
-/// The loops of a record.
-pub(crate) fn loops(original: &Record) -> Result<Vec<Loop>, Error> {
+/// The loops of a record; if it has none, without the trend of its displacement, which may hide cycles.
+pub(crate) fn loops(record: &Record) -> Result<Vec<Loop>, Error> {
+    loops_of(record).or_else(|error| loops_of(&record.without_trend()).map_err(|_| error))
+}
+
+fn loops_of(original: &Record) -> Result<Vec<Loop>, Error> {
     let mut record = original;
     let (count, fail) = (record.time.len(), |reason: &str| error(format!("{}: {reason}", record.name)));
     let least = |record: &Record| SMALLEST_CYCLE * range(&record.displacement) + 6.0 * record.noise[0];
@@ -83,7 +87,7 @@ pub(crate) fn loops(original: &Record) -> Result<Vec<Loop>, Error> {
     }
     let branch = (reversals[reversals.len() - 1] - reversals[0]) / (reversals.len() - 1);
     if branch >= 2 * SAMPLES {
-        return self::loops(&original.averaged(branch / SAMPLES));
+        return loops_of(&original.averaged(branch / SAMPLES));
     }
     let displacement = smoothed(&record.displacement);
     let half_range = |i: usize| 0.5 * (displacement[reversals[i + 1]] - displacement[reversals[i]]).abs();
@@ -101,7 +105,10 @@ pub(crate) fn loops(original: &Record) -> Result<Vec<Loop>, Error> {
         first = last;
     }
     if loops.is_empty() {
-        return fail("the amplitude changes by more than 5 % from each reversal to the next: no loop is closed");
+        return fail(
+            "the amplitude changes by more than 5 % from each reversal to the next: no loop is closed; hold an amplitude for at least \
+             one cycle",
+        );
     }
     let swing = loops.iter().map(Loop::swing).fold(0.0, f64::max);
     if swing > LARGEST_SWING {
@@ -163,6 +170,15 @@ impl Loop {
         let (time, centre) = (mean(middles.iter().map(|at| at.0)), mean(middles.iter().map(|at| at.1)));
         let moment = |f: &dyn Fn(f64, f64) -> f64| mean(middles.iter().map(|at| f(at.0 - time, at.1 - centre)));
         let drift = if has_drift { moment(&|t, x| t * x) / moment(&|t, _| t * t) } else { 0.0 };
+        // Drift of the mean force of a branch to the next but one.
+        let of_branch = |pair: &[usize]| {
+            let [time, force] = [&record.time, &record.force].map(|of| mean(of[pair[0]..pair[1]].iter().copied()));
+            (time, force)
+        };
+        let branches: Vec<_> = reversals.windows(2).map(of_branch).collect();
+        let changes = branches.iter().zip(branches.iter().skip(2)).map(|(one, next)| [next.0 - one.0, next.1 - one.1]);
+        let [of_time, of_force] = [0, 1].map(|i| changes.clone().map(|change| change[i]).sum::<f64>());
+        let force_drift = if has_drift { of_force / of_time } else { 0.0 };
         let steady = |values: &[f64], i: usize| values[i] - centre - drift * (record.time[i] - time);
 
         // Ends of the loop; each reversal is drawn to their mean as far as it differs by noise only.
@@ -207,7 +223,7 @@ impl Loop {
             Sample {
                 time: record.time[i],
                 displacement,
-                force: record.force[i],
+                force: record.force[i] - force_drift * (record.time[i] - time),
                 load_excess: record.normal_force[i] - normal_force,
                 load_excess_at_reversal: record.normal_force[reversals[branch]] - normal_force,
                 direction,
@@ -231,6 +247,21 @@ impl Loop {
         }
     }
 
+    /// Every fourth sample of the loop without a play, which is crossed within a part of the height around a force.
+    pub fn without_play(&self, play: f64, [force, width]: [f64; 2]) -> Loop {
+        let sample = |sample: &Sample| {
+            let crossed = 0.5 * play * ((sample.force - force) / (width * self.height())).tanh();
+            Sample {
+                displacement: sample.displacement - crossed,
+                // From the reversal, on the other side.
+                distance: sample.distance - sample.direction * crossed - 0.5 * play,
+                ..*sample
+            }
+        };
+        let samples = self.samples.iter().step_by(4).map(sample).collect();
+        Loop { amplitude: self.amplitude - 0.5 * play, samples, ..self.clone() }
+    }
+
     /// Energy per cycle over that of the rectangle around the loop.
     fn area(&self) -> f64 {
         let forces: Vec<_> = self.samples.iter().map(|sample| sample.force).collect();
@@ -248,7 +279,7 @@ impl Loop {
         let [x, force] = [moment(&|sample| sample.displacement), moment(&|sample| sample.force)];
         let rises = moment(&|sample| (sample.displacement - x) * (sample.force - force)) > 0.0;
         let reason = if rises {
-            "the columns of displacement and force are swapped, or the force is late"
+            "the columns of displacement and force are swapped, the rows are in reverse order, or the force is late"
         } else {
             "the sign of displacement or force is reversed; the force must resist the displacement that it is plotted against, and \
              grow with it"
@@ -263,10 +294,15 @@ impl Loop {
 
     /// Half the range of the force, without outliers.
     pub fn height(&self) -> f64 {
+        let [low, high] = self.force_range();
+        0.5 * (high - low)
+    }
+
+    /// The least and the largest force, without outliers.
+    pub fn force_range(&self) -> [f64; 2] {
         let mut forces: Vec<_> = self.samples.iter().map(|sample| sample.force).collect();
         forces.sort_by(f64::total_cmp);
-        let [low, high] = [2, 98].map(|percent| forces[(forces.len() - 1) * percent / 100]);
-        0.5 * (high - low)
+        [2, 98].map(|percent| forces[(forces.len() - 1) * percent / 100])
     }
 
     /// Energy per complete cycle of forces at the samples. A constant force does no work in a cycle.

@@ -20,10 +20,21 @@ pub(crate) struct Record {
     /// Samples of the measurement that are averaged in one, and their time; without times, their number.
     pub interval: f64,
     pub step: f64,
+    /// What was left out.
+    pub warnings: Vec<String>,
 }
+
+/// Rows with a number missing, and spikes, that are left out at most, over all rows.
+const MOST_MISSING: f64 = 0.05;
+const MOST_SPIKES: f64 = 0.01;
+/// A spike is a single sample. It differs from both neighbours by more than this factor times each other step among the three
+/// samples before and after, and this multiple of the noise.
+const SPIKE: [f64; 2] = [4.0, 8.0];
 
 /// Samples that a record needs at least.
 const LEAST_SAMPLES: usize = 40;
+/// A longer step of time, over the median, is a gap: missing rows in which a reversal may lie.
+const LONGEST_GAP: f64 = 3.0;
 /// A larger step between samples, over the range, is a gap; 12 samples of a sine have steps of 0.26.
 const LARGEST_STEP: f64 = 0.25;
 /// Number of equal extreme values, over the number of samples, that a saturated sensor has.
@@ -35,29 +46,61 @@ impl Record {
             name => name.to_owned(),
         };
         let fail = |reason: String| error(format!("{name}: {reason}"));
-        let Measurement { displacement, force, time, .. } = measurement;
-        let count = displacement.len();
-        let normal_force = &match &measurement.normal_force {
+        let count = measurement.displacement.len();
+        let normal_force = match &measurement.normal_force {
             Some(NormalForce::Samples(samples)) => samples.clone(),
             Some(NormalForce::Constant(value)) => vec![*value; count],
             None => vec![normal_force; count],
         };
-        let columns = [("displacement", displacement), ("force", force), ("normal force", normal_force)];
-        for (column, values) in columns.into_iter().chain(time.iter().map(|time| ("time", time))) {
+        let has_time = measurement.time.is_some();
+        let time = measurement.time.clone().unwrap_or_else(|| (0..count).map(|i| i as f64).collect());
+        let mut columns = [measurement.displacement.clone(), measurement.force.clone(), normal_force, time];
+        for (name, values) in ["displacement", "force", "normal force", "time"].into_iter().zip(&columns) {
             if values.len() != count {
-                return fail(format!("{column} has {} values, displacement {count}", values.len()));
-            }
-            if let Some(row) = values.iter().position(|value| !value.is_finite()) {
-                return fail(format!("{column} of sample {} is not a number", row + 1));
+                return fail(format!("{name} has {} values, displacement {count}", values.len()));
             }
         }
+        let mut warnings = Vec::new();
+        let mut leave_out = |columns: &mut [Vec<f64>; 4], rows: &[bool], most: f64, what: &str| {
+            let found = rows.iter().filter(|row| **row).count();
+            if found as f64 > most * rows.len() as f64 {
+                let first = rows.iter().position(|row| *row).map_or(0, |row| row + 1);
+                let percent = 100.0 * most;
+                return error(format!(
+                    "{name}: {found} of {} samples {what}, the first one is {first}; at most {percent:.0} % are left out",
+                    rows.len()
+                ));
+            }
+            if found > 0 {
+                warnings.push(format!("{name}: {found} samples are left out: they {what}"));
+                for column in columns {
+                    let mut rows = rows.iter();
+                    column.retain(|_| !rows.next().is_some_and(|row| *row));
+                }
+            }
+            Ok(())
+        };
+        let are_missing: Vec<_> = (0..count).map(|i| columns.iter().any(|values| !values[i].is_finite())).collect();
+        leave_out(&mut columns, &are_missing, MOST_MISSING, "have no number")?;
+        if has_time && columns[3].windows(2).all(|pair| pair[1] < pair[0]) {
+            columns.iter_mut().for_each(|values| values.reverse());
+        }
+        let rows = columns[0].len();
+        let is_same = |i: usize| i > 0 && columns.iter().all(|values| values[i] == values[i - 1]);
+        let are_doubled: Vec<_> = (0..rows).map(|i| has_time && is_same(i)).collect();
+        leave_out(&mut columns, &are_doubled, 1.0, "repeat the sample before, with its time")?;
+        let [of_displacement, of_force] = [0, 1].map(|i| spikes(&columns[i]));
+        let are_spikes: Vec<_> = of_displacement.iter().zip(&of_force).map(|(one, other)| *one || *other).collect();
+        leave_out(&mut columns, &are_spikes, MOST_SPIKES, "are spikes")?;
+        let [displacement, force, normal_force, mut time] = columns;
+        let count = displacement.len();
         if count < LEAST_SAMPLES {
             return fail(format!("{count} samples; a fit needs at least {LEAST_SAMPLES}"));
         }
         if let Some(row) = normal_force.iter().position(|value| *value <= 0.0) {
             return fail(format!("the normal force of sample {} is not positive: the contact is open", row + 1));
         }
-        for (column, values) in &columns[..2] {
+        for (column, values) in [("displacement", &displacement), ("force", &force)] {
             if range(values) == 0.0 {
                 return fail(format!("{column} is constant"));
             }
@@ -76,33 +119,54 @@ impl Record {
                 ));
             }
         }
-        if let Some(time) = time {
-            let mut steps: Vec<_> = time.windows(2).map(|pair| pair[1] - pair[0]).collect();
-            if let Some(row) = steps.iter().position(|step| *step <= 0.0) {
-                return fail(format!("time does not increase after sample {}", row + 1));
-            }
-            let longest = steps.iter().enumerate().max_by(|one, other| one.1.total_cmp(other.1));
-            let (row, longest) = longest.map_or((0, 0.0), |(row, step)| (row, *step));
-            steps.sort_by(f64::total_cmp);
-            if longest > 3.0 * steps[steps.len() / 2] {
-                return fail(format!("a gap of {longest:e} in time after sample {}", row + 1));
-            }
+        let mut steps: Vec<_> = time.windows(2).map(|pair| pair[1] - pair[0]).collect();
+        if let Some(row) = steps.iter().position(|step| *step <= 0.0) {
+            warnings.push(format!(
+                "{name}: time does not increase after sample {}: a coarse clock, or one that stopped or restarted; equal steps of \
+                 time are assumed",
+                row + 1
+            ));
+            time = (0..count).map(|i| i as f64).collect();
+            steps.fill(1.0);
         }
-        let index: Vec<_> = (0..count).map(|i| i as f64).collect();
-        let time = time.as_ref().unwrap_or(&index);
+        let longest = steps.iter().enumerate().max_by(|one, other| one.1.total_cmp(other.1));
+        let (row, longest) = longest.map_or((0, 0.0), |(row, step)| (row, *step));
+        steps.sort_by(f64::total_cmp);
+        if has_time && longest > LONGEST_GAP * steps[steps.len() / 2] {
+            return fail(format!(
+                "a gap of {longest:e} in time after sample {}: use the part before or after it, with at least one cycle",
+                row + 1
+            ));
+        }
         let length = time[count - 1] - time[0];
         let (interval, step) = (1.0, length / (count - 1) as f64);
         let time = time.iter().map(|at| 2.0 * (at - time[0]) / length - 1.0).collect();
-        let noise = [noise(displacement), noise(force)];
-        let (displacement, force, normal_force) = (displacement.clone(), force.clone(), smoothed(normal_force));
+        let (noise, normal_force) = ([noise(&displacement), noise(&force)], smoothed(&normal_force));
         let resolution = resolution(&force);
-        Ok(Record { name, time, displacement, force, normal_force, noise, resolution, interval, step })
+        Ok(Record { name, time, displacement, force, normal_force, noise, resolution, interval, step, warnings })
     }
 
     /// The same record with other columns.
     fn map(&self, of: impl Fn(&[f64]) -> Vec<f64>) -> Record {
         let [time, displacement, force] = [&self.time, &self.displacement, &self.force].map(|column| of(column));
-        Record { name: self.name.clone(), time, displacement, force, normal_force: of(&self.normal_force), ..*self }
+        Record {
+            name: self.name.clone(),
+            time,
+            displacement,
+            force,
+            normal_force: of(&self.normal_force),
+            warnings: Vec::new(),
+            ..*self
+        }
+    }
+
+    /// The same record with a displacement from which its regression line over the time is removed.
+    pub fn without_trend(&self) -> Record {
+        let mean = |values: &mut dyn Iterator<Item = f64>| values.sum::<f64>() / self.time.len() as f64;
+        let [time, centre] = [&self.time, &self.displacement].map(|of| mean(&mut of.iter().copied()));
+        let pairs = || self.time.iter().zip(&self.displacement).map(|(t, x)| (t - time, x - centre));
+        let slope = mean(&mut pairs().map(|(t, x)| t * x)) / mean(&mut pairs().map(|(t, _)| t * t));
+        Record { displacement: pairs().map(|(t, x)| x - slope * t).collect(), ..self.clone() }
     }
 
     /// Means of the given number of successive samples.
@@ -147,6 +211,18 @@ fn noise(values: &[f64]) -> f64 {
     let kept = &squares[..squares.len() * 3 / 4];
     // The sum of the squares of 1, 4, 6, 4, 1.
     (kept.iter().sum::<f64>() / kept.len() as f64 / 70.0).sqrt() / 0.6071
+}
+
+/// Which samples are spikes.
+fn spikes(values: &[f64]) -> Vec<bool> {
+    let (mut found, [factor, sigmas], noise) = (vec![false; values.len()], SPIKE, noise(values));
+    for (i, near) in values.windows(7).enumerate() {
+        let step = |k: usize| near[k + 1] - near[k];
+        let others = [0, 1, 4, 5].map(|k| step(k).abs()).into_iter().fold((near[4] - near[2]).abs(), f64::max);
+        let height = step(2).abs().min(step(3).abs());
+        found[i + 3] = step(2) * step(3) < 0.0 && height > (factor * others).max(sigmas * noise);
+    }
+    found
 }
 
 /// Smallest difference of two values that is not rounding of the last digits.

@@ -66,6 +66,25 @@ impl<'a> Fit<'a> {
         Ok(fit)
     }
 
+    /// The loops of the fit.
+    pub fn loops(&self) -> &'a [Loop] {
+        self.loops
+    }
+
+    /// The best fit of other loops, under the same contact and loads.
+    pub fn of_loops<'b>(&self, loops: &'b [Loop], free: Free) -> Result<Fit<'b>, Error>
+    where
+        'a: 'b,
+    {
+        let compliances: Vec<_> = self.curves.iter().map(|curve| 1.0 / curve.initial_stiffness()).collect();
+        let given = [FRICTION, SERIES, CONTACT].map(|i| (i == FRICTION || !free[i]).then_some(self.parameters[i]));
+        let mut parameters = self.parameters;
+        [parameters[FRICTION], parameters[SERIES], parameters[CONTACT]] = start_values(loops, &compliances, given);
+        let mut fit = Fit::new(self.family, loops, parameters, self.limits, self.has_shape)?;
+        fit.minimize(free);
+        Ok(fit)
+    }
+
     /// Changes a/b.
     pub fn set_shape(&mut self, shape: f64) -> Result<(), Error> {
         self.parameters[SHAPE] = shape;

@@ -40,9 +40,11 @@ pub fn fit(contact: &Contact, measurements: &[Measurement], options: &Options) -
     }
     options.check()?;
     let family = Family::new(contact, options.shape)?;
-    let mut loops = Vec::new();
+    let (mut loops, mut warnings) = (Vec::new(), Vec::new());
     for (index, measurement) in measurements.iter().enumerate() {
-        loops.extend(cycles::loops(&Record::new(measurement, index, contact.normal_force)?)?);
+        let record = Record::new(measurement, index, contact.normal_force)?;
+        loops.extend(cycles::loops(&record)?);
+        warnings.extend(record.warnings);
     }
     loops.iter().try_for_each(|one| one.check_direction(&loops))?;
     let shape = family.shape();
@@ -53,7 +55,7 @@ pub fn fit(contact: &Contact, measurements: &[Measurement], options: &Options) -
     let given = [options.friction_coefficient, options.series_compliance, options.contact_compliance];
     let [friction, series, contact_factor] = start_values(&loops, &compliances, given);
     let compliance = series + contact_factor * cycles::mean(compliances.iter().copied());
-    let warnings = plausibility::check(&loops, &compliances, friction, compliance)?;
+    warnings.extend(plausibility::check(&loops, &compliances, friction, compliance)?);
 
     let limit = [1e-3 * friction, 1e3 * friction];
     let spring = options.parallel_stiffness.unwrap_or(0.0);
@@ -73,7 +75,9 @@ pub fn fit(contact: &Contact, measurements: &[Measurement], options: &Options) -
     let forces = solution.fit.forces();
     let [friction, series, contact_compliance, shape_estimate, series_stiffening, parallel_stiffness] =
         solution.estimates;
-    let geometry = if range.is_some() { family.geometry(shape_estimate.value) } else { contact.geometry };
+    let (determined, neutral) = solution.determined(shape.map_or(0.0, in_range))?;
+    let fitted_shape = determined.parameters[model::SHAPE];
+    let geometry = if range.is_some() { family.geometry(fitted_shape) } else { contact.geometry };
     let fixed = |value| Estimate { value, lower: value, upper: Some(value), status: Status::Fixed };
     let shape = shape.map(|given| if range.is_some() { shape_estimate } else { fixed(given) });
     let fitted = |(one, (law, slider)): (&cycles::Loop, (&Vec<_>, &Vec<_>))| FittedLoop::new(one, law, slider);
@@ -91,7 +95,7 @@ pub fn fit(contact: &Contact, measurements: &[Measurement], options: &Options) -
         verdict: verdict::sentences(&solution, range, contact.normal_force),
         profile: solution.profile,
         warnings,
-        contact_toml: report::contact_toml(contact, &geometry, &solution.fit.parameters),
+        contact_toml: report::contact_toml(contact, &geometry, &determined.parameters, &neutral),
         loops: loops.iter().zip(forces.iter().zip(&slider_forces)).map(fitted).collect(),
     })
 }

@@ -233,11 +233,20 @@ pub(crate) fn stiffening_load(share: f64, normal_force: f64) -> f64 {
 
 /// The fitted contact as a parameter file. A factor f on the displacements of the law is a modulus E/f, and a radius R/f so that
 /// the contact has the same width.
-pub(crate) fn contact_toml(contact: &Contact, geometry: &Geometry, parameters: &[f64; PARAMETERS]) -> String {
+pub(crate) fn contact_toml(
+    contact: &Contact,
+    geometry: &Geometry,
+    parameters: &[f64; PARAMETERS],
+    neutral: &[&str],
+) -> String {
     let [friction, series, factor, _, share, _] = parameters;
     let mut text =
         "# Fitted to measured loops. tangential_compliance is that of all in series with the contact: rig, bodies, roughness.\n"
             .to_owned();
+    if !neutral.is_empty() {
+        let names = neutral.join(" and ");
+        text += &format!("# The loops do not determine {names}: as given here; the others are fitted with that.\n");
+    }
     if *factor != 1.0 {
         text += &format!(
             "# Young's moduli{} are divided by {factor}, the fitted factor on the displacements of the law.\n",

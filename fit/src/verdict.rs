@@ -9,6 +9,7 @@
 //! microslip.
 
 use crate::causes::{KINDS, causes};
+use crate::cycles::Loop;
 use crate::error::Error;
 use crate::input::Options;
 use crate::least_squares::{Fit, Free};
@@ -32,6 +33,8 @@ const WIDEST_STIFFENING: f64 = 0.1;
 #[derive(Debug)]
 pub(crate) struct Solution<'a> {
     pub fit: Fit<'a>,
+    /// What was fitted.
+    free: Free,
     pub estimates: [Estimate; PARAMETERS],
     /// Initial compliance of contact, rig and bodies.
     pub total_compliance: Estimate,
@@ -40,6 +43,31 @@ pub(crate) struct Solution<'a> {
     /// The best spring and slider, and whether it fits as well.
     pub slider: Fit<'a>,
     pub is_spring_slider: bool,
+}
+
+impl<'a> Solution<'a> {
+    /// The fit in which the factor on the displacements and the shape are neutral if the loops do not determine them: 1, or the
+    /// nearest admitted factor, and the given shape. Names of what is neutral.
+    pub fn determined(&self, given_shape: f64) -> Result<(Fit<'a>, Vec<&'static str>), Error> {
+        let (mut fit, mut free, mut names) = (self.fit.clone(), self.free, Vec::new());
+        for (i, neutral, name) in [(CONTACT, 1f64, "contact_compliance"), (SHAPE, given_shape, "shape")] {
+            let Estimate { lower, upper, status, .. } = self.estimates[i];
+            if free[i] && status == Status::NotDetermined {
+                fit.parameters[i] = neutral.max(lower).min(upper.unwrap_or(f64::INFINITY).max(lower));
+                free[i] = false;
+                names.push(name);
+            }
+        }
+        if !names.is_empty() {
+            fit.set_shape(fit.parameters[SHAPE])?;
+            if free[SERIES] {
+                let rest = self.total_compliance.value - fit.parameters[CONTACT] * fit.law_compliance()[0];
+                fit.parameters[SERIES] = rest.max(1e-3 * self.total_compliance.value);
+            }
+            fit.settle(free);
+        }
+        Ok((fit, names))
+    }
 }
 
 /// Steps of the friction coefficient, as factors, towards a fit without a plateau.
@@ -52,6 +80,11 @@ const SIGNIFICANT: f64 = 4.0;
 const LEAST_SHARE: f64 = 0.1;
 /// Passes that remove what the causes explain from the forces, and fit the rest: their sizes are estimates at first.
 const CORRECTIONS: usize = 3;
+/// A cause that explains more than this share leaves nothing for a play.
+const CLEAR: f64 = 0.9;
+/// Plays that are tried, over the smallest amplitude, and then factors on the best of them.
+const PLAYS: [f64; 6] = [0.03, 0.1, 0.25, 0.5, 0.9, 1.4];
+const REFINEMENTS: [f64; 6] = [0.7, 1.4, 0.85, 1.2, 0.93, 1.07];
 /// A plateau is seen if the displacement exceeds that of gross slip by this part. A shorter one is not distinguished from the bend
 /// before it.
 const SHORTEST_PLATEAU: f64 = 0.02;
@@ -155,6 +188,12 @@ fn solve_with<'a>(
     };
     let (mut effects, mut corrected) = (found(&fit, &KINDS, least_share), fit.clone());
     explanation.causes = effects.iter().map(|effect| effect.cause).collect();
+    if !explanation.explained {
+        let share = explanation.causes.first().map_or(0.0, |first| first.share);
+        let free = std::array::from_fn(|i| if i == PARALLEL { parallel_stiffness.is_none() } else { others[i] });
+        let found = if share < CLEAR { play(&fit, free, share)? } else { None };
+        explanation.causes = found.unwrap_or(explanation.causes);
+    }
     if explanation.explained && !effects.is_empty() {
         let kinds: Vec<_> = effects.iter().map(|effect| effect.cause.kind).collect();
         let weakest = effects.iter().map(|effect| effect.cause.share).fold(1.0, f64::min);
@@ -229,7 +268,53 @@ fn solve_with<'a>(
         let value = estimates[SHAPE].value;
         estimates[SHAPE] = Estimate { value, lower: low, upper: Some(high), status: Status::NotDetermined };
     }
-    Ok(Solution { fit, estimates, total_compliance, profile, explanation, slider: slider.fit, is_spring_slider })
+    Ok(Solution { fit, free, estimates, total_compliance, profile, explanation, slider: slider.fit, is_spring_slider })
+}
+
+/// The causes after a play, if its removal from the loops and another fit explain more than this share of the residuals: near a fit
+/// that a large play has bent, the direction of another cause may explain more. The play is crossed at zero force, which is that of
+/// the sensor or the middle of the loop.
+fn play(fit: &Fit, others: Free, least_share: f64) -> Result<Option<Vec<Cause>>, Error> {
+    let smallest = fit.loops().iter().map(|one| one.amplitude).fold(f64::INFINITY, f64::min);
+    let without = |part: f64, width: f64, place: f64| -> Vec<_> {
+        let of_loop = |one: &Loop| {
+            let [low, high] = one.force_range();
+            one.without_play(part * smallest, [0.5 * place * (low + high), width])
+        };
+        fit.loops().iter().map(of_loop).collect()
+    };
+    let misfit = |loops: &[Loop]| -> Result<f64, Error> {
+        let forces = fit.of_loops(loops, others)?.forces();
+        let of_loop = |(one, forces): (&Loop, &Vec<[f64; 2]>)| {
+            forces.iter().map(|[measured, law]| ((measured - law) / one.height()).powi(2)).sum::<f64>()
+        };
+        Ok(loops.iter().zip(&forces).map(of_loop).sum())
+    };
+    let whole = misfit(&without(0.0, 1.0, 0.0))?;
+    let crossings = [(0.02, 0.0), (0.02, 1.0), (0.2, 0.0), (0.2, 1.0)];
+    let mut trials: Vec<_> =
+        PLAYS.into_iter().flat_map(|part| crossings.map(|(width, place)| (part, width, place))).collect();
+    let (mut best, mut largest) = (None, least_share);
+    for factor in [1.0].into_iter().chain(REFINEMENTS) {
+        if let Some((part, width, place)) = best.filter(|_| factor != 1.0) {
+            trials = vec![(factor * part, width, place)];
+        }
+        for (part, width, place) in trials.drain(..) {
+            let share = 1.0 - misfit(&without(part, width, place))? / whole;
+            if share > largest {
+                (best, largest) = (Some((part, width, place)), share);
+            }
+        }
+    }
+    let Some((part, width, place)) = best else { return Ok(None) };
+    let kinds: Vec<_> = KINDS.into_iter().filter(|kind| *kind != CauseKind::Play).collect();
+    let loops = without(part, width, place);
+    let mut rest = fit.of_loops(&loops, others)?;
+    rest.release(others);
+    let rest = causes(&rest, &kinds, LEAST_SHARE / (1.0 - largest).max(LEAST_SHARE));
+    let rest = rest.iter().map(|effect| Cause { share: effect.cause.share * (1.0 - largest), ..effect.cause });
+    let play = Cause { kind: CauseKind::Play, size: part * smallest, share: largest };
+    Ok(Some([play].into_iter().chain(rest).collect()))
 }
 
 /// Whether a loop exceeds the displacement of gross slip by this part.
