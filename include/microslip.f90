@@ -775,6 +775,8 @@ contains
 
   function mslip_version() result(text)
     !! Version of the linked library, such as "1.2.3".
+    !!
+    !! Since 0.1.0 (interface 6).
     character(len=c_strlen(c_version())) :: text  !! The text, without blanks around it.
 
     text = text_of(c_version())
@@ -783,6 +785,8 @@ contains
   pure function mslip_abi_version() result(version)
     !! Interface version of the linked library. The library belongs to the module if this equals
     !! `MSLIP_MODULE_ABI_VERSION`.
+    !!
+    !! Since 0.1.0 (interface 6).
     integer(mslip_int) :: version  !! Interface version, > 0.
 
     version = c_abi_version()
@@ -790,6 +794,8 @@ contains
 
   function mslip_status_text(status) result(text)
     !! The message of a status code: what is wrong and what is allowed. Any value is accepted.
+    !!
+    !! Since 0.1.0 (interface 6).
     integer(mslip_int), intent(in) :: status  !! A status code.
     character(len=c_strlen(c_status_text(status))) :: text  !! The text, without blanks around it.
 
@@ -809,6 +815,8 @@ contains
     !! Warning i >= 1 of parameters that are valid but implausible: another unit, an exchanged pair, a contact for which the
     !! model is inaccurate. Empty if there are no more. Lengths are in m and moduli in Pa, or in mm and MPa if both moduli are at
     !! most 1.3e6.
+    !!
+    !! Since 0.1.0 (interface 6).
     type(mslip_parameters), intent(in) :: parameters  !! The parameters; any value is accepted.
     integer(mslip_int), intent(in) :: i  !! Number of the warning.
     character(len=length_of(c_parameters_warning(parameters, i - 1_mslip_int))) :: text  !! The text, without blanks around it.
@@ -819,6 +827,8 @@ contains
 
   function mslip_elliptic_parameters_warning(parameters, i) result(text)
     !! Warning i >= 1 of the parameters of an elliptical contact, as `mslip_parameters_warning`.
+    !!
+    !! Since 0.1.0 (interface 6).
     type(mslip_elliptic_parameters), intent(in) :: parameters  !! The parameters; any value is accepted.
     integer(mslip_int), intent(in) :: i  !! Number of the warning.
     character(len=length_of(c_elliptic_parameters_warning(parameters, i - 1_mslip_int))) :: text  !! As above.
@@ -832,6 +842,8 @@ contains
 
   subroutine mslip_parameters_default(parameters)
     !! Every value unset (NaN, the displacement reference -1), so that a forgotten one is rejected by name.
+    !!
+    !! Since 0.1.0 (interface 6).
     type(mslip_parameters), intent(out) :: parameters  !! The parameters to reset.
 
     call c_parameters_default(parameters)
@@ -839,6 +851,8 @@ contains
 
   subroutine mslip_elliptic_parameters_default(parameters)
     !! Every value unset (NaN, so that a forgotten one is rejected by name).
+    !!
+    !! Since 0.1.0 (interface 6).
     type(mslip_elliptic_parameters), intent(out) :: parameters  !! The parameters to reset.
 
     call c_elliptic_parameters_default(parameters)
@@ -846,6 +860,8 @@ contains
 
   subroutine mslip_harmonic_workspace_size(workspace, harmonics, samples, rule, status)
     !! The arguments with which a workspace was initialised.
+    !!
+    !! Since 0.1.0 (interface 6).
     real(mslip_real), intent(in), contiguous :: workspace(:)  !! An initialised workspace.
     integer(mslip_size), intent(inout) :: harmonics  !! Highest harmonic H.
     integer(mslip_size), intent(inout) :: samples  !! Samples per period.
@@ -873,6 +889,8 @@ contains
 
   subroutine mslip_element_workspace_size(workspace, directions, harmonics, samples, rule, periods, status)
     !! The arguments with which a workspace of elements was initialised.
+    !!
+    !! Since 0.1.0 (interface 6).
     real(mslip_real), intent(in), contiguous :: workspace(:)  !! An initialised workspace.
     integer(mslip_int), intent(inout) :: directions  !! Number of tangential directions.
     integer(mslip_size), intent(inout) :: harmonics  !! Highest harmonic H.
@@ -1186,6 +1204,8 @@ contains
 
   subroutine mslip_masing_advance(contact, state, displacement, status, force, stiffness, dissipated)
     !! `mslip_masing_update` in place: the new state replaces the old one.
+    !!
+    !! Since 0.1.0 (interface 6).
     type(mslip_contact), intent(in) :: contact  !! An initialised contact.
     real(mslip_real), intent(inout), target, contiguous :: state(:)  !! State before and after the step or path.
     real(mslip_real), intent(in) :: displacement  !! Displacement at the end of the step [m]; its magnitude is at most 1e150.
@@ -1233,6 +1253,8 @@ contains
 
   subroutine mslip_masing_path_advance(contact, state, displacement, status, force, stiffness, dissipated)
     !! `mslip_masing_path` in place: the new state replaces the old one.
+    !!
+    !! Since 0.1.0 (interface 6).
     type(mslip_contact), intent(in) :: contact  !! An initialised contact.
     real(mslip_real), intent(inout), target, contiguous :: state(:)  !! State before and after the step or path.
     real(mslip_real), intent(in) :: displacement(:)  !! Displacement at the end of the step [m]; its magnitude is at most 1e150.
@@ -1621,6 +1643,8 @@ contains
   subroutine mslip_batch_masing_advance(contacts, states, displacement, status, index, active, force, stiffness, &
     dissipated, failed_item)
     !! `mslip_batch_masing_update` in place: the new state replaces the old one.
+    !!
+    !! Since 0.1.0 (interface 6).
     type(mslip_contact), intent(in) :: contacts(:)  !! Initialised contacts.
     real(mslip_real), intent(inout), target, contiguous :: states(:, :)
       !! (state length, n): the state of each item before and after the step.
@@ -1993,6 +2017,8 @@ contains
 
   subroutine mslip_element_advance(element, state, displacement, status, force, tangent, dissipated)
     !! `mslip_element_update` in place: the new state replaces the old one.
+    !!
+    !! Since 0.1.0 (interface 6).
     type(mslip_element), intent(in) :: element  !! An initialised element.
     real(mslip_real), intent(inout), target, contiguous :: state(:)  !! State before and after the step or path.
     real(mslip_real), intent(in) :: displacement(:)
@@ -2058,6 +2084,8 @@ contains
 
   subroutine mslip_element_path_advance(element, state, displacement, status, force, tangent, dissipated)
     !! `mslip_element_path` in place: the new state replaces the old one.
+    !!
+    !! Since 0.1.0 (interface 6).
     type(mslip_element), intent(in) :: element  !! An initialised element.
     real(mslip_real), intent(inout), target, contiguous :: state(:)  !! State before and after the step or path.
     real(mslip_real), intent(in) :: displacement(:, :)
@@ -2264,6 +2292,8 @@ contains
   subroutine mslip_batch_element_advance(elements, states, displacement, status, index, active, force, tangent, &
     dissipated, failed_item)
     !! `mslip_batch_element_update` in place: the new state replaces the old one.
+    !!
+    !! Since 0.1.0 (interface 6).
     type(mslip_element), intent(in) :: elements(:)  !! Initialised elements.
     real(mslip_real), intent(inout), target, contiguous :: states(:, :)
       !! (state length, n): the state of each item before and after the step.

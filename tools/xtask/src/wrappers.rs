@@ -2,7 +2,7 @@
 //! lengths are those of the arrays.
 
 use crate::fortran::{comment_lines, commented, wrapped};
-use crate::interface::{Argument, Function};
+use crate::interface::{Argument, Function, since};
 
 /// Variants of a procedure.
 #[derive(Clone, Copy, PartialEq)]
@@ -339,7 +339,11 @@ impl Procedure<'_> {
             Form::Array => return description(self.function),
             Form::Scalar => "of one value",
         };
-        vec![format!("    !! `{}` {variant}.", self.function.name)]
+        let first = format!("    !! `{}` {variant}.", self.function.name);
+        match self.form {
+            Form::Advance => vec![first, "    !!".to_owned(), format!("    !! Since {}.", since(&self.function.name))],
+            _ => vec![first],
+        }
     }
 
     /// The codes as the header names them; no pointer is NULL.
