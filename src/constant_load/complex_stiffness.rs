@@ -17,8 +17,8 @@
 //! The tangent stiffness k is singular at ρ = 0, like a power of `y = ρ^(1/3)`, the size of a stick zone under a flat, or a
 //! logarithm; the root at ρ = ρ_0, on either side. The distance of that is the scale of `y = y_0 + scale sinh²(z/2)`, which moves
 //! all of these singularities to |Im z| >= π/4 and makes the root at y_0 smooth; `sinh(z/8) = (1 - t²) sinh(z_end/8)` does the same
-//! for that at x = 0. Two doublings of the angle give `sinh²(z/2)` as a polynomial. For Λ near 0, k is nearly singular there, too:
-//! t is a hyperbolic sine then. Gauss's rule converges for all amplitudes.
+//! for that at x = 0. Two doublings of the angle give `sinh²(z/2)` as a polynomial. The integrand is even in t. For Λ near 0, k is nearly
+//! singular at x = 0, too: t is a hyperbolic sine then. Gauss's rule for even functions converges for all amplitudes.
 
 use crate::constant_load::contact::{BLOCKS_IN_SLIP, Contact};
 use crate::error::Error;
@@ -26,7 +26,7 @@ use crate::limits::MAX_DISPLACEMENT;
 use crate::numerics::fp_class::in_0_to;
 use crate::numerics::lanes::Lanes;
 use crate::numerics::polynomial::Rows;
-use crate::numerics::quadrature::{gauss_legendre, gauss_rule};
+use crate::numerics::quadrature::gauss_even;
 use crate::simd::{dispatch, plus};
 use core::f64::consts::PI;
 
@@ -45,11 +45,14 @@ pub struct ComplexStiffness {
     pub dissipated: f64,
 }
 
-/// Gauss's rule within 1e-3 below gross slip, where 40 nodes have an error of 1e-15 of F and 1e-12 of dF/dx_0, and beyond it up to
-/// `ρ_0 = -0.05`, from where the contact has weights: 1e-15 and 1e-13. The last rule is that for all amplitudes of a curve without
-/// an interpolant, too, which has a knee or is nearly singular: 5e-15 and 6e-13.
-static RULE_BELOW: [[[f64; 4]; 2]; 12] = gauss_legendre();
-static RULE_BEYOND: [[[f64; 4]; 2]; 23] = gauss_legendre();
+/// Gauss's rules for `ρ_0` from 1/4, 1/20, 1e-3 and 1e-6, with an error of 4e-15; from -0.05, where the contact has weights: 2e-15 of F and
+/// 4e-14 of dF/dx_0; and for all amplitudes of a curve without weights, which has a knee or is nearly singular: 5e-15 and 1e-12.
+static RULE_FROM_QUARTER: [[[f64; 4]; 2]; 4] = gauss_even();
+static RULE_FROM_TWENTIETH: [[[f64; 4]; 2]; 6] = gauss_even();
+static RULE_FROM_MILLI: [[[f64; 4]; 2]; 8] = gauss_even();
+static RULE_FROM_MICRO: [[[f64; 4]; 2]; 11] = gauss_even();
+static RULE_AT_SLIP: [[[f64; 4]; 2]; BLOCKS_IN_SLIP] = gauss_even();
+static RULE_WITHOUT_WEIGHTS: [[[f64; 4]; 2]; 23] = gauss_even();
 const IN_SLIP: f64 = -0.05;
 
 /// Smallest scale of the rule: the cube root of the rounding of x_0.
@@ -57,7 +60,7 @@ const SMALLEST_SCALE: f64 = 1e-5;
 
 /// In gross slip, with `y = root²` and `root = 1 - t²`: blocks of ρ, x, and the weights of an integral over ρ.
 static RULE_IN_SLIP: [[[f64; 4]; 3]; BLOCKS_IN_SLIP] = {
-    let rule = gauss_legendre::<BLOCKS_IN_SLIP>();
+    let rule = gauss_even::<BLOCKS_IN_SLIP>();
     let (mut blocks, mut i) = ([[[0.0; 4]; 3]; _], 0);
     while i < 4 * rule.len() {
         let [t, weight] = [rule[i / 4][0][i % 4], rule[i / 4][1][i % 4]];
@@ -127,16 +130,15 @@ impl Contact {
     fn real_stiffness_integrals(&self, x_0: f64, rho_0: f64) -> [f64; 2] {
         dispatch!({
             if !self.has_weights_in_slip() {
-                return self.integrals(&RULE_BEYOND, x_0, rho_0);
+                return self.integrals(&RULE_WITHOUT_WEIGHTS, x_0, rho_0);
             }
             if rho_0 > IN_SLIP {
-                // 20, 24 and 32 nodes have an error of 2e-15.
-                let rule = match rho_0 {
-                    0.25.. => gauss_rule(5),
-                    0.05.. => gauss_rule(6),
-                    1e-3.. => gauss_rule(8),
-                    0.0.. => &RULE_BELOW,
-                    _ => &RULE_BEYOND,
+                let rule: &[_] = match rho_0 {
+                    0.25.. => &RULE_FROM_QUARTER,
+                    0.05.. => &RULE_FROM_TWENTIETH,
+                    1e-3.. => &RULE_FROM_MILLI,
+                    1e-6.. => &RULE_FROM_MICRO,
+                    _ => &RULE_AT_SLIP,
                 };
                 return self.integrals(rule, x_0, rho_0);
             }
@@ -167,13 +169,14 @@ impl Contact {
         let bend = (self.relative_distance_of_zero_compliance()
             / (6.0 * scale * end * two_doublings(Lanes([end])).1.0[0]))
             .sqrt();
-        let largest = if bend < 0.4 { (1.0 / bend).asinh() } else { 0.0 };
+        let is_bent = bend < 0.4 && !self.has_weights_in_slip();
+        let largest = if is_bent { (1.0 / bend).asinh() } else { 0.0 };
         sum(
             rule.iter(),
             #[inline(always)]
             |[nodes, weights]| {
                 let (mut t, mut weights) = (Lanes(*nodes), Lanes(*weights));
-                if bend < 0.4 {
+                if is_bent {
                     let sinh = (largest * t).map(f64::sinh);
                     weights = weights * (bend * largest * (1.0 + sinh * sinh).sqrt());
                     t = bend * sinh;

@@ -38,6 +38,18 @@ pub(crate) const fn gauss_legendre<const B: usize>() -> [[[f64; 4]; 2]; B] {
     rule
 }
 
+/// The rule on (0, 1) for even functions: the positive half of the Gauss-Legendre rule on (-1, 1), of twice as many nodes.
+pub(crate) const fn gauss_even<const B: usize>() -> [[[f64; 4]; 2]; B] {
+    let mut rule = [[[0.0; 4]; 2]; B];
+    let mut i = 0;
+    while i < 4 * B {
+        let [one, other, weight] = gauss_pair(8 * B, 4 * B - 1 - i);
+        [rule[i / 4][0][i % 4], rule[i / 4][1][i % 4]] = [(one - other).abs(), 2.0 * weight];
+        i += 1;
+    }
+    rule
+}
+
 /// [`gauss_legendre`] with up to [`MAX_GAUSS_BLOCKS`] blocks.
 pub(crate) fn gauss_rule(blocks: usize) -> &'static [[[f64; 4]; 2]] {
     match blocks {
@@ -74,6 +86,12 @@ mod tests {
                 let sum: f64 = gauss_nodes(blocks).map(|(node, weight)| weight * node.powi(degree)).sum();
                 assert!((sum * f64::from(degree + 1) - 1.0).abs() < 4e-15, "{blocks} {degree} {sum}");
             }
+        }
+        for degree in [0, 2, 30] {
+            let rule = gauss_even::<3>();
+            let terms = rule.iter().flat_map(|[nodes, weights]| nodes.iter().zip(weights));
+            let sum: f64 = terms.map(|(node, weight)| weight * node.powi(degree)).sum();
+            assert!((sum * f64::from(degree + 1) - 1.0).abs() < 4e-15, "{degree} {sum}");
         }
         assert!((gauss(2.0, |x| x.powi(31)) / (2f64.powi(32) / 32.0) - 1.0).abs() < 4e-15);
     }
