@@ -60,21 +60,16 @@ impl Rule {
             Rule::EventDriven => event_driven::Workspace::init(size, workspace),
         }
     }
-
-    /// The rule of a workspace, from its tag.
-    fn of_workspace([tag, ..]: &[f64; HEADER]) -> Rule {
-        if event_driven::Workspace::KIND.is_tag(*tag) { Rule::EventDriven } else { Rule::UniformSampling }
-    }
 }
 
 /// Rule, size and number of doubles of an initialised workspace, from its header.
 ///
 /// Errors: `BadWorkspace` if uninitialised.
 pub(crate) fn workspace_size(header: &[f64; HEADER]) -> Result<(Rule, Size, usize), Error> {
-    let rule = Rule::of_workspace(header);
-    let (size, length) = match rule {
-        Rule::UniformSampling => uniform_sampling::Workspace::read(header)?,
-        Rule::EventDriven => event_driven::Workspace::read(header)?,
+    let (rule, (size, length)) = if event_driven::Workspace::KIND.is_tag(header[0]) {
+        (Rule::EventDriven, event_driven::Workspace::read(header)?)
+    } else {
+        (Rule::UniformSampling, uniform_sampling::Workspace::read(header)?)
     };
     Ok((rule, size, length))
 }
@@ -93,9 +88,16 @@ impl<'a> Workspace<'a> {
     /// Opens an initialised workspace.
     /// Errors: `BadWorkspace` if uninitialised or too short.
     pub fn new(memory: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
-        Ok(Workspace(match Rule::of_workspace(memory.first_chunk().ok_or(Error::BadWorkspace)?) {
-            Rule::UniformSampling => ByRule::UniformSampling(uniform_sampling::Workspace::open(memory)?),
-            Rule::EventDriven => ByRule::EventDriven(event_driven::Workspace::open(memory)?),
+        let (rule, size, _) = workspace_size(memory.first_chunk().ok_or(Error::BadWorkspace)?)?;
+        Workspace::of_size(rule, size, memory)
+    }
+
+    /// A workspace of this rule and size, which were read from its header.
+    /// Errors: `BadWorkspace` if too short.
+    pub(crate) fn of_size(rule: Rule, size: Size, memory: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
+        Ok(Workspace(match rule {
+            Rule::UniformSampling => ByRule::UniformSampling(uniform_sampling::Workspace::of_size(size, memory)?),
+            Rule::EventDriven => ByRule::EventDriven(event_driven::Workspace::of_size(size, memory)?),
         }))
     }
 

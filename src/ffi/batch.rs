@@ -442,7 +442,7 @@ pub(super) unsafe fn element_harmonic_forces(
 ) -> Result<(), Failure> {
     let (directions, size, extent) = pointers::element_workspace_size(workspace)?;
     with_law!(directions, L, law => {
-        let mut workspace = law::Workspace::open(output(workspace, extent)?.ok_or(Error::BadWorkspace)?)?;
+        let mut workspace = law::Workspace::of_size(size, output(workspace, extent)?.ok_or(Error::BadWorkspace)?)?;
         let one = (directions as usize + 1) * size.coefficients();
         let (check, compute) = (law::Workspace::check, law::harmonic_force);
         harmonic_forces::<L, _>(items, &mut workspace, one, displacement, outputs, check, compute)

@@ -145,8 +145,8 @@ pub unsafe fn workspace_header(pointer: *const f64) -> Result<[f64; HEADER], Err
 #[inline(never)]
 pub unsafe fn workspace<'a>(pointer: *mut f64) -> Result<Workspace<'a>, Error> {
     let header = workspace_header(pointer)?;
-    let (_, _, extent) = workspace_size(&header)?;
-    Workspace::new(output(pointer, extent)?.ok_or(Error::BadWorkspace)?)
+    let (rule, size, extent) = workspace_size(&header)?;
+    Workspace::of_size(rule, size, output(pointer, extent)?.ok_or(Error::BadWorkspace)?)
 }
 
 /// Directions and size of a workspace of elements, and its number of doubles, from its header.

@@ -113,8 +113,15 @@ pub(crate) trait Layout<'a>: Sized {
     /// Errors: `BadWorkspace` if uninitialised or too short.
     #[inline(always)]
     fn open(workspace: &'a mut [f64]) -> Result<Self, Error> {
-        let (header, buffers) = workspace.split_first_chunk_mut::<HEADER>().ok_or(Error::BadWorkspace)?;
-        let (size, _) = Self::read(header)?;
+        let (size, _) = Self::read(workspace.first_chunk().ok_or(Error::BadWorkspace)?)?;
+        Self::of_size(size, workspace)
+    }
+
+    /// A workspace of this size, which was read from its header.
+    /// Errors: `BadWorkspace` if too short.
+    #[inline(always)]
+    fn of_size(size: Size, workspace: &'a mut [f64]) -> Result<Self, Error> {
+        let buffers = workspace.get_mut(HEADER..).ok_or(Error::BadWorkspace)?;
         Self::take(size, &mut Parts::Taking(buffers))
     }
 }
