@@ -174,7 +174,7 @@ class Workspace(_Workspace):
     """Tables and scratch memory for harmonic forces of contacts, with `harmonics` H >= 1 and `samples` > 2H per period.
 
     `rule` is `UNIFORM_SAMPLING`, with an error that decreases as samples^-2, or `EVENT_DRIVEN`, Gauss-Legendre nodes between
-    reversals, loop closures and the onset of gross slip: 16 (H+1) samples have an error below 1e-6 of mu N. Calls with one
+    reversals, loop closures and the onset of gross slip: 16 (H+1) samples have an error below 2e-6 of mu N. Calls with one
     workspace wait for each other: use one per thread.
     """
 

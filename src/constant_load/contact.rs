@@ -191,7 +191,7 @@ impl Contact {
 
     /// Whether a layer bends the curve strongly near gross slip.
     #[inline(always)]
-    fn has_knee(&self) -> bool {
+    pub(crate) fn has_knee(&self) -> bool {
         self.zones.layer.has_knee()
     }
 

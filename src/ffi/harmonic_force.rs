@@ -28,9 +28,9 @@ pub extern "C" fn mslip_harmonic_workspace_length(harmonics: size_t, samples: si
 ///
 /// MSLIP_UNIFORM_SAMPLING evaluates `samples` uniformly spaced instants of a period; its error decreases as samples^-2.
 /// MSLIP_EVENT_DRIVEN locates reversals, loop closures and the onset of gross slip, and distributes about `samples` Gauss-Legendre
-/// nodes per period between them, at least 8 between two events. Its error decreases exponentially, more slowly for more harmonics:
-/// 16 (H+1) nodes have worst measured errors of 1e-7 of mu N in the force and 1e-4 of the initial stiffness in the Jacobian; the
-/// energy is exact to rounding. It searches for reversals on a grid of at least `samples` and 16 H instants.
+/// nodes per period between them, at least 8 between two events; three times as many if a layer has an N_c below a quarter of the normal
+/// force. Its error decreases exponentially, more slowly for more harmonics: 16 (H+1) nodes have worst measured errors of 2e-6 of mu N
+/// in the force and 5e-4 of the initial stiffness in the Jacobian; the energy is exact to rounding. It searches for reversals on a grid of at least `samples` and 16 H instants.
 ///
 /// Returns MSLIP_BAD_RULE, MSLIP_BAD_HARMONICS, MSLIP_BAD_SAMPLES, MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
 #[unsafe(no_mangle)]

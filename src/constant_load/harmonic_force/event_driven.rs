@@ -331,7 +331,7 @@ impl Period<'_, '_, '_> {
             }
             return;
         }
-        let segment = Segment { from: from.t, to: to.t, to_slip };
+        let segment = Segment { from: from.t, to: to.t, to_slip, has_knee: self.law.contact.has_knee() };
         if let Some(sums) = &mut self.sensitivity {
             let stack = ReversalSensitivities::new(buffers.gradients.as_flattened_mut());
             let mut columns = sums.chunks_exact_mut(coefficients);

@@ -15,6 +15,10 @@ use core::f64::consts::PI;
 const MIN_BLOCKS: usize = 2;
 const MIN_BLOCKS_TO_SLIP: usize = 4;
 
+/// Nodes over those of a segment without a knee: a knee is a singularity at complex times near the segment, and convergence is slower.
+/// With 2 the error of the force is 9e-7 of μN for N_c = N/1000, with 3 it is that of contacts without a layer.
+const KNEE_DENSITY: f64 = 3.0;
+
 /// Largest number of nodes in a panel; longer segments are divided into panels.
 pub(super) const PANEL: usize = 4 * MAX_GAUSS_BLOCKS;
 
@@ -28,6 +32,8 @@ pub(super) struct Segment {
     pub to: f64,
     /// Gross slip starts at its end.
     pub to_slip: bool,
+    /// The layer bends the curve strongly near gross slip.
+    pub has_knee: bool,
 }
 
 impl Segment {
@@ -36,6 +42,7 @@ impl Segment {
     fn panels(&self, nodes_per_period: usize) -> (usize, &'static [[[f64; 4]; 2]]) {
         // Nodes of the cube root are three times as far apart at the start of the segment.
         let (density, fewest) = if self.to_slip { (2.0, MIN_BLOCKS_TO_SLIP) } else { (1.0, MIN_BLOCKS) };
+        let density = if self.has_knee { KNEE_DENSITY * density } else { density };
         let blocks_per_radian = nodes_per_period as f64 / (8.0 * PI);
         let blocks = ((density * (self.to - self.from) * blocks_per_radian + 0.5) as usize).max(fewest);
         let count = blocks.div_ceil(MAX_GAUSS_BLOCKS);
@@ -45,7 +52,7 @@ impl Segment {
     /// Instants and weights of the nodes of a panel.
     #[inline(always)]
     fn nodes(&self, panel: usize, panels: usize, rule: &[[[f64; 4]; 2]]) -> [Nodes; 2] {
-        let Segment { from, to, to_slip } = *self;
+        let Segment { from, to, to_slip, .. } = *self;
         let (length, fraction) = (to - from, 1.0 / panels as f64);
         let [mut times, mut weights]: [Nodes; 2] = [[[0.0; 4]; _]; _];
         for ((times, weights), [nodes, rule_weights]) in times.iter_mut().zip(weights.iter_mut()).zip(rule) {
