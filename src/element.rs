@@ -529,9 +529,7 @@ impl Element {
         if shift <= self.smallest(Quantity::Shift) {
             return 0.0;
         }
-        let shape = self.shape();
-        let [[_, _, curvature, ..], ..] = shape.series(shape.size_at(Quantity::Shift, shift), Quantity::Shift);
-        2.0 * curvature / (shift * shift)
+        self.shape().load_curvature(self.shape().size_at(Quantity::Shift, shift))
     }
 
     /// M, the integral of N, at a shift S >= 0.

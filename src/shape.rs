@@ -199,6 +199,19 @@ impl Shape {
         [value, compliance]
     }
 
+    /// d²N/dS² \[N/m²\] at a size > 0: with K = K_t, ' the derivative by ln leg and N_c of the layer,
+    /// `[-K_1'/N' + K_2/(N + N_c)]/K³` of the contact 1 and the layer 2.
+    pub fn load_curvature(&self, leg: f64) -> f64 {
+        let punch = self.punch_at(leg);
+        let (own, load) = (self.own_compliance(Quantity::Shift, &punch), self.load_scale * punch.load());
+        let [decrease, _] = punch.decrease();
+        let decrease = if self.is_elliptic() { own } else { self.compliance_scale * decrease };
+        let layer = self.layer.compliance(load);
+        let stiffness = 1.0 / (own + layer);
+        let per_load = decrease / (self.load_scale * punch.load_slope()) + layer * self.layer.hardening(load);
+        per_load * stiffness * stiffness * stiffness
+    }
+
     /// M = ∫ N dS \[J\].
     pub fn potential(&self, leg: f64) -> f64 {
         let punch = self.punch_at(leg);

@@ -43,6 +43,10 @@ const RELATIONS: &[(&str, f64, &str, &str)] = &[
     ("batch_element", 1.2, "path_element", "an item of a batch costs a step of a path"),
     ("batch_element_inactive", 0.05, "batch_element", "inactive items are skipped"),
     ("batch_element_shared", 1.05, "batch_element", "items may share an element at no cost"),
+    ("path_element_force_beyond", 10.0, "path_element_force", "the documented cost of loads beyond `normal_force`"),
+    ("path_element_beyond", 40.0, "path_element", "the documented cost of loads beyond `normal_force`"),
+    ("path_element_layer_beyond", 80.0, "path_element", "the documented cost of loads beyond `normal_force`"),
+    ("path_element_rough_layer_beyond", 80.0, "path_element", "the documented cost of loads beyond `normal_force`"),
     ("element_harmonics_force", 0.9, "element_harmonics", "the force does not need the Jacobian"),
     ("element_harmonics_energy", 1.05, "element_harmonics", "the energy is the work of the force"),
     ("element_harmonics_open", 0.05, "element_harmonics", "an open contact has no force"),
@@ -95,11 +99,8 @@ fn parameters(normal_force: f64) -> Parameters {
     }
 }
 
-fn contact(normal_force: f64) -> mslip_contact {
-    contact_with(normal_force, NONE)
-}
-
-fn contact_with(normal_force: f64, stiffening: f64) -> mslip_contact {
+/// With a layer as compliant as the contact.
+fn parameters_with(normal_force: f64, stiffening: f64) -> Parameters {
     let mut parameters = parameters(normal_force);
     if stiffening > 0.0 {
         let compliance = 1.0 / contact(normal_force).initial_stiffness;
@@ -111,6 +112,15 @@ fn contact_with(normal_force: f64, stiffening: f64) -> mslip_contact {
             reference_load: 0.0,
         };
     }
+    parameters
+}
+
+fn contact(normal_force: f64) -> mslip_contact {
+    contact_with(normal_force, NONE)
+}
+
+fn contact_with(normal_force: f64, stiffening: f64) -> mslip_contact {
+    let parameters = parameters_with(normal_force, stiffening);
     let mut contact = MaybeUninit::uninit();
     // SAFETY: valid pointers; the contact is initialised if the status is MSLIP_OK.
     unsafe {
@@ -252,22 +262,34 @@ fn batch_harmonics(b: Batch) -> Call {
     })
 }
 
+/// All approaches of a swing are then beyond the approach of the parameters.
+const BEYOND: f64 = 4.0;
+
 const ELEMENT_STATE: usize = 9 + 4 * 17; // 16 pieces
 
 fn element() -> &'static mslip_element {
+    element_with(NONE)
+}
+
+fn element_with(stiffening: f64) -> &'static mslip_element {
+    let parameters = parameters_with(200.0, stiffening);
     let mut element = Box::new(MaybeUninit::uninit());
     // SAFETY: valid pointers; the element is initialised if the status is MSLIP_OK.
     unsafe {
-        assert_eq!(mslip_element_init(&parameters(200.0), 1, MSLIP_INPUT_APPROACH, element.as_mut_ptr()), MSLIP_OK);
+        assert_eq!(mslip_element_init(&parameters, 1, MSLIP_INPUT_APPROACH, element.as_mut_ptr()), MSLIP_OK);
         Box::leak(element.assume_init())
     }
 }
 
 /// Displacements of a swing of the normal force of half its mean, with slip.
 fn swing(e: &mslip_element) -> *mut f64 {
+    scaled_swing(e, 1.0)
+}
+
+fn scaled_swing(e: &mslip_element, scale: f64) -> *mut f64 {
     let motion = |i: usize| {
         let t = TAU * 2.0 * i as f64 / POINTS as f64;
-        [0.15 * e.approach * t.sin(), e.approach * (0.6 + 0.3 * (t + 0.7).cos())]
+        [0.15 * t.sin(), 0.6 + 0.3 * (t + 0.7).cos()].map(|part| scale * part * e.approach)
     };
     array(motion).cast()
 }
@@ -305,10 +327,9 @@ fn element_update(requested: usize, new_state: NewState) -> Call {
     Box::new(call)
 }
 
-fn element_path() -> Call {
-    let e = element();
-    let (x, old) = (swing(e), array(|_| 0.0));
-    let [force, tangent, dissipated] = outputs(3);
+fn element_path(e: &'static mslip_element, scale: f64, requested: usize) -> Call {
+    let (x, old) = (scaled_swing(e, scale), array(|_| 0.0));
+    let [force, tangent, dissipated] = outputs(requested);
     unsafe { assert_eq!(mslip_element_state_init(1, ELEMENT_STATE, old), MSLIP_OK) };
     let new = array(|_| 0.0);
     prepared(move || unsafe { mslip_element_path(e, ELEMENT_STATE, old, POINTS, x, new, force, tangent, dissipated) })
@@ -402,7 +423,12 @@ const CASES: &[Case] = &[
     ("element_discarded", || element_update(3, NewState::Discarded)),
     ("element_force_in_place", || element_update(2, NewState::InPlace)),
     ("element_no_output", || element_update(0, NewState::InPlace)),
-    ("path_element", || element_path()),
+    ("path_element", || element_path(element(), 1.0, 3)),
+    ("path_element_force", || element_path(element(), 1.0, 2)),
+    ("path_element_beyond", || element_path(element(), BEYOND, 3)),
+    ("path_element_force_beyond", || element_path(element(), BEYOND, 2)),
+    ("path_element_layer_beyond", || element_path(element_with(LAYER), BEYOND, 3)),
+    ("path_element_rough_layer_beyond", || element_path(element_with(ROUGH), BEYOND, 3)),
     ("batch_element", || batch_element(false, 1)),
     ("batch_element_shared", || batch_element(true, 1)),
     ("batch_element_inactive", || batch_element(false, 0)),

@@ -112,6 +112,11 @@ impl Layer {
         self.tangential * self.softness(load)
     }
 
+    /// 1/(N + N_c): the derivative of the stiffness by the load, over the stiffness.
+    pub fn hardening(&self, load: f64) -> f64 {
+        self.stiffening * self.softness(load)
+    }
+
     /// Whether the stiffness is constant.
     #[inline(always)]
     pub fn is_linear(&self) -> bool {

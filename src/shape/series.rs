@@ -198,3 +198,46 @@ fn composed(y: &Series, powers: &[Series; ORDER]) -> Series {
     }
     series
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::constant_load::contact::tests::{TITANIUM, parameters};
+    use crate::parameters::EllipticParameters;
+    use crate::shape::{Geometry, Layer};
+
+    #[test]
+    fn the_curvature_of_the_load_is_that_of_its_series() {
+        let shapes = [parameters(0.0), parameters(50e-6), parameters(3e-3)].map(|flat| flat.shape().unwrap());
+        let ellipse = EllipticParameters {
+            semi_axis_x: 1e-4,
+            semi_axis_y: 2e-4,
+            normal_force: 150.0,
+            material: [TITANIUM; 2],
+            ..EllipticParameters::default()
+        };
+        for bare in shapes.into_iter().chain([ellipse.shape().unwrap()]) {
+            for stiffening_load in [f64::NAN, 0.0, 150.0, 1.5] {
+                let mut shape = bare;
+                if stiffening_load >= 0.0 {
+                    let compliance = bare.compliance(Quantity::Shift, bare.at_load(150.0));
+                    let (normal_compliance, tangential_compliance) = (compliance, compliance);
+                    let layer = crate::parameters::Layer {
+                        normal_compliance,
+                        tangential_compliance,
+                        stiffening_load,
+                        reference_load: 0.0,
+                    };
+                    (shape.layer, _) = Layer::new(&layer, 150.0).unwrap();
+                }
+                for load in [1e-6, 1e-2, 1.0, 150.0, 1500.0] {
+                    let leg = shape.at_load(load);
+                    let [series, _, [shift, ..]] = shape.series(leg, Quantity::Shift);
+                    let (one, other) = (shape.load_curvature(leg), 2.0 * series[2] / (shift * shift));
+                    // The recurrences of the series lose some digits where load and shift are nearly proportional.
+                    assert!((one / other - 1.0).abs() < 1e-12, "{stiffening_load} {load} {one} {other}");
+                }
+            }
+        }
+    }
+}
