@@ -1983,7 +1983,9 @@ contains
     !! force(m) [N] is [T, N] or [Tx, Ty, N], tangent(m m) [N/m] is d force_i / d displacement_j, m x m, column-major,
     !! consistent with the step and one-sided at corners, dissipated [J] the energy dissipated in this step. Only the
     !! used part of the new state is written: initialise both states to store or compare whole arrays. Within a step the
-    !! path is straight in the tangential displacement and the tangential shift S of the contact size.
+    !! path is straight in the tangential displacement and the tangential shift S of the contact size. A step of no
+    !! length changes neither force nor state; its tangent is with one direction the tangent of the step before, with
+    !! two that of the stuck contact.
     !!
     !! Since 0.1.0 (interface 6).
     type(mslip_element), intent(in) :: element  !! An initialised element.

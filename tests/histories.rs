@@ -172,7 +172,7 @@ fn sixteen_nodes_for_each_harmonic_are_enough() {
                 let size = contact.slip_displacement * 0.1 * 30f64.powf(random.next());
                 let term = |k: usize| {
                     let order = k.div_ceil(2);
-                    let highest = if order % harmonics == 0 { 1.0 } else { 0.1 };
+                    let highest = if order.is_multiple_of(harmonics) { 1.0 } else { 0.1 };
                     let share = if case % 2 == 0 { 3.0 / (1 + order) as f64 } else { highest };
                     size * share * random.signed()
                 };
@@ -535,6 +535,53 @@ fn elements_under_a_constant_normal_force_are_contacts() {
                     static_forces(&element, 1, &across, NORMAL_FORCE);
                 }
             }
+        }
+    }
+}
+
+/// The errors that docs/accuracy.md states for elements with rough layers under a constant normal force, whose tables lose digits.
+#[test]
+fn elements_with_rough_layers_lose_digits() {
+    for (ratio, of_force, of_energy) in [(0.1, 1e-14, 1e-12), (0.01, 1e-12, 5e-11), (1e-3, 1e-10, 2e-9)] {
+        let (mut random, mut force, mut energy) = (Random(1), 0.0_f64, 0.0_f64);
+        for input in inputs(&[0.01, 0.1, 0.3, 1.0, 3.0, 10.0, 100.0].map(|share| (share, ratio))) {
+            let (contact, element) = (input.contact(), input.element(Directions::One, NormalInput::Approach));
+            let (mut memory, mut state) = (History::new(&element, 64), unloaded(64));
+            memory.step(0.0, element.approach);
+            for _ in 0..40 {
+                let u = 1.3 * random.signed() * contact.slip_displacement;
+                let (expected, _, dissipated) = advance(&contact, &mut state, u);
+                let step = memory.step(u, element.approach);
+                force = force.max((step.force[0] - expected).abs() / contact.slip_force);
+                let unit = contact.slip_force * contact.slip_displacement;
+                energy = energy.max((step.dissipated - dissipated).abs() / unit);
+            }
+        }
+        assert!(force < of_force && energy < of_energy, "N_c = {ratio} N: {force:e} {energy:e}");
+    }
+}
+
+/// Newton's method starts with a step of no length from the last state: with one direction it continues the last step, with two the
+/// contact is stuck.
+#[test]
+fn steps_of_no_length_keep_the_state() {
+    for input in inputs(&[(1.0, 0.01)]) {
+        let [one, two] =
+            [Directions::One, Directions::Two].map(|directions| input.element(directions, NormalInput::Force));
+        for u in [0.3, 3.0].map(|size| size * input.contact().slip_displacement) {
+            let mut memory = History::new(&one, 64);
+            let [_, last, again] = [0.0, u, u].map(|u| memory.step(u, NORMAL_FORCE));
+            assert_eq!((last.force, last.tangent, 0.0), (again.force, again.tangent, again.dissipated), "{input:?}");
+            let mut state = vec![0.0; TwoDirections::STATE_LENGTH];
+            TwoDirections::state_init(&mut state).unwrap();
+            let mut step = |u: f64| {
+                let step = TwoDirections::step(&two, &mut state, [u, 0.0, NORMAL_FORCE]).unwrap();
+                (step, state.clone())
+            };
+            let [_, (last, kept), (again, unchanged)] = [0.0, u, u].map(&mut step);
+            assert_eq!((last.force, 0.0, kept), (again.force, again.dissipated, unchanged), "{input:?}");
+            // The springs have the stiffness of the element to the error of their number.
+            assert!((again.tangent[0] / two.tangential_stiffness - 1.0).abs() < 1e-4, "{input:?} {:?}", again.tangent);
         }
     }
 }

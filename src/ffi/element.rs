@@ -226,7 +226,8 @@ pub unsafe extern "C" fn mslip_element_state_error(
 /// \[T, N\] or \[Tx, Ty, N\], tangent\[m m\] \[N/m\] is d force_i / d displacement_j, m x m, column-major, consistent with the step
 /// and one-sided at corners, dissipated \[J\] the energy dissipated in this step. state_new may alias state_old; if NULL, the new
 /// state is discarded. Only the used part of the new state is written: initialise both states to store or compare whole arrays.
-/// Within a step the path is straight in the tangential displacement and the tangential shift S of the contact size.
+/// Within a step the path is straight in the tangential displacement and the tangential shift S of the contact size. A step of no length
+/// changes neither force nor state; its tangent is with one direction the tangent of the step before, with two that of the stuck contact.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_DIRECTIONS for the state of another number of
 /// directions, MSLIP_BAD_STATE, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE, or MSLIP_LENGTH_TOO_SHORT if the contact would be
