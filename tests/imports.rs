@@ -1,4 +1,4 @@
-//! Imports only go down: each module of `src/` uses those that the table of `docs/architecture.md` allows, which stand above it
+//! Imports only go down: the table of `docs/architecture.md` has the modules that each module of `src/` imports, all of them above it
 //! there, and no files of a module import each other in a circle. Test modules are not read.
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -87,26 +87,30 @@ fn imports_only_go_down() {
         let used = paths(module, text).into_iter().filter_map(|path| file_of(&path, &files));
         imports.insert(module, used.map(String::as_str).filter(|used| used != module).collect());
     }
-    // The table: rows `| module | may use |` of module names in backticks.
+    // The table: rows `| module | imports |` of module names in backticks, here with what the source imports.
     let document = fs::read_to_string(root.join("docs/architecture.md")).unwrap();
-    let names = |cell: &str| cell.split('`').skip(1).step_by(2).map(str::to_owned).collect::<Vec<_>>();
-    let mut allowed: BTreeMap<String, Vec<String>> = BTreeMap::new();
-    let table = document.lines().skip_while(|line| !line.starts_with("| module | may use |")).skip(2);
-    for row in table.take_while(|line| line.starts_with('|')) {
-        let cells: Vec<_> = row.split('|').collect();
-        for module in names(cells[1]) {
-            let uses = names(cells[2]);
-            assert!(uses.iter().all(|used| allowed.contains_key(used)), "{module} uses modules below it in the table");
-            allowed.insert(module, uses);
-        }
-    }
     let top = |module: &str| module.split("::").next().unwrap().to_owned();
+    let mut found: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
     for (module, used) in &imports {
-        let row = allowed.get(&top(module)).unwrap_or_else(|| panic!("{module} is not in the table"));
-        for used in used {
-            assert!(top(used) == top(module) || row.contains(&top(used)), "{module} imports {used}");
-        }
+        let own = top(module);
+        found.entry(own.clone()).or_default().extend(used.iter().map(|used| top(used)).filter(|used| *used != own));
     }
+    let names = |cell: &str| cell.split('`').skip(1).step_by(2).map(str::to_owned).collect::<Vec<_>>();
+    let mut above = BTreeSet::new();
+    let table = document.lines().skip_while(|line| !line.starts_with("| module | imports |")).skip(2);
+    for row in table.take_while(|line| line.starts_with('|')) {
+        let modules = names(row.split('|').nth(1).unwrap());
+        for module in &modules {
+            let used = found.remove(module).unwrap_or_default();
+            assert!(used.is_subset(&above), "{module} imports modules below it in the table: {used:?}");
+            let used: Vec<_> = used.iter().map(|used| format!("`{used}`")).collect();
+            let own: Vec<_> = modules.iter().map(|module| format!("`{module}`")).collect();
+            let right = format!("| {} | {} |", own.join(", "), used.join(", ")).replace("|  |", "| |");
+            assert!(row == right, "docs/architecture.md: write\n{right}\ninstead of\n{row}");
+        }
+        above.extend(modules);
+    }
+    assert!(found.is_empty(), "not in the table of docs/architecture.md: {found:?}");
     assert!(imports.values().map(BTreeSet::len).sum::<usize>() > 200, "the imports were not found");
     // No circles: files without imports that are left, one after the other.
     while let Some(leaf) = imports.iter().find(|(_, used)| used.is_empty()).map(|(module, _)| *module) {
