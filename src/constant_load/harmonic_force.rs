@@ -25,8 +25,6 @@ mod uniform_sampling;
 use crate::constant_load::contact::Contact;
 use crate::error::Error;
 use crate::fourier::workspace::{HEADER, Layout, Size};
-use crate::limits::check_coefficients;
-use crate::parameters::PARAMETERS;
 
 pub use crate::fourier::HarmonicOutput;
 
@@ -148,23 +146,17 @@ pub fn harmonic_force(
 /// displacement, by the rule of the workspace: derivative of force i by parameter j at `i + (2H + 1) j`.
 ///
 /// With uniform sampling they are the exact derivatives of the discrete force; event-driven, the rule applied to the exact derivatives
-/// of the integrals. Without friction or without normal force they are one-sided.
-/// Errors: `BadDisplacement` if a coefficient is not finite or exceeds 1e150; `BadArraySize` if a length does not agree with the
-/// workspace.
-pub fn harmonic_sensitivity(
+/// of the integrals. Without friction or without normal force they are one-sided. The displacement is one that [`harmonic_force`]
+/// accepts.
+pub(crate) fn harmonic_sensitivity(
     contact: &Contact,
     workspace: &mut Workspace,
     displacement: &[f64],
     sensitivity: &mut [f64],
-) -> Result<(), Error> {
-    let n = workspace.coefficients();
-    if displacement.len() != n || sensitivity.len() != PARAMETERS * n {
-        return Err(Error::BadArraySize);
-    }
-    check_coefficients(displacement)?;
+) {
     if displacement.iter().all(|&coefficient| coefficient == 0.0) {
         sensitivity.fill(0.0);
-        return Ok(());
+        return;
     }
     match &mut workspace.0 {
         ByRule::UniformSampling(of_rule) => {
@@ -174,7 +166,6 @@ pub fn harmonic_sensitivity(
             event_driven::harmonic_sensitivity(contact, of_rule, displacement, sensitivity);
         }
     }
-    Ok(())
 }
 
 /// Quantities requested at each point of the curve.

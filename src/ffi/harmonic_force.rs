@@ -231,9 +231,9 @@ pub unsafe extern "C" fn mslip_harmonic_sensitivity(
             (input(displacement, n)?, output(force, n)?, output(sensitivity, PARAMETERS * n)?);
         let output = HarmonicOutput { force, jacobian: None, dissipated: None, drift: None };
         harmonic_force::harmonic_force(contact, &mut workspace, displacement, output)?;
-        match sensitivity {
-            Some(sensitivity) => harmonic_sensitivity(contact, &mut workspace, displacement, sensitivity),
-            None => Ok(()),
+        if let Some(sensitivity) = sensitivity {
+            harmonic_sensitivity(contact, &mut workspace, displacement, sensitivity);
         }
+        Ok(())
     })
 }

@@ -101,7 +101,7 @@ fn the_harmonic_force() {
                     let (force, jacobian, dissipated) = compute(&contact, &mut memory, &displacement);
                     let mut sensitivity = vec![0.0; crate::PARAMETERS * n];
                     let mut workspace = Workspace::new(&mut memory).unwrap();
-                    harmonic_sensitivity(&contact, &mut workspace, &displacement, &mut sensitivity).unwrap();
+                    harmonic_sensitivity(&contact, &mut workspace, &displacement, &mut sensitivity);
                     [force, jacobian, vec![dissipated], sensitivity].concat()
                 });
             }

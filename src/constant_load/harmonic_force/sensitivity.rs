@@ -43,7 +43,7 @@ mod tests {
 
     fn sensitivity(contact: &Contact, memory: &mut [f64], displacement: &[f64]) -> Vec<f64> {
         let mut sensitivity = vec![f64::NAN; PARAMETERS * displacement.len()];
-        harmonic_sensitivity(contact, &mut Workspace::new(memory).unwrap(), displacement, &mut sensitivity).unwrap();
+        harmonic_sensitivity(contact, &mut Workspace::new(memory).unwrap(), displacement, &mut sensitivity);
         sensitivity
     }
 
