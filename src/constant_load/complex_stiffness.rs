@@ -45,8 +45,8 @@ pub struct ComplexStiffness {
     pub dissipated: f64,
 }
 
-/// Gauss's rules for `ρ_0` from 1/4, 1/20, 1e-3 and 1e-6, with an error of 4e-15; from -0.05, where the contact has weights: 2e-15 of F and
-/// 4e-14 of dF/dx_0; and for all amplitudes of a curve without weights, which has a knee or is nearly singular: 5e-15 and 1e-12.
+/// Gauss's rules for `ρ_0` from 1/4, 1/20 and 1e-3, with an error of 4e-15; from 1e-6, and beyond -1e-6 up to -0.05, from where the
+/// contact has weights: 2e-15 of F and 1e-13 of dF/dx_0; next to gross slip: 2e-15 and 4e-14; and for all amplitudes of a curve without weights, which has a knee or is nearly singular: 5e-15 and 1e-12.
 static RULE_FROM_QUARTER: [[[f64; 4]; 2]; 4] = gauss_even();
 static RULE_FROM_TWENTIETH: [[[f64; 4]; 2]; 6] = gauss_even();
 static RULE_FROM_MILLI: [[[f64; 4]; 2]; 8] = gauss_even();
@@ -137,7 +137,7 @@ impl Contact {
                     0.25.. => &RULE_FROM_QUARTER,
                     0.05.. => &RULE_FROM_TWENTIETH,
                     1e-3.. => &RULE_FROM_MILLI,
-                    1e-6.. => &RULE_FROM_MICRO,
+                    1e-6.. | ..-1e-6 => &RULE_FROM_MICRO,
                     _ => &RULE_AT_SLIP,
                 };
                 return self.integrals(rule, x_0, rho_0);
