@@ -199,8 +199,8 @@ impl Shape {
         [value, compliance]
     }
 
-    /// d²N/dS² \[N/m²\] at a size > 0: with K = K_t, ' the derivative by ln leg and N_c of the layer,
-    /// `[-K_1'/N' + K_2/(N + N_c)]/K³` of the contact 1 and the layer 2.
+    /// d²N/dS² \[N/m²\] at a size > 0: the decrease of the compliance with the load, over the cube of the compliance. A layer has its
+    /// compliance over N + N_c as decrease.
     pub fn load_curvature(&self, leg: f64) -> f64 {
         let punch = self.punch_at(leg);
         let (own, load) = (self.own_compliance(Quantity::Shift, &punch), self.load_scale * punch.load());
