@@ -54,28 +54,31 @@ impl Record {
         };
         let has_time = measurement.time.is_some();
         let time = measurement.time.clone().unwrap_or_else(|| (0..count).map(|i| i as f64).collect());
-        let mut columns = [measurement.displacement.clone(), measurement.force.clone(), normal_force, time];
+        // Rows of the measurement, for messages about samples that are left when others were left out.
+        let rows = (1..=count).map(|row| row as f64).collect();
+        let mut columns = [measurement.displacement.clone(), measurement.force.clone(), normal_force, time, rows];
         for (name, values) in ["displacement", "force", "normal force", "time"].into_iter().zip(&columns) {
             if values.len() != count {
                 return fail(format!("{name} has {} values, displacement {count}", values.len()));
             }
         }
         let mut warnings = Vec::new();
-        let mut leave_out = |columns: &mut [Vec<f64>; 4], rows: &[bool], most: f64, what: &str| {
-            let found = rows.iter().filter(|row| **row).count();
-            if found as f64 > most * rows.len() as f64 {
-                let first = rows.iter().position(|row| *row).map_or(0, |row| row + 1);
-                let percent = 100.0 * most;
+        let mut leave_out = |columns: &mut [Vec<f64>; 5], are_left_out: &[bool], most: f64, what: &str| {
+            let found = are_left_out.iter().filter(|row| **row).count();
+            if found as f64 > most * are_left_out.len() as f64 {
+                let first = are_left_out.iter().zip(&columns[4]).find(|(is_left_out, _)| **is_left_out);
                 return error(format!(
-                    "{name}: {found} of {} samples {what}, the first one is {first}; at most {percent:.0} % are left out",
-                    rows.len()
+                    "{name}: {found} of {} samples {what}, the first one is {}; at most {:.0} % are left out",
+                    are_left_out.len(),
+                    first.map_or(0.0, |(_, row)| *row),
+                    100.0 * most
                 ));
             }
             if found > 0 {
                 warnings.push(format!("{name}: {found} samples are left out: they {what}"));
                 for column in columns {
-                    let mut rows = rows.iter();
-                    column.retain(|_| !rows.next().is_some_and(|row| *row));
+                    let mut rows = are_left_out.iter();
+                    column.retain(|_| !rows.next().is_some_and(|is_left_out| *is_left_out));
                 }
             }
             Ok(())
@@ -85,31 +88,30 @@ impl Record {
         if has_time && columns[3].windows(2).all(|pair| pair[1] < pair[0]) {
             columns.iter_mut().for_each(|values| values.reverse());
         }
-        let rows = columns[0].len();
-        let is_same = |i: usize| i > 0 && columns.iter().all(|values| values[i] == values[i - 1]);
-        let are_doubled: Vec<_> = (0..rows).map(|i| has_time && is_same(i)).collect();
+        let is_same = |i: usize| i > 0 && columns[..4].iter().all(|values| values[i] == values[i - 1]);
+        let are_doubled: Vec<_> = (0..columns[0].len()).map(|i| has_time && is_same(i)).collect();
         leave_out(&mut columns, &are_doubled, 1.0, "repeat the sample before, with its time")?;
         let [of_displacement, of_force] = [0, 1].map(|i| spikes(&columns[i]));
         let are_spikes: Vec<_> = of_displacement.iter().zip(&of_force).map(|(one, other)| *one || *other).collect();
         leave_out(&mut columns, &are_spikes, MOST_SPIKES, "are spikes")?;
-        let [displacement, force, normal_force, mut time] = columns;
+        let [displacement, force, normal_force, mut time, rows] = columns;
         let count = displacement.len();
         if count < LEAST_SAMPLES {
             return fail(format!("{count} samples; a fit needs at least {LEAST_SAMPLES}"));
         }
-        if let Some(row) = normal_force.iter().position(|value| *value <= 0.0) {
-            return fail(format!("the normal force of sample {} is not positive: the contact is open", row + 1));
+        if let Some(i) = normal_force.iter().position(|value| *value <= 0.0) {
+            return fail(format!("the normal force of sample {} is not positive: the contact is open", rows[i]));
         }
         for (column, values) in [("displacement", &displacement), ("force", &force)] {
             if range(values) == 0.0 {
                 return fail(format!("{column} is constant"));
             }
             let largest = LARGEST_STEP * range(values);
-            if let Some(row) = values.windows(2).position(|pair| (pair[1] - pair[0]).abs() > largest) {
+            if let Some(i) = values.windows(2).position(|pair| (pair[1] - pair[0]).abs() > largest) {
                 return fail(format!(
                     "{column} jumps by more than a quarter of its range after sample {}: samples are missing, or a cycle has \
                      fewer than 12",
-                    row + 1
+                    rows[i]
                 ));
             }
             if let Some(limit) = saturation(values) {
@@ -120,22 +122,22 @@ impl Record {
             }
         }
         let mut steps: Vec<_> = time.windows(2).map(|pair| pair[1] - pair[0]).collect();
-        if let Some(row) = steps.iter().position(|step| *step <= 0.0) {
+        if let Some(i) = steps.iter().position(|step| *step <= 0.0) {
             warnings.push(format!(
                 "{name}: time does not increase after sample {}: a coarse clock, or one that stopped or restarted; equal steps of \
                  time are assumed",
-                row + 1
+                rows[i]
             ));
             time = (0..count).map(|i| i as f64).collect();
             steps.fill(1.0);
         }
         let longest = steps.iter().enumerate().max_by(|one, other| one.1.total_cmp(other.1));
-        let (row, longest) = longest.map_or((0, 0.0), |(row, step)| (row, *step));
+        let (i, longest) = longest.map_or((0, 0.0), |(i, step)| (i, *step));
         steps.sort_by(f64::total_cmp);
         if has_time && longest > LONGEST_GAP * steps[steps.len() / 2] {
             return fail(format!(
                 "a gap of {longest:e} in time after sample {}: use the part before or after it, with at least one cycle",
-                row + 1
+                rows[i]
             ));
         }
         let length = time[count - 1] - time[0];

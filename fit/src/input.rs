@@ -2,7 +2,7 @@
 
 use crate::error::{Error, error};
 use microslip::Material;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// The contact. Fitted parameters are only start values here. It is read from the keys of a parameter file.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -148,7 +148,8 @@ pub fn missing_parameters(is_given: impl Fn(&str) -> bool) -> Result<Vec<&'stati
     Ok(shape.iter().chain(&COMMON).copied().filter(|name| !is_given(name)).collect())
 }
 
-/// A record of displacement and tangential force, with at least one cycle.
+/// A record of displacement and tangential force, with at least one cycle. Samples in which a number is missing, NaN, or infinite are
+/// left out; in JSON it is null.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Measurement {
@@ -156,14 +157,16 @@ pub struct Measurement {
     #[serde(default)]
     pub name: String,
     /// Displacement of the rig \[m\], in equal steps of time unless `time` is given.
+    #[serde(deserialize_with = "samples")]
     pub displacement: Vec<f64>,
     /// Tangential force \[N\]; it opposes the motion, so a loop has a positive area.
+    #[serde(deserialize_with = "samples")]
     pub force: Vec<f64>,
     /// Normal force \[N\]; by default that of the contact.
     #[serde(default)]
     pub normal_force: Option<NormalForce>,
     /// Time \[s\]; only to find gaps.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "optional_samples")]
     pub time: Option<Vec<f64>>,
 }
 
@@ -174,7 +177,17 @@ pub enum NormalForce {
     /// The same at all samples.
     Constant(f64),
     /// One value for each sample.
-    Samples(Vec<f64>),
+    Samples(#[serde(deserialize_with = "samples")] Vec<f64>),
+}
+
+/// Numbers, of which null is NaN.
+fn samples<'de, D: Deserializer<'de>>(source: D) -> Result<Vec<f64>, D::Error> {
+    let values: Vec<Option<f64>> = Deserialize::deserialize(source)?;
+    Ok(values.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect())
+}
+
+fn optional_samples<'de, D: Deserializer<'de>>(source: D) -> Result<Option<Vec<f64>>, D::Error> {
+    samples(source).map(Some)
 }
 
 /// What is fixed; a parameter without a value is fitted.

@@ -33,7 +33,8 @@ def fit(
 
     Each loop is a pair displacement[n] [m], force[n] [N] with at least one cycle, or a mapping with the keys `displacement`,
     `force` and optionally `name`, `normal_force` (a number or n of them [N]) and `time`[n] [s]. `contact` has the
-    parameters of `Contact` or `Contact.elliptic` by name; those that are fitted are start values.
+    parameters of `Contact` or `Contact.elliptic` by name; those that are fitted are start values. Samples with a value that is
+    NaN or infinite are left out, at most 5 % of them, and messages count the samples before that.
 
     `fixed` gives values to `friction_coefficient`, `series_compliance` [m/N], `contact_compliance` (a factor on the displacements
     of the law) or `parallel_stiffness` [N/m], which are fitted otherwise. `shape` is the fitted parameter of the shape:
@@ -69,6 +70,12 @@ def _finite(values: Any, name: str, *shapes: Shape) -> Any:
     if not np.isfinite(array).all():
         raise FitError(f"{name} must be finite")
     return array.tolist()
+
+
+def _samples(values: Any, name: str, *shapes: Shape) -> Any:
+    """A list of numbers, of which those that are not finite are missing, or a finite number."""
+    array = doubles(values, name, *shapes)
+    return np.where(np.isfinite(array), array, None).tolist() if array.ndim else _finite(array, name, ())
 
 
 def _mapping(given: Any, name: str) -> dict[Any, Any]:
@@ -111,7 +118,7 @@ def _loop(loop: Any, name: str) -> dict[str, Any]:
         if key == "name":
             keys[key] = instance(value, str, f"name of {name}").encode(errors="replace").decode()
         else:
-            keys[str(key)] = _finite(value, f"{key} of {name}", *COLUMNS.get(key, ()))
+            keys[str(key)] = _samples(value, f"{key} of {name}", *COLUMNS.get(key, ()))
     return keys
 
 

@@ -87,7 +87,8 @@ def without(name):
         ("length of contact must be finite", {"contact": TRUTH | {"length": np.inf}}),
         ("young_modulus of contact must be", {"contact": TRUTH | {"young_modulus": (1, 2, 3)}}),
         ("friction_coefficient of fixed must be", {"fixed": {"friction_coefficient": None}}),
-        ("force of loops.0. must be finite", {"loops": [(LOOP[0], np.full(160, np.nan))]}),
+        ("160 of 160 samples have no number, the first one is 1;", {"loops": [(LOOP[0], np.full(160, np.nan))]}),
+        ("normal_force of loops.0. must be finite", {"loops": [{"displacement": LOOP[0], "force": LOOP[1], "normal_force": np.nan}]}),
         ("force of loops.1. must be real numbers", {"loops": [LOOP, ([0.0, 1.0], ["a", "b"])]}),
         ("force of loops.0. must not be masked", {"loops": [(LOOP[0], np.ma.array(LOOP[1]))]}),
         ("loops.0. must be a pair", {"loops": [(*LOOP, LOOP[1])]}),
@@ -100,6 +101,16 @@ def without(name):
 def test_errors_name_the_argument(message, arguments):
     with pytest.raises((ValueError, TypeError), match=message):
         microslip.fit(**{"loops": [LOOP], "contact": TRUTH} | arguments)
+
+
+def test_missing_samples_are_left_out_and_counted():
+    displacement, force, normal_force = *(column.copy() for column in LOOP), np.full(LOOP[0].size, TRUTH["normal_force"])
+    displacement[2], force[5] = np.nan, np.inf
+    loop = {"displacement": displacement, "force": force, "normal_force": normal_force}
+    assert "2 samples are left out: they have no number" in microslip.fit([loop], TRUTH).warnings[0]
+    normal_force[9] = 0
+    with pytest.raises(microslip.FitError, match="normal force of sample 10 is not positive"):
+        microslip.fit([loop], TRUTH)
 
 
 def test_constants_are_given_by_number_or_word():
