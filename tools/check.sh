@@ -30,7 +30,7 @@ rust() {
     step 'formatting' "$CARGO" fmt --all --check
     # Nothing is linked, so libFuzzer need not be compiled.
     step 'lints: Rust' env CUSTOM_LIBFUZZER_PATH=/libfuzzer.a "$CARGO" clippy --workspace --all-targets --locked -- -D warnings
-    step 'lints: shell' sh -c 'git ls-files "*.sh" | xargs shellcheck .ci/run'
+    step 'lints: shell' sh -c 'git ls-files "*.sh" | xargs shellcheck --external-sources --source-path=SCRIPTDIR .ci/run'
     step 'coverage: 98 % of the lines of src/' tools/coverage.sh
     step 'accuracy and adversarial histories, 1e5 points' target/debug/verify --points 1e5
     step 'verdicts of 40 fits of each kind' env MICROSLIP_FITS=40 "$CARGO" test $workspace --test wrong_models -- plateau microslip

@@ -113,8 +113,7 @@ check 'CMake: FetchContent' cmake_client "fetch content" 3 -DMICROSLIP_URL="$tre
 meson_client() {
     mkdir -p "$work/meson/subprojects" && cp "$clients/client.c" "$clients/client.f90" "$clients/meson/meson.build" "$work/meson" &&
         ln -s "$tree" "$work/meson/subprojects/microslip" &&
-        meson setup "$work/meson build" "$work/meson" "-Dmicroslip:cargo_target_dir=$tree/target" &&
-        meson test -C "$work/meson build" --print-errorlogs
+        meson setup "$work/meson build" "$work/meson" && MICROSLIP_CARGO_TARGET_DIR=$tree/target meson test -C "$work/meson build" --print-errorlogs
 }
 check 'Meson: subproject' meson_client
 

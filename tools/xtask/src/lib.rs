@@ -102,7 +102,7 @@ fn text_of(bindings: &Bindings) -> String {
 }
 
 fn bindings() -> Bindings {
-    let mut config = Config::from_file(root().join("cbindgen.toml")).expect("cbindgen.toml");
+    let mut config = Config::from_file(root().join("tools/xtask/cbindgen.toml")).expect("cbindgen.toml");
     config.include_guard = Some(INCLUDE_GUARD.to_owned());
     config.after_includes = Some(version_macros() + &status_codes());
     // cbindgen includes whatever is public and could be C: items of the interface carry its prefix. Excluding an item can
