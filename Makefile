@@ -124,7 +124,7 @@ instructions:
 ## bench: run time against error of the library and of what one would use instead; QUICK=1 for fewer cases
 bench: all
 	@tools/dependencies.sh bench verify
-	$(MAKE) -C benches run PREFIX=../dist QUICK=$(QUICK)
+	$(MAKE) -C verification/benches run PREFIX=../../dist QUICK=$(QUICK)
 
 ## figures: compute the figures of the paper and of the validation into docs/, draw them, and check the claims
 figures: all
@@ -177,7 +177,7 @@ release:
 clean:
 	rm -rf dist target
 	$(MAKE) -C fortran_examples clean
-	$(MAKE) -C benches clean
+	$(MAKE) -C verification/benches clean
 	rm -rf examples/build examples/calculix/build examples/nlvib/build
 
 ## help: list the targets

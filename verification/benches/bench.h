@@ -2,7 +2,7 @@
 #ifndef BENCH_H
 #define BENCH_H
 
-#include "../c_tests/outputs.h"
+#include "../../c_tests/outputs.h"
 
 #include <stdio.h>
 

@@ -25,7 +25,7 @@ shape_title(shape) = sprintf('a/b = %g%s', shape, shape == 0 ? ' (cylinder)' : '
 
 do for [name in 'force stiffness'] {
   set terminal svg size 1120, 520 dynamic background rgb 'white' font 'Helvetica,14'
-  set output sprintf('| python3 ../tools/svg.py > %s/%s.svg', to, name)
+  set output sprintf('| python3 ../../tools/svg.py > %s/%s.svg', to, name)
   set xlabel name eq 'force' ? 'largest error of the force, relative' : 'largest error of stiffness and derivatives, relative'
   set ylabel name eq 'force' ? 'time of one point (ns)' : 'time of one amplitude (ns)'
   set yrange [name eq 'force' ? 0.1 : 1 : name eq 'force' ? 1e6 : 1e7]
@@ -41,7 +41,7 @@ do for [name in 'force stiffness'] {
 }
 
 set terminal svg size 1280, 540 dynamic background rgb 'white' font 'Helvetica,14'
-set output sprintf('| python3 ../tools/svg.py > %s/harmonic.svg', to)
+set output sprintf('| python3 ../../tools/svg.py > %s/harmonic.svg', to)
 set xlabel 'error of the first harmonic, relative'
 set ylabel 'time of force and Jacobian (ns)'
 set yrange [100:1e8]
