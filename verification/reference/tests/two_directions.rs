@@ -1,5 +1,8 @@
-//! The slow reference of two directions: energies of circles by another program of the same equations, and lines under a varying load by the
-//! law of one direction in multi-precision.
+//! The slow reference of two directions: energies of circles by another program of the same equations, paths by boundary elements, and lines
+//! under a varying load by the law of one direction in multi-precision.
+
+#[path = "../../../tests/golden/table.rs"]
+mod table;
 
 use microslip::parameters::CENTRE_POINT;
 use microslip::{EllipticParameters, Material, Parameters};
@@ -83,5 +86,29 @@ fn lines() {
             energies = [energies[0] + point.dissipated, energies[1] + dissipated];
         }
         assert!((energies[0] / energies[1] - 1.0).abs() < 2e-3, "{energies:?}");
+    }
+}
+
+/// Paths of a cylinder by boundary elements, whose error is up to 2e-3 μN, and 5e-3 of the energy.
+#[test]
+fn boundary_elements() {
+    for name in ["circle0.6", "Lpath", "circle0.4_nearseparation"] {
+        let of = |row: &table::Row| row.text("path") == name && row["a"] == 0.0;
+        let rows: Vec<table::Row> = table::table("two_directions").into_iter().filter(of).collect();
+        let normal_force = rows.iter().map(|row| row["N"]).fold(0.0, f64::max);
+        let body = Material { young_modulus: rows[0]["E"], poisson_ratio: rows[0]["nu"] };
+        let friction_coefficient = rows[0]["mu"];
+        let parameters =
+            Parameters { normal_force, friction_coefficient, material: [body; 2], ..table::geometry(&rows[0]) };
+        let contact = Contact::new(&Input::Flat(parameters), normal_force, 60);
+        let path: Vec<[f64; 3]> = rows.iter().map(|row| ["u", "v", "N"].map(|name| row[name])).collect();
+        let mut energies = [0.0; 2];
+        for (row, point) in rows[1..].iter().zip(contact.solve(&path, 4)) {
+            let [x, y] = [row["Tx"] - point.force[0], row["Ty"] - point.force[1]];
+            let error = x.hypot(y) / (friction_coefficient * normal_force);
+            assert!(error < 5e-4, "{name}: force {:?}, error {error:.1e}", point.force);
+            energies = [energies[0] + point.dissipated, energies[1] + row["dissipated"]];
+        }
+        assert!((energies[0] / energies[1] - 1.0).abs() < 5e-3, "{name}: {energies:?}");
     }
 }
