@@ -44,7 +44,7 @@ pub fn says(report: &Report, text: &str) -> bool {
 
 /// The rows of a table of the document, each with its number of fits. All fits write it; of fewer, the counts must be those of a part.
 pub fn check_table(name: &str, rows: &[(usize, String)]) {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/identification.md");
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/identification.md");
     let text = fs::read_to_string(path).unwrap();
     let ends = ["begin", "end"].map(|end| format!("<!-- {name}: {end} -->"));
     let mut lines: Vec<_> = text.lines().collect();

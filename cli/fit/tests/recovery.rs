@@ -312,7 +312,8 @@ fn faults_of_records_are_removed() {
             })
         }),
     ];
-    let document = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../docs/identification.md")).unwrap();
+    let document =
+        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/identification.md")).unwrap();
     for (row, change) in cases {
         let mut one = measured(&flat(), &Rig { noise: [2e-3, 1e-5], amplitude: 2.0, ..RIG }, &mut Random::new(11));
         change(&mut one);
