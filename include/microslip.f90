@@ -2160,7 +2160,7 @@ contains
   subroutine mslip_element_workspace_init(directions, harmonics, samples, periods, workspace, status, rule)
     !! Initialises a workspace of elements: tables for one (directions, harmonics, samples, rule), and scratch memory.
     !! Each thread needs its own. periods is the number of periods that are applied before the returned one, at most
-    !! 65536. 0 is the default: 3 with two directions; 1 with one, where a larger number changes neither results nor
+    !! 65536. 0 is the default: 6 with two directions; 1 with one, where a larger number changes neither results nor
     !! time.
     !!
     !! Since 0.1.0 (interface 6).
@@ -2198,10 +2198,11 @@ contains
     !! any variation of w moves the start to another sample, and the mean tangential force may depend on the start.
     !!
     !! With one direction the returned period is the steady state. With two, a vibration across a mean tangential force
-    !! reduces that force over many periods: drift is the largest difference of the tangential force between the last
-    !! two periods, over mu times the largest normal force; 0 with one direction, and for a contact that opens, because
-    !! that erases its memory. If the workspace has 1 period, the drift contains the first loading. A drift is not an
-    !! error. While the force drifts, dissipated contains the change of the stored energy.
+    !! reduces that force over many periods, all but the last of which are advanced by 32 samples for each cycle of the
+    !! highest harmonic, if there are more. drift estimates the largest difference of the tangential force between the
+    !! returned period and the steady state, over mu times the largest normal force; 0 with one direction, and for a
+    !! contact that opens, because that erases its memory. A drift is not an error. While the force drifts, dissipated
+    !! contains the change of the stored energy.
     !!
     !! Since 0.1.0 (interface 6).
     type(mslip_element), intent(in) :: element  !! An initialised element.

@@ -645,7 +645,7 @@ size_t mslip_element_workspace_length(int32_t directions,
                                       int32_t rule);
 
 // Initialises a workspace of elements: tables for one (directions, harmonics, samples, rule), and scratch memory. Each thread
-// needs its own. periods is the number of periods that are applied before the returned one, at most 65536. 0 is the default: 3 with
+// needs its own. periods is the number of periods that are applied before the returned one, at most 65536. 0 is the default: 6 with
 // two directions; 1 with one, where a larger number changes neither results nor time.
 //
 // Returns MSLIP_BAD_DIRECTIONS, MSLIP_BAD_RULE, MSLIP_NOT_AVAILABLE for MSLIP_EVENT_DRIVEN, MSLIP_BAD_HARMONICS,
@@ -687,10 +687,10 @@ int32_t mslip_element_workspace_size(const double *workspace,
 // tangential force may depend on the start.
 //
 // With one direction the returned period is the steady state. With two, a vibration across a mean tangential force reduces that force
-// over many periods: drift is the largest difference of the tangential force between the last two periods, over mu times the largest
-// normal force; 0 with one direction, and for a contact that opens, because that erases its memory. If the workspace has 1 period, the
-// drift contains the first loading. A drift is not an error. While the force drifts, dissipated contains the change of the stored
-// energy.
+// over many periods, all but the last of which are advanced by 32 samples for each cycle of the highest harmonic, if there are more.
+// drift estimates the largest difference of the tangential force between the returned period and the steady state, over mu times the
+// largest normal force; 0 with one direction, and for a contact that opens, because that erases its memory. A drift is not an error.
+// While the force drifts, dissipated contains the change of the stored energy.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_WORKSPACE, MSLIP_BAD_DIRECTIONS for the workspace of another number of
 // directions, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE if the normal force of a sample is negative, or

@@ -240,6 +240,11 @@ impl Shape {
         self.per_approach[k] * own + self.per_load[k] + self.layer.compliance(0.0)
     }
 
+    /// N/g \[N/m²\], with g the square of a length in the law of loads. Not used without a flat.
+    pub fn load_per_square(&self) -> f64 {
+        self.load_scale
+    }
+
     /// The pressure that a size adds, times sqrt(s² - x²)/s and in any unit: dp/d(s²).
     pub fn pressure_weight(&self, leg: f64) -> f64 {
         if self.is_elliptic() { 1.0 } else { self.punch_at(leg).psi }

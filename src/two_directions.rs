@@ -4,27 +4,25 @@
 //! the family carry the displacement of the sizes within; the tractions at one point of each shell are a triangular map of them, and
 //! Coulomb's law holds at these points, with slip in the direction of the traction.
 //!
-//! - `scalar`: numbers over which the law is written, values and duals;
-//! - `tables`, `contact`: the springs of a shape, aligned with a size, and under a present load;
+//! - `nodes`: where the family is divided into shells, and their tables;
+//! - `shells`: the shells of a contact under a load, its springs and their map to tractions;
 //! - `matrix`: small matrices;
-//! - `trial`, `slip`, `step`: a step without slip, Coulomb's law at the points in its middle and at its end, and the step itself with its
-//!   energy;
-//! - `stick`: a step under a constant load without slip;
+//! - `slip`: Coulomb's law at the points;
+//! - `step`: a step of a contact, and its energy;
+//! - `tangent`: derivatives of a step;
 //! - `path`, `state`: a step between contacts that may be open, and the state in the caller's memory;
 //! - [`harmonic_force`]: Fourier coefficients of the forces of a periodic motion.
 
 pub mod harmonic_force;
 
-mod contact;
 mod matrix;
+mod nodes;
 mod path;
-mod scalar;
+mod shells;
 mod slip;
 mod state;
 mod step;
-mod stick;
-mod tables;
-mod trial;
+mod tangent;
 
 use crate::law::{Requested, StepResult};
 

@@ -151,8 +151,8 @@ def test_jacobians_of_elements_are_not_transposed(directions):
 def test_the_drift_falls_with_the_periods():
     # A mean shear beside a vibration across it.
     u = np.array([[0.8 * SLIP, 0, 0], [0, 0, 0.2 * SLIP], [0.7 * element.approach, 0, 0]])
-    spaces = [microslip.ElementWorkspace(2, 1, 32, periods=periods) for periods in (0, 1, 3, 10)]
-    assert [space.periods for space in spaces] == [3, 1, 3, 10]
+    spaces = [microslip.ElementWorkspace(2, 1, 32, periods=periods) for periods in (0, 1, 6, 20)]
+    assert [space.periods for space in spaces] == [6, 1, 6, 20]
     drifts = [both.harmonic_force(space, u).drift for space in spaces]
     assert drifts[1] > 2 * drifts[2] > 4 * drifts[3] > 0
     assert drifts[0] == drifts[2]

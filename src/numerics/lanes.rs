@@ -3,7 +3,7 @@
 //! Operators act lane by lane, in the order in which they are written: a lane has the bits of the same formula for one number.
 //! Nothing is fused, and the compiler sees whole vectors, whatever memory they are stored to.
 
-use core::ops::{Add, AddAssign, Deref, DerefMut, Div, Mul, Sub, SubAssign};
+use core::ops::{Add, AddAssign, Deref, DerefMut, Div, Mul, Neg, Sub, SubAssign};
 
 /// L numbers.
 #[repr(transparent)]
@@ -90,6 +90,14 @@ impl<const L: usize> AddAssign for Lanes<L> {
     #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
+    }
+}
+
+impl<const L: usize> Neg for Lanes<L> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self::ZERO - self
     }
 }
 

@@ -4,26 +4,26 @@
 //! uniformly spaced instants from t = 0. Between the samples the path is that of a step of the element. Steady state: the element is
 //! pressed by the normal force of the sample at which that is largest (the first such sample) with no tangential displacement, is
 //! displaced to that sample at constant normal force, and advanced along a number of periods and one more from there, which counts. The
-//! springs are aligned with the largest normal force.
+//! nodes are those of the largest normal force.
 //!
-//! The Jacobian is the exact derivative of these steps: the derivatives of the state with respect to all coefficients are carried
-//! along. Those of a step by parameters of the contact, the load at both ends and the alignment, are computed once; those by the
-//! springs at its start are advanced for a few coefficients at once, and the former are added to them.
+//! Static shear is shaken out over many periods. Those before the last two are advanced by fewer samples; the drift estimates what is left.
+//!
+//! The Jacobian is the exact derivative of these steps: changes of the springs by all coefficients are propagated. Those by parameters of the
+//! contact, the load at both ends and the reference size of the nodes, are computed once a step; those by the springs at its start are
+//! propagated for a few coefficients at once, and the former are added to them.
 
-use super::contact::{Contact, Pressed};
+use super::nodes::{Both, N, NEIGHBOUR, Nodes, ROWS, Units, both, fill};
 use super::path::Path;
-use super::scalar::{Dual, Linear};
-use super::slip::Slips;
-use super::step::{advance, bounded, derivatives, step};
-use super::tables::{
-    ALIGNMENT, Both, DualRows, END, Matrix, N, PARAMETERS, ROWS, Rows, START, Units, fill, under_flat,
-};
-use super::trial::{Derivatives, Motion, SPRINGS, Springs, Values, trial};
+use super::shells::Pressed;
+use super::slip::dot;
+use super::step::{Contact, Displacements, Motion, Step, bounded};
+use super::tangent::{self, ContactSlopes, END, REFERENCE, START, SpringChanges, Terms, propagate, slopes_of_nodes};
 use crate::element::{Element, Normal};
 use crate::error::Error;
 use crate::fourier::workspace::{Layout, Parts, Size};
 use crate::fourier::{angle, work};
 use crate::limits::check_coefficients;
+use crate::numerics::lanes::Lanes;
 use crate::simd::{dispatch, plus};
 use crate::tag::Kind;
 
@@ -35,20 +35,23 @@ pub fn workspace_length(harmonics: usize, samples: usize) -> usize {
 }
 
 /// Initialises a workspace: tables for the given harmonics and samples, the number of periods before the one that counts (0: the
-/// default, 3), and scratch memory.
+/// default, 6), and scratch memory.
 /// Errors: `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24, `BadPeriods` for more
 /// than 65536; `WorkspaceTooShort`.
 pub fn workspace_init(harmonics: usize, samples: usize, periods: usize, workspace: &mut [f64]) -> Result<(), Error> {
     Workspace::init(Size { harmonics, samples, periods }, workspace)
 }
 
-/// Relative distance of the sizes whose tables are differentiated: the error is the square of it times the third derivative, up to 1e5 where
-/// nodes are close, and a rounding error over it.
-const NEIGHBOUR: f64 = 1e-6;
+/// Samples of a cycle of the highest harmonic, at least, in the periods that are advanced by fewer. With half of them a sticking core may keep
+/// another force, which more periods do not correct.
+const TRANSIENT: usize = 32;
 
-/// Columns that are advanced at once, those of the normal component, of u and of v in a block each.
-const COLUMNS: usize = 12;
-type Columns = Dual<{ COLUMNS / 4 }>;
+/// Coefficients that are propagated at once, those of the normal component, of u and of v in a block each.
+const BLOCK: usize = 4;
+const COLUMNS: usize = 3 * BLOCK;
+type Columns = Lanes<COLUMNS>;
+/// Changes of springs as rows of columns in the workspace: both directions, and the spring at the edge.
+const CHANGES: usize = 2 * N + 2;
 
 /// Doubles of a sample: the motion, the normal force and its derivative, and the tangential forces.
 const SAMPLE: usize = 8;
@@ -60,10 +63,8 @@ pub struct Workspace<'a> {
     /// Values of `[1, cos t, sin t, ...]`, sample after sample.
     basis: &'a mut [f64],
     samples: &'a mut [[f64; SAMPLE]],
-    /// Tables of the springs, their derivatives by the logarithm of the reference size, and those of a slightly smaller one.
-    tables: &'a mut [Rows],
-    /// Derivatives of the springs, and those of both forces, block after block of columns.
-    derivatives: &'a mut [f64],
+    /// Changes of the springs, and those of both forces, block after block of columns.
+    changes: &'a mut [f64],
     forces: &'a mut [f64],
     sums: &'a mut [f64],
 }
@@ -71,7 +72,7 @@ pub struct Workspace<'a> {
 impl<'a> Layout<'a> for Workspace<'a> {
     const KIND: Kind = Kind::TwoDirectionsSampling;
     /// Static shear is shaken out over many periods: the table of `periods` in the guide has the errors.
-    const PERIODS: usize = 3;
+    const PERIODS: usize = 6;
 
     fn max_rows(size: Size) -> usize {
         8 * size.samples + 256
@@ -79,13 +80,12 @@ impl<'a> Layout<'a> for Workspace<'a> {
 
     fn take(size: Size, parts: &mut Parts<'a>) -> Result<Workspace<'a>, Error> {
         // One column for each coefficient of the motion, in whole blocks.
-        let (columns, sums) = (COLUMNS * size.coefficients().div_ceil(COLUMNS / 3), 2 * size.coefficients());
+        let (columns, sums) = (COLUMNS * size.coefficients().div_ceil(BLOCK), 2 * size.coefficients());
         Ok(Workspace {
             size,
             basis: parts.take(size.coefficients() * size.samples)?,
             samples: parts.take(SAMPLE * size.samples)?.as_chunks_mut().0,
-            tables: parts.take(3 * N * ROWS)?.as_chunks_mut::<N>().0.as_chunks_mut().0,
-            derivatives: parts.take(SPRINGS * columns)?,
+            changes: parts.take(CHANGES * columns)?,
             forces: parts.take(2 * columns)?,
             sums: parts.take(sums * columns)?,
         })
@@ -160,8 +160,8 @@ impl<'a> Workspace<'a> {
 /// approach \[m\] or the normal force \[N\].
 ///
 /// The force has 3 (2H + 1) coefficients \[N\], Tx, Ty, N. The Jacobian has (3 (2H + 1))² entries, column by column: their derivatives
-/// with respect to the coefficients of the motion. The drift is the largest difference of the tangential force between the period that
-/// counts and the one before, over μ times the largest normal force; 0 if the contact opens. The energy is the [`work`] of Tx and Ty.
+/// with respect to the coefficients of the motion. The energy is the work of the tangential forces in the period. The drift estimates the
+/// largest difference of the tangential force from the steady state, over μ times the largest normal force; 0 if the contact opens.
 /// Errors: `BadArraySize` if a length does not agree with the workspace; `BadDisplacement` if a coefficient is not finite or
 /// exceeds 1e150; `BadNormalForce` if a sample of the normal force is negative by more than rounding; `LengthTooShort` if the
 /// contact would become too wide for its length.
@@ -191,167 +191,171 @@ fn first_of_largest_load(workspace: &Workspace) -> (usize, f64) {
 struct Walk<'a> {
     element: &'a Element,
     units: Units,
-    tables: DualRows<'a>,
+    nodes: &'a Nodes,
     at: [f64; 3],
-    /// The contact, its derivatives by the parameters, and its normal force.
-    contact: Contact<f64>,
-    derived: Option<Contact<Dual<1>>>,
+    /// The contact at the start and at the end of a step.
+    from: Contact,
+    contact: Contact,
     normal: Normal,
-    springs: Values,
-    slip: Slips,
-    inverse: Both<Matrix>,
-    /// Derivatives of the springs after a step by the parameters.
-    by_parameters: [[f64; 4]; SPRINGS],
-    /// The derivative of the logarithm of the reference size by the largest normal component.
-    by_top: f64,
+    springs: Displacements,
+    step: Step,
+    /// Derivatives of the contact, and of the one before, by the normal component and by the reference size, if they are known.
+    slopes: [Option<[ContactSlopes; 2]>; 2],
+    terms: Terms<4>,
 }
 
-/// What a step gives besides the state.
-struct Taken {
+/// What a step gives besides the springs.
+struct Advanced {
     force: Both<f64>,
-    /// Springs at the start, the motion, and whether the contact was closed.
-    old: Values,
-    motion: Motion<f64, f64>,
+    unbounded: Both<f64>,
+    motion: Motion,
     path: Path,
-    /// The derivatives of S at the start by the normal component.
-    before: Both<f64>,
     closed: [bool; 2],
 }
 
 impl<'a> Walk<'a> {
     /// Pressed by a normal component.
-    fn new(element: &'a Element, units: Units, tables: DualRows<'a>, top: f64) -> Walk<'a> {
+    fn new(element: &'a Element, units: Units, nodes: &'a Nodes, top: f64) -> Walk<'a> {
         let mut walk = Walk {
             element,
             units,
-            tables,
+            nodes,
             at: [0.0, 0.0, top],
+            from: Contact::default(),
             contact: Contact::default(),
-            derived: None,
             normal: Normal::OPEN,
-            springs: [[0.0; N]; SPRINGS / N],
-            slip: Slips::default(),
-            inverse: [[[0.0; N]; N]; 2],
-            by_parameters: [[0.0; 4]; SPRINGS],
-            by_top: 0.0,
+            springs: Displacements::default(),
+            step: Step::default(),
+            slopes: [None; 2],
+            terms: Terms::ZERO,
         };
         walk.press(top);
-        walk.by_top = if walk.normal.load >= walk.units.load * 0.99 { 0.5 * walk.contact.slopes.size } else { 0.0 };
         walk
     }
 
     /// Advances to a sample.
-    fn advance(&mut self, to: [f64; 3], derivatives: bool) -> Taken {
-        let (was_closed, closes) = (self.contact.now.load > 0.0, self.element.is_closed(to[2]));
-        let closed = [was_closed, closes];
-        let same = was_closed && to[2].to_bits() == self.at[2].to_bits();
+    fn advance(&mut self, to: [f64; 3], derivatives: bool) -> Advanced {
+        let closed = [self.contact.now.load > 0.0, self.element.is_closed(to[2])];
+        let same = closed[0] && to[2].to_bits() == self.at[2].to_bits();
         let path = Path::new(self.element, &self.units, [self.at, to], closed);
-        let (from, old) = (self.contact, self.springs);
-        let (before, constant_load) = (from.slopes.shift, same || !closes);
-        let motion = Motion { before: from.now.shift, by: path.by, constant_load };
+        self.from = self.contact;
+        let motion = Motion { before: self.from.now.shift, by: path.by, constant_load: same };
         self.at = to;
-        if !closes {
-            self.open();
-            return Taken { force: [0.0; 2], old, motion, path, before, closed };
+        let (mut force, mut unbounded) = ([0.0; 2], [0.0; 2]);
+        if closed[1] {
+            if !same {
+                self.press(to[2]);
+            }
+            let contacts = [&self.from, &self.contact];
+            unbounded = self.step.advance(self.nodes, contacts, &motion, &mut self.springs, derivatives);
+            force = bounded(unbounded, self.contact.now.load);
+        } else {
+            (self.contact, self.springs, self.normal) = (Contact::default(), Displacements::default(), Normal::OPEN);
+            self.slopes = [None; 2];
         }
-        if !same {
-            self.press(to[2]);
-        }
-        self.slip.trial = trial(self.tables.values, &self.contact, &motion, &old);
-        self.slip.find(self.tables.values, &self.contact, &self.inverse, &motion, &old, derivatives);
-        let contacts = [&from, &self.contact];
-        let (force, _) = advance(self.tables.values, contacts, &motion, &self.slip, false, &mut self.springs);
-        let force = bounded(force, self.contact.now.load);
-        Taken { force, old, motion, path, before, closed }
+        Advanced { force, unbounded, motion, path, closed }
     }
 
     /// The contact under a normal component that closes it.
     fn press(&mut self, input: f64) {
+        self.slopes = [self.slopes[1], None];
         self.normal = self.element.normal(input);
-        let now = Pressed::new(self.element, &self.units, input, &self.normal);
-        let under_flat = under_flat(self.element, &self.units);
-        self.contact = Contact::press(self.tables.values, &now, under_flat, &mut self.inverse);
-        self.derived = None;
+        self.contact = Contact::new(self.nodes, &Pressed::new(self.element, &self.units, input, &self.normal));
     }
 
-    /// Derivatives of the springs and the forces after a step between samples; those of forces are summed if the step counts.
-    fn differentiate(
-        &mut self,
-        workspace: &mut Workspace,
-        taken: &Taken,
-        samples: [Option<usize>; 3],
-        [fades, counts]: [bool; 2],
-    ) {
-        if taken.closed != [true, true] {
-            workspace.derivatives.fill(0.0);
-        } else if fades {
-            fade(workspace.derivatives);
-        }
-        if taken.closed[1] {
-            differentiate(workspace, self, taken, samples);
-        } else {
-            workspace.forces.fill(0.0);
-        }
-        if counts && let [_, Some(index), _] = samples {
-            let basis = row(workspace.basis, workspace.size.coefficients(), index);
-            accumulate(workspace.sums, basis, workspace.forces);
-        }
-    }
-
-    fn open(&mut self) {
-        (self.contact, self.springs, self.normal) = (Contact::default(), [[0.0; N]; SPRINGS / N], Normal::OPEN);
+    /// The change of the force from other springs, over its bound.
+    fn change(&self, from: &Displacements) -> f64 {
+        let change = both(|k| {
+            let differences = (self.springs.v[k] - from.v[k]).map(f64::abs);
+            dot(&self.step.springs.stiffness[k], &differences)
+        });
+        change[0].hypot(change[1]) / self.contact.now.load.max(f64::MIN_POSITIVE)
     }
 }
 
-/// Derivatives of the parameters of a contact by the coefficients of the normal component.
-type Parameters = [[f64; 4]; PARAMETERS];
-
-/// Columns, and what follows from the derivatives by the parameters of the contact.
-#[inline(always)]
-fn with_parameters(mut columns: Columns, slopes: &[f64; 4], parameters: &Parameters) -> Columns {
-    for p in 0..PARAMETERS {
-        columns.0[0] = plus(columns.0[0], slopes[p], parameters[p]);
-    }
-    columns
-}
-
-/// Columns of the springs in the workspace, beside the derivatives after a step by the parameters.
-struct SpringColumns<'a> {
-    columns: &'a mut [[[f64; 4]; COLUMNS / 4]; SPRINGS],
-    slopes: &'a [[f64; 4]; SPRINGS],
-    parameters: &'a Parameters,
-}
-
-impl Springs<Columns> for SpringColumns<'_> {
-    #[inline(always)]
-    fn get(&self, place: usize) -> Columns {
-        self.columns.get(place).map_or(Dual::constant(0.0), |columns| Dual(*columns))
-    }
-
-    #[inline(always)]
-    fn put(&mut self, place: usize, x: Columns) {
-        if let (Some(there), Some(slopes)) = (self.columns.get_mut(place), self.slopes.get(place)) {
-            *there = with_parameters(x, slopes, self.parameters).0;
+/// Changes of the springs and the forces after a step between samples, those by the largest normal component times `by_top`.
+fn differentiate(
+    workspace: &mut Workspace,
+    walk: &mut Walk,
+    advanced: &Advanced,
+    (nodes, by_top): (&Nodes, f64),
+    samples: [Option<usize>; 3],
+) {
+    let n = workspace.coefficients();
+    let [start, end, top] = samples.map(|index| index.map_or(&[][..], |index| row(workspace.basis, n, index)));
+    let at = |basis: &[f64], c: usize| basis.get(c).copied().unwrap_or(0.0);
+    let (per_scale, own_nodes) = (1.0 / walk.element.input_scale(), walk.nodes);
+    let Advanced { motion, path, unbounded, .. } = advanced;
+    let Walk { from, contact, step, springs, slopes: [first, second], terms, .. } = walk;
+    let derive = |contact: &Contact| {
+        [ContactSlopes::by_load(own_nodes, contact), ContactSlopes::by_reference(own_nodes, nodes, contact)]
+    };
+    let by_end = &*second.get_or_insert_with(|| derive(contact));
+    let by_start = if motion.constant_load { by_end } else { &*first.get_or_insert_with(|| derive(from)) };
+    terms.add(END, contact, (step, motion.constant_load), [None, Some(&by_end[0])], None);
+    terms.add(START, contact, (step, motion.constant_load), [Some(&by_start[0]), None], None);
+    terms.add(REFERENCE, contact, (step, motion.constant_load), [Some(&by_start[1]), Some(&by_end[1])], Some(nodes));
+    let (contact, step, terms) = (&*contact, &*step, &*terms);
+    let values = (step, &*springs);
+    let (by_parameters, force) = dispatch!({
+        let (by, mut changes) = ([Lanes::ZERO; 2], SpringChanges::<4>::ZERO);
+        let force = propagate(contact, own_nodes, (motion, &by), values, &mut changes, Some(terms));
+        (changes, tangent::bounded(*unbounded, contact.now.load, force, Some(terms.load)))
+    });
+    let (forces_x, forces_y) = workspace.forces.split_at_mut(workspace.forces.len() / 2);
+    let blocks = workspace.changes.as_chunks_mut::<COLUMNS>().0.as_chunks_mut::<CHANGES>().0;
+    let [forces_x, forces_y] = [forces_x, forces_y].map(|forces| forces.as_chunks_mut::<COLUMNS>().0);
+    for (block, (columns, (to_x, to_y))) in blocks.iter_mut().zip(forces_x.iter_mut().zip(forces_y)).enumerate() {
+        let (mut by, mut parameters) = ([Columns::ZERO; 2], [[0.0; BLOCK]; 3]);
+        for lane in 0..BLOCK.min(n - BLOCK * block) {
+            let c = BLOCK * block + lane;
+            for k in 0..2 {
+                let [per_start, per_end] = path.per_input[k];
+                by[k][lane] = per_start * (per_scale * at(start, c)) + per_end * (per_scale * at(end, c));
+                by[k][BLOCK * (k + 1) + lane] = path.per_distance * (at(end, c) - at(start, c));
+            }
+            // The load at the start of the first step is that of the largest one.
+            let [from, to, top] = [start, end, top].map(|basis| per_scale * at(basis, c));
+            parameters[START][lane] = if start.is_empty() { top } else { from };
+            (parameters[END][lane], parameters[REFERENCE][lane]) = (to, by_top * top);
         }
+        dispatch!({
+            let with_parameters = |columns: Columns, slopes: &Lanes<4>| {
+                let mut columns = columns.0;
+                for p in 0..3 {
+                    let [block, ..] = columns.as_chunks_mut::<BLOCK>().0 else { return Lanes(columns) };
+                    *block = plus(*block, slopes[p], parameters[p]);
+                }
+                Lanes(columns)
+            };
+            let mut changes = SpringChanges::ZERO;
+            for k in 0..2 {
+                for j in 0..N {
+                    changes.v[k][j] = Lanes(columns[k * N + j]);
+                }
+                changes.edge[k] = Lanes(columns[2 * N + k]);
+            }
+            let forces = propagate(contact, own_nodes, (motion, &by), values, &mut changes, None);
+            let forces = tangent::bounded(*unbounded, contact.now.load, forces, None);
+            for k in 0..2 {
+                for j in 0..N {
+                    columns[k * N + j] = with_parameters(changes.v[k][j], &by_parameters.v[k][j]).0;
+                }
+                columns[2 * N + k] = with_parameters(changes.edge[k], &by_parameters.edge[k]).0;
+            }
+            *to_x = with_parameters(forces[0], &force[0]).0;
+            *to_y = with_parameters(forces[1], &force[1]).0;
+        });
     }
 }
 
-/// Derivatives below are 0, after this number of steps: memory that fades would end in subnormal numbers, which are slow.
-const LEAST_SLOPE: f64 = 1e-200;
+/// Changes below are 0, after this number of steps: memory that fades would end in subnormal numbers, which are slow.
+const LEAST_CHANGE: f64 = 1e-200;
 const FADING: usize = 8;
 
-fn fade(derivatives: &mut [f64]) {
-    for x in derivatives {
-        *x = if x.abs() > LEAST_SLOPE { *x } else { 0.0 };
-    }
-}
-
-/// Tables of a slightly smaller reference size, and derivatives by its logarithm in place of the tables of a larger one.
-fn derive_tables(element: &Element, units: &Units, [slopes, smaller]: [&mut Rows; 2]) {
-    fill(slopes, element, units, 1.0 + NEIGHBOUR);
-    fill(smaller, element, units, 1.0 - NEIGHBOUR);
-    for (larger, smaller) in slopes.as_flattened_mut().iter_mut().zip(smaller.as_flattened()) {
-        *larger = (*larger - smaller) * (0.5 / NEIGHBOUR);
+fn fade(changes: &mut [f64]) {
+    for x in changes {
+        *x = if x.abs() > LEAST_CHANGE { *x } else { 0.0 };
     }
 }
 
@@ -366,8 +370,9 @@ fn without_friction(element: &Element, samples: &mut [[f64; SAMPLE]]) {
 /// The periods of a motion that was synthesised. Not inlined: its frame is not that of a call with one direction.
 #[inline(never)]
 fn walk(element: &Element, workspace: &mut Workspace, displacement: &[f64], output: HarmonicOutput) {
-    let Size { samples: count, periods, .. } = workspace.size;
+    let Size { samples: count, harmonics, periods } = workspace.size;
     let HarmonicOutput { force, jacobian, dissipated, drift } = output;
+    let derivatives = jacobian.is_some();
     let (largest, top) = first_of_largest_load(workspace);
     let slides = element.friction_coefficient > 0.0 && element.is_closed(top);
     let top_load = if slides { element.normal(top).load } else { element.normal_force };
@@ -376,37 +381,60 @@ fn walk(element: &Element, workspace: &mut Workspace, displacement: &[f64], outp
     // A contact that opens forgets: whatever was before, the second period is the steady state.
     let opens = workspace.samples.iter().any(|sample| !element.is_closed(sample[2]));
     let periods = if opens { 1 } else { periods };
-    let mut largest_change = 0.0f64;
-    let memory = core::mem::take(&mut workspace.tables);
-    if slides && let [tables, slopes, smaller] = &mut *memory {
-        fill(tables, element, &units, 1.0);
-        if jacobian.is_some() {
-            derive_tables(element, &units, [slopes, smaller]);
-            workspace.derivatives.fill(0.0);
+    let stride = count.checked_div(TRANSIENT * harmonics).unwrap_or(1).max(1);
+    let mut left = 0.0;
+    let mut nodes = [[[0.0; N]; ROWS]; 3];
+    if slides {
+        fill(&mut nodes[0], element, &units, 1.0);
+        if derivatives {
+            fill(&mut nodes[1], element, &units, 1.0 + NEIGHBOUR);
+            fill(&mut nodes[2], element, &units, 1.0 - NEIGHBOUR);
+            workspace.changes.fill(0.0);
             workspace.sums.fill(0.0);
         }
-        let mut walk = Walk::new(element, units, DualRows { values: tables, slopes: (1.0, slopes) }, top);
+        let mut walk = Walk::new(element, units, &nodes[0], top);
+        let slopes = slopes_of_nodes([&nodes[1], &nodes[2]]);
+        let by_top = if walk.normal.load >= units.load * 0.99 { 0.5 * walk.contact.slopes.size } else { 0.0 };
         let mut before = None;
+        let (mut start, mut changes) = (walk.springs, [0.0; 2]);
         for step in 0..=(periods + 1) * count {
-            let index = (largest + step).checked_rem(count).unwrap_or(0);
             let counts = step > periods * count;
-            let taken = walk.advance(workspace.place(index), jacobian.is_some());
-            if jacobian.is_some() {
-                let fades = step % FADING == 0;
-                walk.differentiate(workspace, &taken, [before, Some(index), Some(largest)], [fades, counts]);
+            if step < (periods - 1) * count && !step.is_multiple_of(stride) {
+                continue;
+            }
+            let index = (largest + step).checked_rem(count).unwrap_or(0);
+            let advanced = walk.advance(workspace.place(index), derivatives);
+            if derivatives {
+                if advanced.closed != [true, true] {
+                    workspace.changes.fill(0.0);
+                } else if step % FADING == 0 {
+                    fade(workspace.changes);
+                }
+                if advanced.closed[1] {
+                    let samples = [before, Some(index), Some(largest)];
+                    differentiate(workspace, &mut walk, &advanced, (&slopes, by_top), samples);
+                } else {
+                    workspace.forces.fill(0.0);
+                }
+                if counts {
+                    let basis = row(workspace.basis, workspace.size.coefficients(), index);
+                    accumulate(workspace.sums, basis, workspace.forces);
+                }
             }
             before = Some(index);
             if let Some(sample) = workspace.samples.get_mut(index) {
-                let [x, y] = taken.force.map(|force| unit * force);
-                let change = (x - sample[5]).powi(2) + (y - sample[6]).powi(2);
-                largest_change = if counts { largest_change.max(change) } else { 0.0 };
+                let [x, y] = advanced.force.map(|force| unit * force);
                 [sample[3], sample[4], sample[5], sample[6]] = [walk.normal.load, walk.normal.load_slope, x, y];
             }
+            if count > 0 && step > 0 && step.is_multiple_of(count) {
+                changes = [changes[1], walk.change(&start)];
+                start = walk.springs;
+            }
         }
+        left = remaining(changes);
     } else {
         without_friction(element, workspace.samples);
     }
-    workspace.tables = memory;
     if let Some(jacobian) = jacobian {
         write_jacobian(workspace, slides.then_some(unit), jacobian);
     }
@@ -420,13 +448,19 @@ fn walk(element: &Element, workspace: &mut Workspace, displacement: &[f64], outp
     }
     workspace.sums = sums;
     if let Some(drift) = drift {
-        let slip_force = (element.friction_coefficient * top_load).max(f64::MIN_POSITIVE);
-        *drift = if slides && !opens { largest_change.sqrt() / slip_force } else { 0.0 };
+        *drift = if slides && !opens { left } else { 0.0 };
     }
 }
 
+/// What a sequence of changes leaves, of which these are the last two: that of a geometric one.
+fn remaining([before, last]: [f64; 2]) -> f64 {
+    let ratio = (last / before.max(f64::MIN_POSITIVE)).min(0.95);
+    last * (ratio / (1.0 - ratio)).max(1.0)
+}
+
 fn write_force(workspace: &Workspace, force: &mut [f64]) {
-    let (n, per_sample) = (workspace.coefficients(), 1.0 / workspace.size.samples as f64);
+    let n = workspace.coefficients();
+    let per_sample = 1.0 / workspace.size.samples as f64;
     force.fill(0.0);
     for (sample, basis) in workspace.samples.iter().zip(workspace.basis.chunks_exact(n)) {
         let [_, _, _, load, _, x, y, _] = *sample;
@@ -484,59 +518,4 @@ fn accumulate(sums: &mut [f64], basis: &[f64], forces: &[f64]) {
             }
         }
     });
-}
-
-/// Derivatives of the springs and of the tangential forces at the end of a step between samples.
-fn differentiate(workspace: &mut Workspace, walk: &mut Walk, taken: &Taken, samples: [Option<usize>; 3]) {
-    let n = workspace.coefficients();
-    let [start, end, top] = samples.map(|index| index.map_or(&[][..], |index| row(workspace.basis, n, index)));
-    let at = |basis: &[f64], c: usize| basis.get(c).copied().unwrap_or(0.0);
-    let per_scale = 1.0 / walk.element.input_scale();
-    let Taken { motion, path, before, old, .. } = taken;
-    let derived = walk.derived.get_or_insert_with(|| walk.contact.derived(&walk.tables, true));
-    let mut dual = Motion {
-        before: motion.before.map(Dual::constant),
-        by: motion.by.map(Dual::constant),
-        constant_load: motion.constant_load,
-    };
-    dual.before.iter_mut().zip(*before).for_each(|(shift, slope)| shift.0[0][START] = slope);
-    let slopes = &mut walk.by_parameters;
-    let force = derivatives(
-        &walk.tables,
-        (derived, &walk.inverse),
-        &dual,
-        &walk.slip,
-        &mut Derivatives { values: old, slopes },
-    );
-    // What the bound makes of derivatives of the force.
-    let [x, y] = force.map(|force| force.value());
-    let within =
-        bounded([Dual([[1.0, 0.0, 0.0, x]]), Dual([[0.0, 1.0, 0.0, y]])], Dual::constant(walk.contact.now.load));
-    let force = bounded(force, derived.now.load);
-    let (forces_x, forces_y) = workspace.forces.split_at_mut(workspace.forces.len() / 2);
-    let blocks = workspace.derivatives.as_chunks_mut::<4>().0.as_chunks_mut::<{ COLUMNS / 4 }>().0;
-    let memories = blocks.as_chunks_mut::<SPRINGS>().0.iter_mut();
-    let [forces_x, forces_y] = [forces_x, forces_y].map(|forces| forces.as_chunks_mut::<4>().0.as_chunks_mut().0);
-    for (block, (columns, (to_x, to_y))) in memories.zip(forces_x.iter_mut().zip(forces_y)).enumerate() {
-        let (mut by, mut parameters) = ([Columns::constant(0.0); 2], [[0.0; 4]; PARAMETERS]);
-        for lane in 0..4.min(n - 4 * block) {
-            let (from, to) = (at(start, 4 * block + lane), at(end, 4 * block + lane));
-            for k in 0..2 {
-                by[k].0[0][lane] = path.per_input[k][0] * (per_scale * from) + path.per_input[k][1] * (per_scale * to);
-                by[k].0[1 + k][lane] = path.per_distance * (to - from);
-            }
-            // The load at the start of the first step is that of the largest one.
-            let [from, to, top] = [from, to, at(top, 4 * block + lane)].map(|input| per_scale * input);
-            parameters[START][lane] = if start.is_empty() { top } else { from };
-            (parameters[END][lane], parameters[ALIGNMENT][lane]) = (to, walk.by_top * top);
-        }
-        let motion = Motion { before: motion.before, by, constant_load: motion.constant_load };
-        let mut springs = SpringColumns { columns, slopes, parameters: &parameters };
-        let (rows, contact, slip) = (walk.tables.values, (&walk.contact, &walk.inverse), &walk.slip);
-        let [x, y] = dispatch!(step(&rows, contact, &motion, slip, &mut springs));
-        for (k, to) in [to_x, to_y].into_iter().enumerate() {
-            let [by_x, by_y, ..] = within[k].0[0];
-            *to = with_parameters(x.scale(by_x) + y.scale(by_y), &force[k].0[0], &parameters).0;
-        }
-    }
 }

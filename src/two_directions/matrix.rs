@@ -1,49 +1,15 @@
 //! Products and inverses of the matrices of a step, in vectors of the processor.
 
-use super::tables::{Matrix, N, Row};
-use crate::shape::TINY;
+use super::nodes::{Matrix, N, Row};
+use crate::numerics::guard::TINY;
+use crate::numerics::lanes::Lanes;
 
-/// The largest size, in an order of vectors.
+/// Σ x_m matrix[m], of the rows from one to another.
 #[inline(always)]
-pub(super) fn largest(x: &Row<f64>) -> f64 {
-    let mut sizes = [0.0; 4];
-    for b in 0..N / 4 {
-        for lane in 0..4 {
-            let size = x[4 * b + lane].abs();
-            sizes[lane] = if size > sizes[lane] { size } else { sizes[lane] };
-        }
-    }
-    let [a, b, c, d] = sizes;
-    let (a, b) = (if a > c { a } else { c }, if b > d { b } else { d });
-    if a > b { a } else { b }
-}
-
-/// Σ x_i y_i, in an order of vectors.
-#[inline(always)]
-pub(super) fn dot(x: &Row<f64>, y: &Row<f64>) -> f64 {
-    let mut sums = [0.0; 4];
-    for b in 0..N / 4 {
-        for lane in 0..4 {
-            sums[lane] += x[4 * b + lane] * y[4 * b + lane];
-        }
-    }
-    (sums[0] + sums[1]) + (sums[2] + sums[3])
-}
-
-/// Σ x_m matrix[m][i] of several matrices: rows of points that stick are 0.
-#[inline(always)]
-pub(super) fn times<const K: usize>(
-    matrices: [&Matrix; K],
-    [first, end]: [usize; 2],
-    x: &[Row<f64>; K],
-) -> [Row<f64>; K] {
-    let mut y = [[0.0; N]; K];
-    for m in first..end {
-        for k in 0..K {
-            for i in 0..N {
-                y[k][i] += x[k][m] * matrices[k][m][i];
-            }
-        }
+pub(super) fn times(matrix: &Matrix, [first, end]: [usize; 2], x: &Row) -> Row {
+    let mut y = Row::ZERO;
+    for m in first..end.min(N) {
+        y += x[m] * matrix[m];
     }
     y
 }
@@ -52,9 +18,9 @@ pub(super) fn times<const K: usize>(
 /// another. Single elements are chosen by their place in the lanes: a vector that is loaded right after one of its elements was stored
 /// would wait for it.
 #[inline(always)]
-pub(super) fn invert(matrix: &mut Matrix, diagonal: &Row<f64>, [first, end]: [usize; 2]) {
+pub(super) fn invert(matrix: &mut Matrix, diagonal: &Row, [first, end]: [usize; 2]) {
     for h in 0..N / 2 {
-        let (p, q, mut keep) = (2 * h, 2 * h + 1, [0.0; N]);
+        let (p, q, mut keep) = (2 * h, 2 * h + 1, Lanes([1.0; N]));
         if q < first || p >= end {
             continue;
         }
@@ -71,11 +37,7 @@ pub(super) fn invert(matrix: &mut Matrix, diagonal: &Row<f64>, [first, end]: [us
         }
         for i in 2 * (first / 2)..end.min(N) {
             let (x, y) = (matrix[i][p], matrix[i][q]);
-            let mut row = matrix[i];
-            for j in 0..N {
-                row[j] = row[j] * keep[j] - x * upper[j] - y * lower[j];
-            }
-            matrix[i] = row;
+            matrix[i] = matrix[i] * keep - x * upper - y * lower;
         }
         (matrix[p], matrix[q]) = (upper, lower);
     }

@@ -1,6 +1,6 @@
 //! The part of a step in contact, in the units of the springs.
 
-use super::tables::{Both, Units};
+use super::nodes::{Both, Units};
 use crate::element::Element;
 
 /// A motion over more than this many slip displacements is shortened to it: the force does not depend on the rest, and the energy is

@@ -1,557 +1,349 @@
-//! A step of a closed contact.
+//! A step of a contact that is closed at its end.
 //!
-//! The springs stick at first; a load that rises engages new ones, which follow the part of the motion from there on. If |r| then exceeds 1
-//! at a point, the points slip: `slip` finds which and how, and the springs, of values. Derivatives are those of one more step of Newton's
-//! method from there: by what the contact depends on in dual numbers, by what the motion and the springs depend on as a linear function. The
-//! end of the step is written once for values and derivatives: the fine springs, with limits of their own, and the force.
+//! The springs first stick: they follow the displacement δ, those that a rising load engages in the step the part `(S_b - S_j)/ΔS_b` of it.
+//! Slip is found twice, so that it has the direction of the middle of the step and not of its end:
+//!
+//! 1. in the middle, `v_m` from `(v_0 + v*)/2`, with the shells of the middle;
+//! 2. at the end, `v_1` from `2 v_m - v_0`, where the tractions exceed their bound to second order only.
+//!
+//! On a straight path that is exact. A displacement of several times the innermost limit erases the memory: the springs end in gross slip in
+//! its direction, `v_j = (S_b - S_j) δ/|δ|`.
+//!
+//! The edge spring is one more spring from a size just inside the edge on, on its own: it makes the stuck stiffness that of the contact.
 
-use super::contact::{Contact, Pressed};
-use super::scalar::{Dual, Linear, Over, Real, both};
-use super::slip::{SLIPPED, Slip, Slips};
-use super::tables::{Both, DualRows, FINE, INSIDE, Matrix, N, Row, Rows, SHIFT, Tables, starts};
-use super::trial::{
-    Derivatives, FINE_SPRING, LEAST, Motion, ROUNDING, Springs, Values, leave, limits_before, moved, returned, slid,
-    some_leave,
-};
-use crate::shape::TINY;
+use super::nodes::{Both, FLAT_EDGE, N, Nodes, Row, SHIFT, both};
+use super::shells::{Pressed, Shells, Springs};
+use super::slip::{Slip, dot, lanes_of, within};
+use crate::numerics::guard::{TINY, root};
+use crate::numerics::lanes::Lanes;
 use crate::simd::dispatch;
 
-/// The derivatives of a step whose slip is known, by parameters of the contact and by what the motion depends on: of the force, which is not
-/// yet bounded, and of the springs.
-#[inline(never)]
-pub(crate) fn derivatives(
-    t: &DualRows,
-    contact: (&Contact<Dual<1>>, &Both<Matrix>),
-    motion: &Motion<Dual<1>, Dual<1>>,
-    slip: &Slips,
-    springs: &mut Derivatives,
-) -> Both<Dual<1>> {
-    dispatch!(step(t, contact, motion, slip, springs))
+/// A contact under a load: its normal state, with derivatives by the normal component over its scale, and its shells.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Contact {
+    pub now: Pressed,
+    pub slopes: Pressed,
+    pub shells: Shells,
 }
 
-/// A step whose slip is known, in numbers with derivatives, of a contact with its C⁻¹: the force, which is not yet bounded.
-#[inline(always)]
-pub(crate) fn step<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
-    t: &T,
-    (c, inverse): (&Contact<A>, &Both<Matrix>),
-    motion: &Motion<A, X>,
-    slip: &Slips,
-    s: &mut S,
-) -> Both<X> {
-    let (zero, start, end) = (X::constant(0.0), starts(c.under_flat), (c.last + 1).min(N));
-    let rise = both!(|k| c.now.shift[k] - motion.before[k]);
-    let mut v = [[zero; N]; 2];
-    for k in 0..2 {
-        for j in 0..end {
-            v[k][j] = s.get(k * N + j) + moved(c.limit(t, k, start[j]), rise[k], motion.by[k]);
-        }
+impl Contact {
+    pub fn new(nodes: &Nodes, [now, slopes]: &[Pressed; 2]) -> Contact {
+        Contact { now: *now, slopes: *slopes, shells: Shells::new(nodes, now) }
     }
-    let mut old = None;
-    if some_leave(t, c, motion.before[0]) {
-        let (mut springs, mut leaves) = ([[zero; N]; 2], slip.trial.leaves);
-        for k in 0..2 {
-            for j in 0..end {
-                springs[k][j] = s.get(k * N + j);
-            }
-        }
-        leave(t, c, motion, [&mut springs, &mut v], &mut leaves);
-        old = Some(springs);
-    }
-    let far = slip.slides > 0.0;
-    let slides = if far { slid(t, c, &v, &slip.trial.v) } else { zero };
-    let part = 0.5 * (1.0 + slip.slides);
-    let theta = slides.chain(part, 0.5);
-    for stage in 0..2 {
-        let (middle, now) = if stage == 0 { (true, &slip.middle) } else { (false, &slip.end) };
-        if now.set == 0 {
-            continue;
-        }
-        let first = (now.set.trailing_zeros() as usize).min(end);
-        let mut level = None;
-        if A::DERIVED || far {
-            level = Some([X::constant(1.0); N]);
-        }
-        if middle {
-            if let Some(level) = &mut level {
-                let before = limits_before(t, c, rise[0]);
-                for i in first..end {
-                    level[i] = level[i].times(before[i]) + theta.times(A::constant(1.0) - before[i]);
-                }
-            }
-            in_part(
-                &mut v,
-                [&slip.trial.v, &slip.trial.old],
-                (old.as_ref(), s),
-                (far.then_some(theta), part),
-                [first, end],
-            );
-        }
-        slide(t, c, inverse, level.as_ref(), &mut v, now);
-        if middle {
-            let per = 1.0 / part;
-            let part = (far.then_some(theta.chain(per, -per * per)), per);
-            in_part(&mut v, [&now.v, &slip.trial.old], (old.as_ref(), s), part, [first, end]);
-        }
-    }
-    finish(t, c, motion, slip, slides, &mut v, s)
-}
 
-/// Springs, with these values and those at the start, after a part of their motion, which is a constant if only its value is given.
-#[inline(always)]
-fn in_part<A: Real, X: Over<A>, S: Springs<X>>(
-    v: &mut Both<Row<X>>,
-    [values, old_values]: [&Both<Row<f64>>; 2],
-    (old, s): (Option<&Both<Row<X>>>, &S),
-    (part, value): (Option<X>, f64),
-    [first, end]: [usize; 2],
-) {
-    for k in 0..2 {
-        for j in first..end.min(N) {
-            let old = if let Some(old) = old { old[k][j] } else { s.get(k * N + j) };
-            let by = v[k][j] - old;
-            v[k][j] = old
-                + match part {
-                    Some(part) => by.product(part, [values[k][j] - old_values[k][j], value]),
-                    None => by.scale(value),
-                };
-        }
-    }
-}
-
-/// The end of a step, from its springs: those of a contact that slides far are blended, the fine springs advance; the force.
-#[inline(always)]
-fn finish<A: Real, X: Over<A>, T: Tables<A>, S: Springs<X>>(
-    t: &T,
-    c: &Contact<A>,
-    motion: &Motion<A, X>,
-    slip: &Slips,
-    part: X,
-    v: &mut Both<Row<X>>,
-    s: &mut S,
-) -> Both<X> {
-    let (zero, start, end) = (X::constant(0.0), starts(c.under_flat), (c.last + 1).min(N));
-    let rise = both!(|k| c.now.shift[k] - motion.before[k]);
-    let mut force = [zero; 2];
-    let far = if slip.slides > 0.0 { Some(Far::new(t, c, part, v, slip)) } else { None };
-    for k in 0..2 {
-        for j in 0..end {
-            if let Some(far) = &far {
-                v[k][j] = far.blend(k, v[k][j], slip.v[k][j], c.limit(t, k, start[j]));
-            }
-            force[k].add_product(&v[k][j], c.stiffness(t, k, j));
-        }
-        for j in 0..N {
-            s.put(k * N + j, v[k][j]);
-        }
-    }
-    let (part, end) = (c.part.min(INSIDE - 1), c.part.min(INSIDE - 1) + 1);
-    for f in 0..end {
-        let w = both!(|k| c.fine(t, k, f));
-        let limit = both!(|k| c.limit(t, k, f));
-        let mut v = both!(|k| s.get(FINE_SPRING + k * FINE + f) + moved(limit[k], rise[k], motion.by[k]));
-        v = returned_far(v, &limit, slip.fine.at(f), far.as_ref());
-        for k in 0..2 {
-            force[k].add_product(&v[k], w[k]);
-            s.put(FINE_SPRING + k * FINE + f, v[k]);
-        }
-    }
-    // The spring at the edge is another one under another load.
-    let limit = both!(|k| c.limit_inside(k));
-    let mut v = both!(|k| moved(limit[k], rise[k], motion.by[k]));
-    if motion.constant_load {
-        v = both!(|k| v[k] + s.get(FINE_SPRING + k * FINE + INSIDE));
-    }
-    v = returned_far(v, &limit, slip.fine.at(INSIDE), far.as_ref());
-    for k in 0..2 {
-        force[k].add_product(&v[k], c.fine_inside(k));
-        s.put(FINE_SPRING + k * FINE + INSIDE, v[k]);
-        for f in part + 1..INSIDE {
-            s.put(FINE_SPRING + k * FINE + f, zero);
-        }
-    }
-    force
-}
-
-/// A force within Coulomb's bound: its derivatives are those of the bound if it is beyond by more than rounding.
-#[inline(always)]
-pub(crate) fn bounded<X: Real>(force: Both<X>, bound: X) -> Both<X> {
-    let square = force[0] * force[0] + force[1] * force[1];
-    let largest = if X::DERIVED { ROUNDING } else { 1.0 } * bound.value() * bound.value();
-    if square.value() > largest {
-        let scale = square.at_least(TINY).sqrt().inverse() * bound;
-        return both!(|k| force[k] * scale);
-    }
-    force
-}
-
-/// Gross slip in the direction of the force, `v = (S_b - S) e`, into which springs of a contact that slides far are blended.
-pub(crate) struct Far<X> {
-    rest: (X, f64),
-    slides: Both<X>,
-}
-
-impl<X: Linear> Far<X> {
+    /// The limits S_b - S_j of the springs, 0 beyond the edge.
     #[inline(always)]
-    fn new<A: Real>(t: &impl Tables<A>, c: &Contact<A>, part: X, v: &Both<Row<X>>, slip: &Slips) -> Far<X>
-    where
-        X: Over<A>,
-    {
-        let (mut force, mut values) = ([X::constant(0.0); 2], [0.0; 2]);
-        for k in 0..2 {
-            for j in 0..(c.last + 1).min(N) {
-                let stiffness = c.stiffness(t, k, j);
-                force[k].add_product(&v[k][j], stiffness);
-                values[k] += slip.v[k][j] * stiffness.value();
-            }
-        }
-        let square = values[0] * values[0] + values[1] * values[1];
-        let per = 1.0 / if square > TINY { square } else { TINY }.sqrt();
-        let along = force[0].scale(values[0] * per) + force[1].scale(values[1] * per);
-        let per_length = part.product(along.chain(per, -per * per), [slip.slides, per]);
-        Far {
-            rest: (X::constant(1.0) - part, 1.0 - slip.slides),
-            slides: both!(|k| force[k].product(per_length, [values[k], slip.slides * per])),
-        }
+    pub fn limits(&self, nodes: &Nodes, k: usize) -> Row {
+        self.used() * (self.now.shift[k] - Lanes(nodes[SHIFT + k]))
     }
 
-    /// A spring with this value.
+    /// The limit of the spring at the edge.
     #[inline(always)]
-    fn blend<A: Real>(&self, k: usize, v: X, value: f64, limit: A) -> X
-    where
-        X: Over<A>,
-    {
-        v.product(self.rest.0, [value, self.rest.1]) + self.slides[k].times(limit)
+    pub fn edge_limit(&self, k: usize) -> f64 {
+        self.now.shift[k] - self.now.inside_shift[k]
+    }
+
+    /// 1 for the springs in use, 0 for others.
+    #[inline(always)]
+    pub fn used(&self) -> Row {
+        lanes_of(within([self.shells.first, self.shells.last + 1]))
     }
 }
 
-/// A fine spring, returned to its limit if it slips, and blended if the contact slides far.
-#[inline(always)]
-fn returned_far<A: Real, X: Over<A>>(
-    v: Both<X>,
-    limit: &Both<A>,
-    direction: [f64; 3],
-    far: Option<&Far<X>>,
-) -> Both<X> {
-    let v = returned(v, limit, direction);
-    let Some(far) = far else { return v };
-    let ([x, y], [e_x, e_y, per_length]) = (both!(|k| limit[k].value()), direction);
-    let length = if per_length > 0.0 { x * y } else { -1.0 / per_length };
-    let values = [e_x * length / y, e_y * length / x];
-    both!(|k| far.blend(k, v[k], values[k], limit[k]))
+/// The springs: displacements, and those of the spring at the edge.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct Displacements {
+    pub v: Both<Row>,
+    pub edge: Both<f64>,
 }
 
-/// Springs that slip to the limits of their points, if these have derivatives: by a step of Newton's method from the slip, with C⁻¹.
-#[inline(always)]
-fn slide<A: Real, X: Over<A>, T: Tables<A>>(
-    t: &T,
-    c: &Contact<A>,
-    inverse: &Both<Matrix>,
-    level: Option<&Row<X>>,
-    v: &mut Both<Row<X>>,
-    slip: &Slip,
-) {
-    let (zero, end) = (X::constant(0.0), (c.last + 1).min(N));
-    let first = (slip.set.trailing_zeros() as usize).min(end);
-    if !slip.without_gaps(end) {
-        slide_with_gaps(t, c, level, v, slip, [first, end]);
-        return;
-    }
-    let mut own = None;
-    if let Some(level) = level {
-        own = Some(springs_at_limits(t, c, inverse, level, slip, [first, end]));
-    }
-    // The forces of what slips.
-    for k in 0..2 {
-        for j in first..end {
-            let mut by = v[k][j];
-            if let Some((springs, _)) = &own {
-                by = by - springs[k][j];
-            }
-            v[k][j] = by.times(c.stiffness(t, k, j));
-            if let Some((_, relaxed)) = &own {
-                v[k][j] = v[k][j].minus(relaxed[k][j]);
-            }
-        }
-    }
-    let mut residual = [zero; N];
-    for i in first..end {
-        let mut sum = [zero; 2];
-        for j in first..(i + 1).min(N) {
-            for k in 0..2 {
-                sum[k].add_scaled(&v[k][j], inverse[k][j][i]);
-            }
-        }
-        residual[i] = sum[1].scale(slip.e[0][i]) - sum[0].scale(slip.e[1][i]);
-    }
-    let turn = product(&slip.inverse, [first, end], &residual);
-    for j in first..end {
-        let mut sum = if let Some((springs, _)) = &own { both!(|k| springs[k][j]) } else { [zero; 2] };
-        for i in j..end {
-            sum[0].add_scaled(&turn[i], -slip.e[1][i] * inverse[0][j][i]);
-            sum[1].add_scaled(&turn[i], slip.e[0][i] * inverse[1][j][i]);
-        }
-        (v[0][j], v[1][j]) = (sum[0], sum[1]);
-    }
+/// A step, straight in S and in the displacement: S at the start, the displacement, and whether the load is that of the start.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Motion {
+    pub before: Both<f64>,
+    pub by: Both<f64>,
+    pub constant_load: bool,
 }
 
-/// The springs whose tractions are the limits, and the forces `C'σ` of the slip: derivatives of what is known.
-#[inline(always)]
-fn springs_at_limits<A: Real, X: Over<A>, T: Tables<A>>(
-    t: &T,
-    c: &Contact<A>,
-    inverse: &Both<Matrix>,
-    level: &Row<X>,
-    slip: &Slip,
-    [first, end]: [usize; 2],
-) -> (Both<Row<X>>, Both<Row<A>>) {
-    let (zero, end) = (A::constant(0.0), end.min(N));
-    let (mut springs, mut relaxed, mut before) = ([*level; 2], [[zero; N]; 2], [zero; 2]);
-    let (mut tractions, mut slips) = ([[zero; N]; 2], [[zero; N]; 2]);
-    for i in first..end {
+/// Limits and rises below this, in the unit of the springs, are rounding; fourth powers of a motion over it stay finite.
+pub(crate) const LEAST: f64 = 1e-40;
+
+/// Displacements over the innermost limit between which a step erases the memory.
+const FAR: [f64; 2] = [2.5, 5.0];
+
+/// How far a step slides: the displacement δ, and that part of the innermost spring which a falling load cuts off, over the innermost limit.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Far {
+    /// The part of the springs that ends in gross slip, 0 to 1, and its derivative by the distance.
+    pub part: f64,
+    pub slope: f64,
+    /// The part of the innermost spring that is cut off.
+    pub cut: Both<f64>,
+    /// The distance over the limits, in both directions and its length; its direction, and 1 over its length \[in the unit of S\].
+    pub ratio: Both<f64>,
+    pub distance: f64,
+    pub e: Both<f64>,
+    pub per_length: f64,
+}
+
+impl Far {
+    #[inline(always)]
+    fn new(to: &Contact, motion: &Motion, old: &Displacements) -> Far {
+        let (mut by, mut cut, mut ratio) = (motion.by, [0.0; 2], [0.0; 2]);
         for k in 0..2 {
-            slips[k][i] = c.per_pressure[i].scale(slip.sigma[k][i]);
+            let limit = to.now.shift[k].max(LEAST);
+            cut[k] = (1.0 - limit / motion.before[k].max(limit)) * f64::from(u8::from(!motion.constant_load));
+            by[k] += cut[k] * old.v[k][to.shells.first.min(FLAT_EDGE)];
+            ratio[k] = by[k] / limit;
         }
+        let distance = (ratio[0] * ratio[0] + ratio[1] * ratio[1]).sqrt();
+        let per_length = 1.0 / (by[0] * by[0] + by[1] * by[1]).max(TINY).sqrt();
+        let x = ((distance - FAR[0]) / (FAR[1] - FAR[0])).clamp(0.0, 1.0);
+        let slope = 6.0 * x * (1.0 - x) / (FAR[1] - FAR[0]);
+        let e = by.map(|by| by * per_length);
+        Far { part: x * x * (3.0 - 2.0 * x), slope, cut, ratio, distance, e, per_length }
     }
-    for j in first..end {
-        let fall = both!(|k| slip.v[k][j] - if j + 1 < end { slip.v[k][j + 1] } else { 0.0 });
-        let mut sum = [zero; 2];
-        for i in first..(j + 1).min(N) {
-            for k in 0..2 {
-                let map = c.map(t, k, j, i);
-                tractions[k][i].add_scaled(&map, fall[k]);
-                sum[k] = sum[k] + slips[k][i] * map;
+}
+
+/// The limit of a spring at the start over that at the end, from which on the spring is released in the step.
+const LARGEST_FALL: f64 = 4.0;
+
+/// A spring whose limit falls to a small part, and vanishes if the edge passes its node: it slips for the most part on its own, before the
+/// others. So much less does its trial state exceed its limit: not at all if the spring is gone at the end.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Released {
+    /// The trial state over the limit, and its length.
+    pub ratio: Both<f64>,
+    pub length: f64,
+    /// The part of the excess that is left, and the factor of the trial state, 1 if nothing changes.
+    pub part: f64,
+    pub scale: f64,
+}
+
+impl Released {
+    #[inline(always)]
+    pub fn new(limit: Both<f64>, fall: f64, trial: Both<f64>) -> Released {
+        let ratio = both(|k| trial[k] / limit[k].max(LEAST));
+        let length = (ratio[0] * ratio[0] + ratio[1] * ratio[1]).sqrt();
+        let part = (LARGEST_FALL * limit[0] / (limit[0] + fall).max(LEAST)).min(1.0);
+        let scale = if length > 1.0 { (1.0 + part * (length - 1.0)) / length.max(1.0) } else { 1.0 };
+        Released { ratio, length, part, scale }
+    }
+}
+
+/// A step while it is computed, and what its derivatives and its energy need.
+#[derive(Default)]
+pub(crate) struct Step {
+    /// The springs at the start and in the trial state, and the parts of the displacement that they follow.
+    pub old: Displacements,
+    pub trial: Both<Row>,
+    pub parts: Both<Row>,
+    /// The springs of the contact at the end, and of that in the middle if the load changes.
+    pub springs: Springs,
+    pub between: Springs,
+    pub middle: Slip,
+    pub end: Slip,
+    pub far: Far,
+    pub edge: EdgeSpring,
+}
+
+/// The spring at the edge: the parts of the displacement and of its old one that it follows and keeps, its trial displacement over its limit,
+/// the length of this, and whether it slips.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct EdgeSpring {
+    pub part: Both<f64>,
+    pub kept: Both<f64>,
+    /// Its limit at the start.
+    pub before: Both<f64>,
+    pub ratio: Both<f64>,
+    pub length: f64,
+    pub slips: bool,
+}
+
+impl Step {
+    /// Advances springs; the force, which is not yet bounded.
+    #[inline(never)]
+    pub fn advance(
+        &mut self,
+        nodes: &Nodes,
+        [from, to]: [&Contact; 2],
+        motion: &Motion,
+        springs: &mut Displacements,
+        derivatives: bool,
+    ) -> Both<f64> {
+        dispatch!({
+            if !motion.constant_load || self.springs.shells.last != to.shells.last {
+                self.springs.set(&to.shells);
             }
-        }
-        (relaxed[0][j], relaxed[1][j]) = (sum[0] - before[0], sum[1] - before[1]);
-        before = sum;
+            self.old = *springs;
+            self.far = Far::new(to, motion, springs);
+            self.stick(nodes, to, motion);
+            if self.far.part < 1.0 {
+                self.slip([from, to], motion, derivatives);
+            } else {
+                (self.middle.points.set, self.end.points.set) = (0, 0);
+            }
+            let (mut force, rest) = ([0.0; 2], 1.0 - self.far.part);
+            self.move_edge([from, to], motion, springs);
+            for k in 0..2 {
+                springs.v[k] = self.end.points.v[k];
+                if self.far.part > 0.0 {
+                    let gross_slip = self.far.part * self.far.e[k] * to.limits(nodes, k);
+                    springs.v[k] = rest * self.end.points.v[k] + gross_slip;
+                }
+                force[k] = dot(&self.springs.stiffness[k], &springs.v[k]) + to.shells.edge[k] * springs.edge[k];
+            }
+            force
+        })
     }
-    for i in first..end {
+
+    /// The trial state, in which nothing slips.
+    #[inline(always)]
+    fn stick(&mut self, nodes: &Nodes, to: &Contact, motion: &Motion) {
+        let limits = both(|k| to.limits(nodes, k));
         for k in 0..2 {
-            springs[k][i] = level[i].scale(slip.e[k][i]).minus(tractions[k][i] * c.per_pressure[i]);
+            self.parts[k] = Lanes([1.0; N]);
+            let rise = to.now.shift[k] - motion.before[k];
+            if !motion.constant_load && rise > 0.0 {
+                let parts = limits[k] * (1.0 / rise.max(LEAST));
+                self.parts[k] = parts.map(|part| part.min(1.0));
+            }
+            self.trial[k] = to.used() * (self.old.v[k] + self.parts[k] * motion.by[k]);
         }
-    }
-    for j in first..end {
-        let mut sum = both!(|k| X::constant(slip.v[k][j]));
-        for i in j..end {
+        let fall = motion.before[0] - to.now.shift[0];
+        if motion.constant_load || fall <= (LARGEST_FALL - 1.0) * limits[0][to.shells.last.min(N - 1)] {
+            return;
+        }
+        for j in to.shells.range() {
+            let kept = Released::new([limits[0][j], limits[1][j]], fall, [self.trial[0][j], self.trial[1][j]]);
             for k in 0..2 {
-                sum[k].add_scaled(&springs[k][i], inverse[k][j][i]);
+                self.trial[k][j] *= kept.scale;
             }
         }
-        (springs[0][j], springs[1][j]) = (sum[0], sum[1]);
     }
-    (springs, relaxed)
-}
 
-/// The same if a point sticks outside one that slips: `σ = K (r* - l e)`.
-#[inline(never)]
-fn slide_with_gaps<A: Real, X: Over<A>, T: Tables<A>>(
-    t: &T,
-    c: &Contact<A>,
-    level: Option<&Row<X>>,
-    v: &mut Both<Row<X>>,
-    slip: &Slip,
-    [first, end]: [usize; 2],
-) {
-    let (zero, end) = (X::constant(0.0), end.min(N));
-    let (first, mut slips, mut residual) = (first.min(end), [[zero; N]; 2], [zero; N]);
-    for k in 0..2 {
-        let (mut sigma, mut excess) = ([zero; N], [zero; N]);
-        for i in first..end {
-            sigma[i] = X::constant(if slip.contains(i) { slip.sigma[k][i] } else { 0.0 });
+    /// Slip in the middle and at the end.
+    #[inline(always)]
+    fn slip(&mut self, [from, to]: [&Contact; 2], motion: &Motion, derivatives: bool) {
+        let half = both(|k| 0.5 * (self.old.v[k] + self.trial[k]));
+        if motion.constant_load {
+            self.middle.find(&self.springs, &half, to.now.load, derivatives);
+        } else {
+            self.between.set(&Shells::middle(&from.shells, &to.shells));
+            self.middle.find(&self.between, &half, f64::NAN, derivatives);
         }
-        relax(t, c, k, &sigma, &mut v[k], [first, end]);
-        for i in first..end {
-            if slip.contains(i) {
-                let mut sum = zero;
-                for j in i..end {
-                    let above = if j + 1 < end { v[k][j + 1] } else { zero };
-                    sum.add_product(&(v[k][j] - above), c.map(t, k, j, i));
-                }
-                excess[i] = sum.times(c.per_pressure[i]);
-                if let Some(level) = level {
-                    excess[i].add_scaled(&level[i], -slip.e[k][i]);
-                }
-            }
-        }
-        slips[k] = product(&slip.k[k], [first, end], &excess);
+        let used = to.used();
+        let beyond = both(|k| used * (2.0 * self.middle.points.v[k] - self.old.v[k]));
+        self.end.find(&self.springs, &beyond, to.now.load, derivatives);
     }
-    for i in first..end {
-        residual[i] = slips[1][i].scale(slip.e[0][i]) - slips[0][i].scale(slip.e[1][i]);
-    }
-    let turn = product(&slip.inverse, [first, end], &residual);
-    for k in 0..2 {
-        let (across, sign) = if k == 0 { (&slip.e[1], 1.0) } else { (&slip.e[0], -1.0) };
-        let mut change = [zero; N];
-        for i in first..end {
-            if slip.contains(i) {
-                change[i] = turn[i].scale(sign * across[i]);
-            }
+
+    /// The spring at the edge is another one under another load: a rising load keeps that part of it which is still at the edge.
+    #[inline(always)]
+    fn move_edge(&mut self, [from, to]: [&Contact; 2], motion: &Motion, springs: &mut Displacements) {
+        let limit = [to.edge_limit(0).max(LEAST), to.edge_limit(1).max(LEAST)];
+        for k in 0..2 {
+            let rise = to.now.shift[k] - motion.before[k];
+            self.edge.part[k] = limit[k] / rise.max(limit[k]);
+            self.edge.before[k] = from.edge_limit(k).max(LEAST);
+            self.edge.kept[k] = ((limit[k] - rise) / self.edge.before[k]).clamp(0.0, 1.0);
+            let old = self.edge.kept[k] * self.old.edge[k];
+            self.edge.ratio[k] = (old + self.edge.part[k] * motion.by[k]) / limit[k];
         }
-        let mut sigma = product(&slip.k[k], [first, end], &change);
-        for i in first..end {
-            sigma[i] = sigma[i] + slips[k][i];
+        let [x, y] = self.edge.ratio;
+        self.edge.length = (x * x + y * y).sqrt();
+        self.edge.slips = self.edge.length > ROUNDING;
+        let scale = (1.0 - self.far.part) / if self.edge.slips { self.edge.length } else { 1.0 };
+        for k in 0..2 {
+            springs.edge[k] = limit[k] * (scale * self.edge.ratio[k] + self.far.part * self.far.e[k]);
         }
-        relax(t, c, k, &sigma, &mut v[k], [first, end]);
     }
 }
 
-/// Takes what slip relaxes from the springs: `w⁻¹ C'σ`.
+/// The largest length of a state over its limit that sticks: one that has slipped may round.
+pub(crate) const ROUNDING: f64 = 1.0 + 1e-12;
+
+/// A force within Coulomb's bound.
 #[inline(always)]
-fn relax<A: Real, X: Over<A>, T: Tables<A>>(
-    t: &T,
-    c: &Contact<A>,
-    k: usize,
-    sigma: &Row<X>,
-    v: &mut Row<X>,
-    [first, end]: [usize; 2],
-) {
-    let mut before = X::constant(0.0);
-    for j in first..end.min(N) {
-        let mut sum = X::constant(0.0);
-        for i in first..(j + 1).min(N) {
-            sum.add_product(&sigma[i].times(c.per_pressure[i]), c.map(t, k, j, i));
-        }
-        v[j] = v[j] - (sum - before).times(c.flexibility(t, k, j));
-        before = sum;
-    }
-}
-
-/// Σ x_m matrix[m][i]: rows of points that stick are 0.
-#[inline(always)]
-fn product<X: Linear>(matrix: &Matrix, [first, end]: [usize; 2], x: &Row<X>) -> Row<X> {
-    let mut y = [X::constant(0.0); N];
-    for i in first..end {
-        let mut sum = X::constant(0.0);
-        for m in first..end {
-            sum.add_scaled(&x[m], matrix[m][i]);
-        }
-        y[i] = sum;
-    }
-    y
-}
-
-/// A step of values whose slip is known, in the units of the springs: force, not yet bounded, and dissipated energy if requested.
-pub(crate) fn advance(
-    t: &Rows,
-    [from, c]: [&Contact<f64>; 2],
-    motion: &Motion<f64, f64>,
-    slip: &Slips,
-    energy: bool,
-    springs: &mut Values,
-) -> (Both<f64>, f64) {
-    dispatch!({
-        let (old, mut v) = (if energy { Some(*springs) } else { None }, slip.v);
-        let force = finish(&t, c, motion, slip, slip.slides, &mut v, &mut &mut *springs);
-        let dissipated =
-            if let Some(old) = &old { dissipated(t, [from, c], motion, slip, [old, springs]) } else { 0.0 };
-        (force, dissipated)
-    })
+pub(crate) fn bounded(force: Both<f64>, bound: f64) -> Both<f64> {
+    let length = (force[0] * force[0] + force[1] * force[1]).sqrt();
+    let scale = if length > bound { bound / length.max(TINY) } else { 1.0 };
+    force.map(|force| force * scale)
 }
 
 /// Energy that the springs dissipate in a step, each from where its path leaves its limit.
-#[inline(always)]
-fn dissipated(
-    t: &Rows,
-    [from, c]: [&Contact<f64>; 2],
-    motion: &Motion<f64, f64>,
-    slip: &Slips,
-    [old, new]: [&Values; 2],
+///
+/// The slip of a spring acts against the mean of two displacements, `k (v_c + v)·(v* - v)/2`. v_c is the first point of the straight path from
+/// v_0 to v* with |v| = m l: the limit moves evenly from its value at the start to that at the end, and m = |v|/l at the end of the step, less
+/// than 1 if neighbours turn the tractions. A spring that slips far slips in the direction of its end from the beginning.
+#[inline(never)]
+pub(crate) fn dissipated(
+    nodes: &Nodes,
+    [from, to]: [&Contact; 2],
+    motion: &Motion,
+    step: &Step,
+    new: &Displacements,
 ) -> f64 {
-    let rise = both!(|k| c.now.shift[k] - motion.before[k]);
-    let mut energy = if rise[0] < 0.0 { separated(t, from, &c.now, motion.by, old) } else { 0.0 };
-    let start = starts(c.under_flat);
-    if !slip.is_empty() {
-        for j in 0..(c.last + 1).min(N) {
-            let w = both!(|k| c.stiffness(&t, k, j));
-            let places = [[old[0][j], old[1][j]], [new[0][j], new[1][j]]];
-            energy += slipped(t, c, start[j], w, places, motion, slip.slides);
+    let mut energy =
+        if to.now.shift[0] < from.now.shift[0] { separated(nodes, from, &to.now, motion.by, &step.old) } else { 0.0 };
+    if step.middle.points.set != 0 || step.end.points.set != 0 || step.far.part > 0.0 {
+        let limits = both(|k| to.limits(nodes, k));
+        let follow = both(|k| step.old.v[k] + step.parts[k] * motion.by[k]);
+        for j in to.shells.range() {
+            let per_limit = both(|k| 1.0 / limits[k][j].max(LEAST));
+            let ratio = (motion.before[0] - nodes[SHIFT][j]).max(0.0) * per_limit[0];
+            let old = both(|k| step.old.v[k][j] * per_limit[k]);
+            let trial = both(|k| follow[k][j] * per_limit[k]);
+            let end = both(|k| new.v[k][j] * per_limit[k]);
+            let (by, fall) = ([trial[0] - old[0], trial[1] - old[1]], ratio - 1.0);
+            let m = end[0] * end[0] + end[1] * end[1];
+            // |v|² = m² l² along the path: a quadratic equation.
+            let part = first_exceedance(
+                by[0] * by[0] + by[1] * by[1] - m * fall * fall,
+                old[0] * by[0] + old[1] * by[1] + m * ratio * fall,
+                old[0] * old[0] + old[1] * old[1] - m * ratio * ratio,
+            );
+            for k in 0..2 {
+                let v = new.v[k][j];
+                let leaves = step.old.v[k][j] + part * (follow[k][j] - step.old.v[k][j]);
+                let leaves = leaves + step.far.part * ((ratio - fall * part) * v - leaves);
+                energy += 0.5 * step.springs.stiffness[k][j] * (leaves + v) * (follow[k][j] - v);
+            }
         }
     }
-    let at = |springs: &Values, f: usize| {
-        both!(|k| springs.as_flattened().get(FINE_SPRING + k * FINE + f).copied().unwrap_or(0.0))
-    };
-    for f in 0..=c.part.min(INSIDE - 1) {
-        let [x, y] = both!(|k| at(new, f)[k] / c.limit(&t, k, f));
-        if slip.slides > 0.0 || x * x + y * y > SLIPPED {
-            let w = both!(|k| c.fine(&t, k, f));
-            energy += slipped(t, c, f, w, [at(old, f), at(new, f)], motion, slip.slides);
-        }
-    }
-    if energy > 0.0 { energy } else { 0.0 }
-}
-
-/// Energy of a spring of stiffness w: it follows its trial path until it is as far from 0, over its limit, as at its end, and slips from there:
-/// neighbours that turn keep it within its limit, which changes evenly on the way. A spring that slides far does so in its last direction.
-#[inline(always)]
-fn slipped(
-    t: &Rows,
-    c: &Contact<f64>,
-    f: usize,
-    w: Both<f64>,
-    [old, new]: [Both<f64>; 2],
-    motion: &Motion<f64, f64>,
-    slides: f64,
-) -> f64 {
-    let limit = both!(|k| c.limit(&t, k, f));
-    let per_limit = both!(|k| 1.0 / if limit[k] > LEAST { limit[k] } else { LEAST });
-    let trial = both!(|k| old[k] + moved(limit[k], c.now.shift[k] - motion.before[k], motion.by[k]));
-    let before = motion.before[0] - Tables::<f64>::at(&t, SHIFT, f);
-    let ratio: f64 = if before > 0.0 { before * per_limit[0] } else { 0.0 };
-    let (x, y) = (old[0] * per_limit[0], old[1] * per_limit[1]);
-    let (t_x, t_y) = (trial[0] * per_limit[0], trial[1] * per_limit[1]);
-    let (dx, dy, change) = (t_x - x, t_y - y, ratio - 1.0);
-    let (end_x, end_y) = (new[0] * per_limit[0], new[1] * per_limit[1]);
-    let end = end_x * end_x + end_y * end_y;
-    let (qa, qb) = (dx * dx + dy * dy - end * change * change, x * dx + y * dy + end * ratio * change);
-    let part = exit(qa, qb, x * x + y * y - end * ratio * ratio);
-    let limit_there = slides * (ratio - change * part);
-    let of = |k: usize| {
-        let leaves = (1.0 - slides) * (old[k] + part * (trial[k] - old[k])) + limit_there * new[k];
-        w[k] * (leaves + new[k]) * (trial[k] - new[k])
-    };
-    0.5 * (of(0) + of(1))
+    energy.max(0.0)
 }
 
 /// Energy of springs that lose contact in a step to a lower load: each slips from where it reaches its limit, which falls to 0 within the
 /// part `limit/fall` of the motion, to nothing.
-pub(crate) fn separated(t: &Rows, from: &Contact<f64>, now: &Pressed<f64>, by: Both<f64>, old: &Values) -> f64 {
-    let (start, mut energy) = (starts(from.under_flat), 0.0);
-    let fall = both!(|k| from.now.shift[k] - now.shift[k]);
-    let mut lost = |f: usize, w: Both<f64>, old: Both<f64>| {
-        if now.load > 0.0 && Tables::<f64>::at(&t, SHIFT, f) < now.shift[0] {
-            return;
+pub(crate) fn separated(nodes: &Nodes, from: &Contact, now: &Pressed, by: Both<f64>, old: &Displacements) -> f64 {
+    let mut energy = 0.0;
+    let fall = both(|k| from.now.shift[k] - now.shift[k]);
+    let limits = both(|k| from.limits(nodes, k));
+    let stiffness = both(|k| from.shells.stiffness(k, &(1.0 / from.shells.shift[k].max(TINY))));
+    for j in from.shells.range() {
+        if now.load > 0.0 && nodes[SHIFT][j] < now.shift[0] {
+            continue;
         }
-        let limit = both!(|k| from.limit(&t, k, f).max(LEAST));
-        let rate = both!(|k| limit[k] / fall[k].max(limit[k]) * by[k]);
-        let (x, y, dx, dy) = (old[0] / limit[0], old[1] / limit[1], rate[0] / limit[0], rate[1] / limit[1]);
-        let part = exit(dx * dx + dy * dy - 1.0, x * dx + y * dy + 1.0, x * x + y * y - 1.0);
+        let limit = both(|k| limits[k][j].max(LEAST));
+        let rate = both(|k| limit[k] / fall[k].max(limit[k]) * by[k]);
+        let v = both(|k| old.v[k][j]);
+        let (x, y, dx, dy) = (v[0] / limit[0], v[1] / limit[1], rate[0] / limit[0], rate[1] / limit[1]);
+        let part = first_exceedance(dx * dx + dy * dy - 1.0, x * dx + y * dy + 1.0, x * x + y * y - 1.0);
         for k in 0..2 {
-            let leaves = old[k] + part * rate[k];
-            energy += 0.5 * w[k] * leaves * ((1.0 - part) * rate[k] + leaves);
+            let leaves = v[k] + part * rate[k];
+            energy += 0.5 * stiffness[k][j] * leaves * ((1.0 - part) * rate[k] + leaves);
         }
-    };
-    for j in 0..(from.last + 1).min(N) {
-        lost(start[j], both!(|k| from.stiffness(&t, k, j)), [old[0][j], old[1][j]]);
     }
-    let fine = |k: usize, f: usize| old.as_flattened().get(FINE_SPRING + k * FINE + f).copied().unwrap_or(0.0);
-    for f in 0..=from.part.min(INSIDE - 1) {
-        lost(f, both!(|k| from.fine(&t, k, f)), both!(|k| fine(k, f)));
-    }
-    if energy > 0.0 { energy } else { 0.0 }
+    energy.max(0.0)
 }
 
-/// The first t in [0, 1] at which `qa t² + 2 qb t + qc` becomes positive.
+/// The first x in [0, 1] at which `a x² + 2 b x + c` becomes positive; 1 if there is none.
 #[inline(always)]
-fn exit(qa: f64, qb: f64, qc: f64) -> f64 {
-    let square = qb * qb - qa * qc;
-    let root = if square > 0.0 { square } else { 0.0 }.sqrt();
+fn first_exceedance(a: f64, b: f64, c: f64) -> f64 {
+    let root = root(b * b - a * c);
     // Quotients are at most 1 by their divisors: others may overflow.
-    let ratio = |numerator: f64, divisor: f64| {
-        let positive = if numerator > TINY { numerator } else { TINY };
-        positive / if divisor > positive { divisor } else { positive }
-    };
-    let outwards = if qc < 0.0 { ratio(-qc, qb + root) } else { 0.0 };
-    let inwards = if qa > 0.0 { ratio(root - qb, qa) } else { 1.0 };
-    let part = if qb >= 0.0 { outwards } else { inwards };
-    if part > 0.0 { part } else { 0.0 }
+    let fraction = |x: f64, divisor: f64| x.max(TINY) / divisor.max(x.max(TINY));
+    let outwards = if c < 0.0 { fraction(-c, b + root) } else { 0.0 };
+    let inwards = if a > 0.0 { fraction(root - b, a) } else { 1.0 };
+    (if b >= 0.0 { outwards } else { inwards }).max(0.0)
 }

@@ -39,7 +39,7 @@ pub fn table(name: &str) -> Vec<Row> {
     let text: &'static str = tables!(name,
         "abaqus_mindlin" "complex_stiffness" "contacts" "elliptic" "energy" "fem_oblique_impact" "harmonic_force" "histories"
         "kharaz2001_oblique_impact" "monotonic" "monotonic_inverse" "normal_law" "slip" "strip_3d" "strip_3d_contact" "tractions"
-        "two_directions" "two_directions_sphere" "vanpeteghem2011_energy" "varying_load");
+        "two_directions" "two_directions_reference" "two_directions_sphere" "vanpeteghem2011_energy" "varying_load");
     let mut lines = text.lines().filter(|line| !line.starts_with('#'));
     let names: Vec<&str> = lines.next().unwrap().split(',').map(str::trim).collect();
     let row = |line: &'static str| {

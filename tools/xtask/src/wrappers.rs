@@ -341,7 +341,7 @@ impl Procedure<'_> {
         };
         let first = format!("    !! `{}` {variant}.", self.function.name);
         match self.form {
-            Form::Advance => vec![first, "    !!".to_owned(), format!("    !! Since {}.", since(&self.function.name))],
+            Form::Advance => vec![first, "    !!".to_owned(), format!("    !! Since {}.", since(self.function.name))],
             _ => vec![first],
         }
     }

@@ -13,6 +13,7 @@ mod fretting;
 mod golden;
 mod histories;
 mod rebound;
+mod springs;
 mod strips;
 #[path = "../../paper/src/table.rs"]
 mod table;
@@ -199,12 +200,18 @@ fn table_of(comparisons: &[Comparison]) -> String {
 }
 
 fn main() -> ExitCode {
+    if std::env::args().skip(1).eq(["--reference".to_owned()]) {
+        springs::print_reference();
+        return ExitCode::SUCCESS;
+    }
     let Some(mut documents) = Documents::from_arguments() else {
-        eprintln!("usage: validation [--check]");
+        eprintln!("usage: validation [--check | --reference]");
         return ExitCode::from(2);
     };
     let comparisons: Vec<Comparison> = histories::all().into_iter().map(compare).collect();
     documents.results.extend(comparisons.iter().flat_map(Comparison::results));
+    let springs = springs::Comparison::new();
+    documents.results.extend(springs.results());
     let directions = two_directions::Comparison::new();
     documents.results.extend(directions.results());
     let (strips, strip_results) = strips::compare();
@@ -219,6 +226,7 @@ fn main() -> ExitCode {
     documents.results.extend(rebound.results());
     [directions.drawings()].iter().chain(&rebound.drawings()).for_each(|table| documents.data(table));
     let mut tables = Vec::from(directions.tables());
+    tables.push(("equations in two directions", springs.table()));
     let [measured, computed] = rebound.tables();
     tables.extend([("rebound", measured), ("rebound by finite elements", computed)]);
     tables.extend([("strips", strips), ("finite elements", finite_elements), ("fretting", fretting.table())]);

@@ -12,13 +12,13 @@ use microslip::one_direction::{self as state, Law, OneDirection};
 const ENOUGH: usize = 520;
 
 /// Doubles before the reversals of a state: tag with the number of reversals, displacement, slip direction, force, offset.
-const HEADER: usize = 5;
+const HEADER: usize = 6;
 /// Displacement, force and error.
 const PER_REVERSAL: usize = 3;
 
-/// The number of reversals or pieces is in the tag.
+/// The number of reversals or pieces.
 fn used(state: &[f64]) -> usize {
-    (state[0].to_bits() & 0xff_ffff_ffff) as usize
+    state[1] as usize
 }
 
 /// A constant load.
@@ -47,7 +47,7 @@ pub fn of_contact(case: &Case, sampler: &mut Sampler, _: &mut crate::Tally) {
         if i < 20 || i % 32 == 0 || i + 1 == path.len() {
             let reversals = one[HEADER..].as_chunks::<PER_REVERSAL>().0[..used(&one)].iter().map(|[u, _, _]| *u);
             let first = reversals.clone().next().unwrap_or(u);
-            let run_up = (one[2] != 0.0).then(|| first - one[2] * (4.0 * slip + first.abs()));
+            let run_up = (one[3] != 0.0).then(|| first - one[3] * (4.0 * slip + first.abs()));
             let mut again = call::state(ENOUGH);
             let mut last = [0.0; 3];
             for u in run_up.into_iter().chain(reversals).chain([u]) {

@@ -1,0 +1,275 @@
+//! The shells of a contact under a load, and the springs and maps that follow from them.
+//!
+//! Shell j has ΔN_j, ΔS_j in both directions and F_ij, its pressure at the points. Spring j carries the displacement v_j of the sizes from s_j
+//! on. With v of no spring beyond the edge,
+//!
+//! ```text
+//! T = Σ k_j v_j,   k_j = Z_j - Z_{j-1},   Z_j = ΔN_j/ΔS_j
+//! q_i = Σ_{j>=i} g_ij (v_j - v_{j+1}),   g_ij = F_ij/(p_i ΔS_j),   p_i = Σ_j F_ij
+//! ```
+//!
+//! q is the traction over the pressure: |q_i| <= 1 is Coulomb's law, in units of μ. All of this depends on sums over shells only, so the middle
+//! of a step is the contact whose shells are the means of those at both ends.
+
+use super::nodes::{
+    Both, FLAT_EDGE, LOAD, LOAD_STEP, Matrix, N, Nodes, PRESSURE, Row, SHIFT, SHIFT_STEP, Units, both, bounded,
+    first_shell, last_node, pressure, pressure_at_edge, pressure_at_edge_slope, pressure_slope,
+};
+use crate::element::{Element, Normal, SMALLEST_LOAD};
+use crate::numerics::guard::TINY;
+use crate::numerics::lanes::Lanes;
+use core::ops::Range;
+
+/// The normal state in the units of the springs: N, S of both directions, w²; N and S of a slightly smaller size, inside the edge.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Pressed {
+    pub load: f64,
+    pub shift: Both<f64>,
+    pub size: f64,
+    pub inside: f64,
+    pub inside_shift: Both<f64>,
+}
+
+/// The normal component over that of the size inside the edge: the spring between both makes the stuck stiffness exact, to about this part.
+const INSIDE_EDGE: f64 = 1.0 - 8e-6;
+/// Nodes closer to the size inside than this part of its S do not count as inside: their shell would be lost in rounding.
+const THINNEST: f64 = 1e-9;
+/// The least stiffness of a spring, relative to the secant: above the rounding errors of differences.
+const LEAST_STIFFNESS: f64 = 1e-12;
+
+impl Pressed {
+    /// The state of a contact that is closed, and its derivatives by the normal component over its scale.
+    pub fn new(element: &Element, units: &Units, input: f64, normal: &Normal) -> [Pressed; 2] {
+        // Products only: the compiler may divide by what is beside a number in its vector register.
+        let [per_load, per_shift, per_size] = [units.load, units.shift, units.size].map(f64::recip);
+        let [w, slope] = element.shape().size_under(normal.load.max(SMALLEST_LOAD * element.normal_force));
+        let (size, slope) = (w * per_size, slope * normal.load_slope * per_size * per_size);
+        let (inside, scale) = (element.normal(INSIDE_EDGE * input), element.input_scale());
+        let [y, y_inside] = [normal, &inside].map(|normal| element.lateral(normal));
+        let per = [per_load, per_shift, per_shift, 1.0, per_load, per_shift, per_shift];
+        let now = [normal.load, normal.shift, y[0], size * size, inside.load, inside.shift, y_inside[0]];
+        let inner = [inside.load_slope, inside.shift_slope, y_inside[1]].map(|slope| INSIDE_EDGE * slope);
+        let slopes = [normal.load_slope, normal.shift_slope, y[1], slope, inner[0], inner[1], inner[2]];
+        [now, slopes.map(|slope| scale * slope)].map(|values| Pressed::of(core::array::from_fn(|i| values[i] * per[i])))
+    }
+
+    /// From all its values, in order.
+    pub fn of([load, x, y, size, inside, inside_x, inside_y]: [f64; 7]) -> Pressed {
+        Pressed { load, shift: [x, y], size, inside, inside_shift: [inside_x, inside_y] }
+    }
+
+    pub fn values(&self) -> [f64; 7] {
+        let Pressed { load, shift: [x, y], size, inside, inside_shift: [inside_x, inside_y] } = *self;
+        [load, x, y, size, inside, inside_x, inside_y]
+    }
+}
+
+/// The shells of a contact, from one to the last one; those beyond are 0.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(align(32))]
+pub(crate) struct Shells {
+    pub first: usize,
+    pub last: usize,
+    /// ΔN_j and ΔS_j for both directions, and F_ij, a row for each shell.
+    pub load: Both<Row>,
+    pub shift: Both<Row>,
+    pub pressure: Matrix,
+    /// Stiffness of the spring at the edge, from the size inside on.
+    pub edge: Both<f64>,
+}
+
+impl Shells {
+    #[inline(always)]
+    pub fn new(nodes: &Nodes, now: &Pressed) -> Shells {
+        let last = last_node(nodes, now.inside_shift[0] * (1.0 - THINNEST)).min(N - 1);
+        let mut shells = Shells { first: first_shell(nodes), last, ..Shells::default() }.whole(nodes);
+        shells.set_last(nodes, now);
+        shells
+    }
+
+    /// Shells with these first and last ones, of which those before the last one are those of the nodes.
+    #[inline(always)]
+    pub fn whole(&self, nodes: &Nodes) -> Shells {
+        let mut shells = Shells { first: self.first, last: self.last.min(N - 1), ..Shells::default() };
+        for j in 0..shells.last {
+            shells.pressure[j] = Lanes(nodes[PRESSURE + j]);
+            for k in 0..2 {
+                shells.load[k][j] = nodes[LOAD_STEP][j];
+                shells.shift[k][j] = nodes[SHIFT_STEP + k][j];
+            }
+        }
+        shells
+    }
+
+    /// The last shell.
+    #[inline(always)]
+    fn set_last(&mut self, nodes: &Nodes, now: &Pressed) {
+        let last = self.last.min(N - 1);
+        let (before, mut steps) = (last.max(1) - 1, [0.0; 2]);
+        for k in 0..2 {
+            let (node, shift) = (nodes[SHIFT + k][last], now.shift[k] - nodes[SHIFT + k][last]);
+            // The polygon of N(S) has its last corner at the size inside.
+            let secant = (now.inside - nodes[LOAD][last]) / (now.inside_shift[k] - node).max(TINY);
+            let outer = (now.load - now.inside) / (now.shift[k] - now.inside_shift[k]).max(TINY);
+            (self.load[k][last], self.shift[k][last]) = (secant * shift, shift);
+            self.edge[k] = outer - secant;
+            steps[k] = shift / nodes[SHIFT_STEP + k][before].max(TINY);
+        }
+        for i in self.first..last {
+            let own = pressure(nodes, last, now.size, i);
+            let bound = bounded(own, nodes[PRESSURE + before][i], steps);
+            self.pressure[last][i] = if i <= before { bound } else { own };
+        }
+        self.pressure[last][last] = pressure_at_edge(nodes, last, now.size);
+    }
+
+    /// Derivatives of the last shell, from those of the normal state and of the nodes by one parameter.
+    #[inline(always)]
+    pub fn set_last_slopes(
+        &mut self,
+        nodes: &Nodes,
+        of: &Shells,
+        now: &Pressed,
+        by: &Pressed,
+        by_nodes: Option<&Nodes>,
+    ) {
+        let last = of.last.min(N - 1);
+        let slope = |row: usize, i: usize| by_nodes.map_or(0.0, |nodes| nodes[row][i]);
+        let (before, mut steps, mut by_steps) = (last.max(1) - 1, [0.0; 2], [0.0; 2]);
+        for k in 0..2 {
+            let inner = (now.inside_shift[k] - nodes[SHIFT + k][last]).max(TINY);
+            let (shift, secant) = (of.shift[k][last], (now.inside - nodes[LOAD][last]) / inner);
+            let by_shift = by.shift[k] - slope(SHIFT + k, last);
+            let by_inner = by.inside_shift[k] - slope(SHIFT + k, last);
+            let by_secant = (by.inside - slope(LOAD, last) - secant * by_inner) / inner;
+            let edge = (now.shift[k] - now.inside_shift[k]).max(TINY);
+            let by_edge = by.shift[k] - by.inside_shift[k];
+            self.load[k][last] = by_secant * shift + secant * by_shift;
+            self.shift[k][last] = by_shift;
+            self.edge[k] = (by.load - by.inside - (of.edge[k] + secant) * by_edge) / edge - by_secant;
+            let step = nodes[SHIFT_STEP + k][before].max(TINY);
+            steps[k] = shift / step;
+            by_steps[k] = (by_shift - steps[k] * slope(SHIFT_STEP + k, before)) / step;
+        }
+        let k = usize::from(steps[1] <= steps[0]);
+        for i in of.first..last {
+            let own = pressure(nodes, last, now.size, i);
+            let is_bound = i <= before && of.pressure[last][i] < own;
+            self.pressure[last][i] = if is_bound {
+                nodes[PRESSURE + before][i] * by_steps[k] + slope(PRESSURE + before, i) * steps[k]
+            } else {
+                pressure_slope(nodes, by_nodes, last, [now.size, by.size], i)
+            };
+        }
+        self.pressure[last][last] = pressure_at_edge_slope(nodes, by_nodes, last, [now.size, by.size]);
+    }
+
+    /// The contact in the middle of a step: the means of the shells at both ends.
+    #[inline(always)]
+    pub fn middle(from: &Shells, to: &Shells) -> Shells {
+        let mut middle = Shells { first: to.first, last: from.last.max(to.last), ..Shells::default() };
+        for j in 0..N {
+            middle.pressure[j] = 0.5 * (from.pressure[j] + to.pressure[j]);
+        }
+        for k in 0..2 {
+            middle.load[k] = 0.5 * (from.load[k] + to.load[k]);
+            middle.shift[k] = 0.5 * (from.shift[k] + to.shift[k]);
+        }
+        middle
+    }
+
+    /// The shells, and springs, from the first to the last one.
+    #[inline(always)]
+    pub fn range(&self) -> Range<usize> {
+        self.first.min(FLAT_EDGE)..(self.last + 1).min(N)
+    }
+
+    /// k_j in a direction, given 1/ΔS_j.
+    #[inline(always)]
+    pub fn stiffness(&self, k: usize, per_shift: &Row) -> Row {
+        let (secant, mut stiffness) = (self.load[k] * *per_shift, Row::ZERO);
+        let mut before = 0.0;
+        for j in self.range() {
+            let least = LEAST_STIFFNESS * secant[j];
+            // If all sizes have the same stiffness, the differences are rounding errors.
+            stiffness[j] = if secant[j] - before > least { secant[j] - before } else { least };
+            before = secant[j];
+        }
+        stiffness
+    }
+
+    /// p_i.
+    #[inline(always)]
+    pub fn pressures(&self) -> Row {
+        let mut sum = Row::ZERO;
+        for j in FLAT_EDGE..N {
+            sum += self.pressure[j];
+        }
+        sum
+    }
+}
+
+/// v_j - v_{j+1}: the springs beyond the edge are 0.
+#[inline(always)]
+pub(crate) fn falls(v: &Row) -> Row {
+    let mut falls = *v;
+    for j in 0..N - 1 {
+        falls[j] -= v[j + 1];
+    }
+    falls
+}
+
+/// The springs of a contact, and their maps from and to tractions.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(align(32))]
+pub(crate) struct Springs {
+    pub shells: Shells,
+    pub per_pressure: Row,
+    /// 1/ΔS_j and k_j.
+    pub per_shift: Both<Row>,
+    pub stiffness: Both<Row>,
+    /// C⁻¹, the inverse of the map from v to q, a row for each spring: no entry is negative.
+    pub inverse: Both<Matrix>,
+}
+
+impl Springs {
+    /// Sets the springs of shells.
+    #[inline(always)]
+    pub fn set(&mut self, shells: &Shells) {
+        let pressures = shells.pressures();
+        (self.shells, self.per_pressure) = (*shells, 1.0 / pressures.max(TINY));
+        for k in 0..2 {
+            let per_shift = 1.0 / shells.shift[k].max(TINY);
+            self.stiffness[k] = shells.stiffness(k, &per_shift);
+            self.per_shift[k] = per_shift;
+            let inverse = &mut self.inverse[k];
+            inverse.iter_mut().take(shells.range().start).for_each(|row| *row = Row::ZERO);
+            inverse.iter_mut().skip(shells.range().end).for_each(|row| *row = Row::ZERO);
+            for i in shells.range().rev().map(|i| i.min(N - 1)) {
+                // v_i = [p_i q_i + Σ_{j>i} (g_i,j-1 - g_ij) v_j]/g_ii, with p_i g_ij in place of g_ij.
+                let (mut row, mut before) = (Row::ZERO, shells.pressure[i][i] * per_shift[i]);
+                let per_map = 1.0 / before.max(TINY);
+                row[i] = pressures[i];
+                for j in i + 1..(shells.last + 1).min(N) {
+                    let own = shells.pressure[j][i] * per_shift[j];
+                    row += (before - own) * inverse[j];
+                    before = own;
+                }
+                inverse[i] = per_map * row;
+            }
+        }
+    }
+
+    /// q of springs.
+    #[inline(always)]
+    pub fn tractions(&self, v: &Both<Row>) -> Both<Row> {
+        let mut q = [Row::ZERO; 2];
+        let falls = both(|k| falls(&v[k]) * self.per_shift[k]);
+        for j in self.shells.range() {
+            for k in 0..2 {
+                q[k] += falls[k][j] * self.shells.pressure[j];
+            }
+        }
+        [self.per_pressure * q[0], self.per_pressure * q[1]]
+    }
+}
