@@ -198,7 +198,7 @@ fn jump_of_harmonic_force(random: &mut Random, periods: usize, turns: bool) -> f
     })
 }
 
-/// Unless the largest load moves to another sample: then by what the guide says, at the default number of periods and at 10.
+/// Unless the largest load moves to another sample: then by what the guide says, with 3 periods and with 10.
 #[test]
 fn the_harmonic_force_does_not_jump() {
     let cases =
