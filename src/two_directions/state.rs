@@ -12,7 +12,9 @@
 //! load exceeds theirs: so the force is continuous in the load. Moved springs are the polygon of the springs over S. An overload is forgotten
 //! in gross slip of one direction: there all springs are at their limits, which any nodes represent.
 
-use super::nodes::{Both, FLAT_EDGE, N, NEIGHBOUR, Nodes, POINTS, ROWS, SHIFT, SIZE, Units, both, fill, last_node};
+use super::nodes::{
+    Both, FLAT_EDGE, N, NEIGHBOUR, Nodes, POINTS, PRESSURE, ROWS, SHIFT, SIZE, Units, both, fill, last_node,
+};
 use super::path::{LONGEST, Path};
 use super::shells::Pressed;
 use super::step::{Contact, Displacements, LEAST, Motion, Step, bounded, dissipated, separated};
@@ -85,16 +87,17 @@ impl Law for TwoDirections {
         let [now, slopes] = &at.pressed;
         let positive = [at.normal_force, load, shift, size, now.load, now.shift[0], now.shift[1], now.size];
         let small = slopes.values().iter().all(|slope| slope.abs() <= 1.0 / LEAST);
-        // The nodes lie in order, and only places of points and sizes over that of the flat may be negative.
+        // The nodes lie in order. Only places of points and sizes over that of the flat may be negative, only pressures under sharp edges great.
         let ordered = [SHIFT, SHIFT + 1].into_iter().all(|row| nodes[row].iter().skip(FLAT_EDGE).is_sorted());
         let tables = nodes.iter().enumerate().all(|(row, values)| {
             let least = if row == SIZE || row == POINTS { f64::MIN } else { 0.0 };
-            values.iter().all(|value| (least..=LONGEST).contains(value))
+            let most = if row < PRESSURE { LONGEST } else { LONGEST * LONGEST };
+            values.iter().all(|value| (least..=most).contains(value))
         });
         let turned = memory.turned.as_flattened().iter().all(|tangent| tangent.abs() <= 1.0);
         let contact = Contact::new(nodes, &at.pressed);
         let within = (0..2).all(|k| {
-            let (limits, rounding) = (contact.limits(nodes, k), 1e-9 * now.shift[k]);
+            let (limits, rounding) = (contact.limits(nodes, k), 1e-9 * now.shift[k] + 1e-30);
             springs.v[k].iter().zip(limits.iter()).all(|(v, limit)| v.abs() <= limit + rounding)
                 && springs.edge[k].abs() <= contact.edge_limit(k) + rounding
         });
