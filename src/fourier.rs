@@ -21,7 +21,7 @@ pub struct HarmonicOutput<'a> {
     pub force: Option<&'a mut [f64]>,
     /// (2H + 1)² derivatives of force i with respect to displacement j \[N/m\] at `i + (2H + 1) j`.
     pub jacobian: Option<&'a mut [f64]>,
-    /// Energy dissipated per period \[J\]; of an element the [`work`] of the tangential force.
+    /// Energy dissipated per period \[J\]; of an element the work of the tangential force.
     pub dissipated: Option<&'a mut f64>,
     /// An estimate of the largest difference of the tangential force between the last period and the steady state, over mu times the
     /// largest normal force; 0 but for two directions.

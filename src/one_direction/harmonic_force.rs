@@ -123,7 +123,7 @@ const NORMAL_FORCE_ROUNDING: f64 = 8.0 * f64::EPSILON;
 ///
 /// The force has 2 (2H + 1) coefficients \[N\], T then N. The Jacobian has (2 (2H + 1))² entries, column by column: their derivatives
 /// with respect to the coefficients of the motion. It is the exact derivative of the discrete force, one-sided at corners. The energy is
-/// the [`work`] of T.
+/// the work of T.
 /// Errors: `BadArraySize` if a length does not agree with the workspace; `BadDisplacement` if a coefficient is not finite or
 /// exceeds 1e150; `BadNormalForce` if a sample of the normal force is negative by more than rounding; `LengthTooShort` if the
 /// contact would become too wide for its length.

@@ -479,7 +479,7 @@ fn write_jacobian(workspace: &Workspace, unit: Option<f64>, jacobian: &mut [f64]
     let weight = |c: usize| if c == 0 { per_sample } else { 2.0 * per_sample };
     let lane = |j: usize| {
         let (component, coefficient) = ((j / n + 1) % 3, j % n);
-        coefficient / 4 * COLUMNS + component * 4 + coefficient % 4
+        coefficient / BLOCK * COLUMNS + component * BLOCK + coefficient % BLOCK
     };
     for (j, column) in jacobian.chunks_exact_mut(3 * n).enumerate() {
         for (c, place) in column.iter_mut().enumerate().take(2 * n) {

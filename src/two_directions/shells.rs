@@ -64,16 +64,17 @@ impl Pressed {
     }
 }
 
-/// The shells of a contact, from one to the last one; those beyond are 0.
+/// The shells of a contact, from one to the last one; those beyond are 0. F_ij of those before the last one are in the tables of the nodes.
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(align(32))]
 pub(crate) struct Shells {
     pub first: usize,
     pub last: usize,
-    /// ΔN_j and ΔS_j for both directions, and F_ij, a row for each shell.
+    /// ΔN_j and ΔS_j for both directions.
     pub load: Both<Row>,
     pub shift: Both<Row>,
-    pub pressure: Matrix,
+    /// F_ij of the last shell.
+    last_pressure: Row,
     /// Stiffness of the spring at the edge, from the size inside on.
     pub edge: Both<f64>,
 }
@@ -82,17 +83,16 @@ impl Shells {
     #[inline(always)]
     pub fn new(nodes: &Nodes, now: &Pressed) -> Shells {
         let last = last_node(nodes, now.inside_shift[0] * (1.0 - THINNEST)).min(N - 1);
-        let mut shells = Shells { first: first_shell(nodes), last, ..Shells::default() }.whole(nodes);
+        let mut shells = Shells::before(nodes, first_shell(nodes), last);
         shells.set_last(nodes, now);
         shells
     }
 
-    /// Shells with these first and last ones, of which those before the last one are those of the nodes.
+    /// The shells from one to the one before the last one.
     #[inline(always)]
-    pub fn whole(&self, nodes: &Nodes) -> Shells {
-        let mut shells = Shells { first: self.first, last: self.last.min(N - 1), ..Shells::default() };
+    pub fn before(nodes: &Nodes, first: usize, last: usize) -> Shells {
+        let mut shells = Shells { first, last: last.min(N - 1), ..Shells::default() };
         for j in 0..shells.last {
-            shells.pressure[j] = Lanes(nodes[PRESSURE + j]);
             for k in 0..2 {
                 shells.load[k][j] = nodes[LOAD_STEP][j];
                 shells.shift[k][j] = nodes[SHIFT_STEP + k][j];
@@ -118,9 +118,9 @@ impl Shells {
         for i in self.first..last {
             let own = pressure(nodes, last, now.size, i);
             let bound = bounded(own, nodes[PRESSURE + before][i], steps);
-            self.pressure[last][i] = if i <= before { bound } else { own };
+            self.last_pressure[i] = if i <= before { bound } else { own };
         }
-        self.pressure[last][last] = pressure_at_edge(nodes, last, now.size);
+        self.last_pressure[last] = pressure_at_edge(nodes, last, now.size);
     }
 
     /// Derivatives of the last shell, from those of the normal state and of the nodes by one parameter.
@@ -154,23 +154,36 @@ impl Shells {
         let k = usize::from(steps[1] <= steps[0]);
         for i in of.first..last {
             let own = pressure(nodes, last, now.size, i);
-            let is_bound = i <= before && of.pressure[last][i] < own;
-            self.pressure[last][i] = if is_bound {
+            let is_bound = i <= before && of.last_pressure[i] < own;
+            self.last_pressure[i] = if is_bound {
                 nodes[PRESSURE + before][i] * by_steps[k] + slope(PRESSURE + before, i) * steps[k]
             } else {
                 pressure_slope(nodes, by_nodes, last, [now.size, by.size], i)
             };
         }
-        self.pressure[last][last] = pressure_at_edge_slope(nodes, by_nodes, last, [now.size, by.size]);
+        self.last_pressure[last] = pressure_at_edge_slope(nodes, by_nodes, last, [now.size, by.size]);
+    }
+
+    /// F_ij of a shell, given the tables of nodes; 0 before the last shell without.
+    #[inline(always)]
+    fn pressure(&self, nodes: Option<&Nodes>, j: usize) -> Row {
+        match nodes {
+            _ if j == self.last => self.last_pressure,
+            Some(nodes) if j < self.last => nodes.get(PRESSURE + j).map_or(Row::ZERO, |row| Lanes(*row)),
+            _ => Row::ZERO,
+        }
+    }
+
+    /// F_ij of a shell in the middle of a step.
+    #[inline(always)]
+    pub fn middle_pressure([from, to]: [&Shells; 2], nodes: Option<&Nodes>, j: usize) -> Row {
+        0.5 * (from.pressure(nodes, j) + to.pressure(nodes, j))
     }
 
     /// The contact in the middle of a step: the means of the shells at both ends.
     #[inline(always)]
-    pub fn middle(from: &Shells, to: &Shells) -> Shells {
+    pub fn middle([from, to]: [&Shells; 2]) -> Shells {
         let mut middle = Shells { first: to.first, last: from.last.max(to.last), ..Shells::default() };
-        for j in 0..N {
-            middle.pressure[j] = 0.5 * (from.pressure[j] + to.pressure[j]);
-        }
         for k in 0..2 {
             middle.load[k] = 0.5 * (from.load[k] + to.load[k]);
             middle.shift[k] = 0.5 * (from.shift[k] + to.shift[k]);
@@ -197,16 +210,6 @@ impl Shells {
         }
         stiffness
     }
-
-    /// p_i.
-    #[inline(always)]
-    pub fn pressures(&self) -> Row {
-        let mut sum = Row::ZERO;
-        for j in FLAT_EDGE..N {
-            sum += self.pressure[j];
-        }
-        sum
-    }
 }
 
 /// v_j - v_{j+1}: the springs beyond the edge are 0.
@@ -224,6 +227,8 @@ pub(crate) fn falls(v: &Row) -> Row {
 #[repr(align(32))]
 pub(crate) struct Springs {
     pub shells: Shells,
+    /// F_ij, a row for each shell, and 1/p_i.
+    pub pressure: Matrix,
     pub per_pressure: Row,
     /// 1/ΔS_j and k_j.
     pub per_shift: Both<Row>,
@@ -233,25 +238,32 @@ pub(crate) struct Springs {
 }
 
 impl Springs {
-    /// Sets the springs of shells.
+    /// Sets the springs in the middle between shells: at the end of a step, between the same ones.
     #[inline(always)]
-    pub fn set(&mut self, shells: &Shells) {
-        let pressures = shells.pressures();
-        (self.shells, self.per_pressure) = (*shells, 1.0 / pressures.max(TINY));
+    pub fn set(&mut self, nodes: &Nodes, ends: [&Shells; 2]) {
+        let Springs { shells, pressure, per_pressure, per_shift, stiffness, inverse } = self;
+        *shells = Shells::middle(ends);
+        let mut pressures = Row::ZERO;
+        for j in 0..N {
+            pressure[j] = Shells::middle_pressure(ends, Some(nodes), j);
+            if j >= FLAT_EDGE {
+                pressures += pressure[j];
+            }
+        }
+        *per_pressure = 1.0 / pressures.max(TINY);
         for k in 0..2 {
-            let per_shift = 1.0 / shells.shift[k].max(TINY);
-            self.stiffness[k] = shells.stiffness(k, &per_shift);
-            self.per_shift[k] = per_shift;
-            let inverse = &mut self.inverse[k];
+            per_shift[k] = 1.0 / shells.shift[k].max(TINY);
+            stiffness[k] = shells.stiffness(k, &per_shift[k]);
+            let (per_shift, inverse) = (&per_shift[k], &mut inverse[k]);
             inverse.iter_mut().take(shells.range().start).for_each(|row| *row = Row::ZERO);
             inverse.iter_mut().skip(shells.range().end).for_each(|row| *row = Row::ZERO);
             for i in shells.range().rev().map(|i| i.min(N - 1)) {
                 // v_i = [p_i q_i + Σ_{j>i} (g_i,j-1 - g_ij) v_j]/g_ii, with p_i g_ij in place of g_ij.
-                let (mut row, mut before) = (Row::ZERO, shells.pressure[i][i] * per_shift[i]);
+                let (mut row, mut before) = (Row::ZERO, pressure[i][i] * per_shift[i]);
                 let per_map = 1.0 / before.max(TINY);
                 row[i] = pressures[i];
                 for j in i + 1..(shells.last + 1).min(N) {
-                    let own = shells.pressure[j][i] * per_shift[j];
+                    let own = pressure[j][i] * per_shift[j];
                     row += (before - own) * inverse[j];
                     before = own;
                 }
@@ -267,7 +279,7 @@ impl Springs {
         let falls = both(|k| falls(&v[k]) * self.per_shift[k]);
         for j in self.shells.range() {
             for k in 0..2 {
-                q[k] += falls[k][j] * self.shells.pressure[j];
+                q[k] += falls[k][j] * self.pressure[j];
             }
         }
         [self.per_pressure * q[0], self.per_pressure * q[1]]

@@ -325,8 +325,11 @@ impl Place {
     #[inline(always)]
     fn remembered_load(&self, contact: &Contact, step: &Step, springs: &Displacements, force: Both<f64>) -> f64 {
         let (load, largest) = (REMEMBERED * self.normal_force, self.units.load);
-        let aligned = 2.0 - (1.0 - force[0].hypot(force[1]) / contact.now.load) / SAME_DIRECTION;
-        if largest <= load || aligned <= 0.0 {
+        if largest <= load {
+            return largest;
+        }
+        let aligned = 2.0 - (1.0 - force[0].hypot(force[1]) / contact.now.load.max(TINY)) / SAME_DIRECTION;
+        if aligned <= 0.0 {
             return largest;
         }
         let first = contact.shells.first.min(FLAT_EDGE);

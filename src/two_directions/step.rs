@@ -173,13 +173,13 @@ impl Step {
     ) -> Both<f64> {
         dispatch!({
             if !motion.constant_load || self.springs.shells.last != to.shells.last {
-                self.springs.set(&to.shells);
+                self.springs.set(nodes, [&to.shells; 2]);
             }
             self.old = *springs;
             self.far = Far::new(to, motion, springs);
             self.stick(nodes, to, motion);
             if self.far.part < 1.0 {
-                self.slip([from, to], motion, derivatives);
+                self.slip(nodes, [from, to], motion, derivatives);
             } else {
                 (self.middle.points.set, self.end.points.set) = (0, 0);
             }
@@ -224,12 +224,12 @@ impl Step {
 
     /// Slip in the middle and at the end.
     #[inline(always)]
-    fn slip(&mut self, [from, to]: [&Contact; 2], motion: &Motion, derivatives: bool) {
+    fn slip(&mut self, nodes: &Nodes, [from, to]: [&Contact; 2], motion: &Motion, derivatives: bool) {
         let half = both(|k| 0.5 * (self.old.v[k] + self.trial[k]));
         if motion.constant_load {
             self.middle.find(&self.springs, &half, to.now.load, derivatives);
         } else {
-            self.between.set(&Shells::middle(&from.shells, &to.shells));
+            self.between.set(nodes, [&from.shells, &to.shells]);
             self.middle.find(&self.between, &half, f64::NAN, derivatives);
         }
         let used = to.used();

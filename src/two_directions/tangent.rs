@@ -62,7 +62,7 @@ impl ContactSlopes {
     pub fn by_reference(nodes: &Nodes, slopes: &Nodes, contact: &Contact) -> ContactSlopes {
         let mut by = ContactSlopes::default();
         if contact.now.load > 0.0 {
-            by.shells = contact.shells.whole(slopes);
+            by.shells = Shells::before(slopes, contact.shells.first, contact.shells.last);
             by.shells.set_last_slopes(nodes, &contact.shells, &contact.now, &Pressed::default(), Some(slopes));
         }
         by
@@ -106,22 +106,33 @@ impl<const L: usize> SlipTerms<L> {
         SlipTerms { tractions: zero, forces: zero, slip: zero }
     };
 
-    /// Adds a parameter by which the shells from one on have derivatives.
+    /// Adds a parameter, by which the shells from one on, and the nodes, have derivatives.
     #[inline(always)]
-    fn add(&mut self, lane: usize, springs: &Springs, (by, from): (&Shells, usize), trial: &Both<Row>, slip: &Slip) {
+    fn add(
+        &mut self,
+        lane: usize,
+        springs: &Springs,
+        (ends, nodes, from): ([&Shells; 2], Option<&Nodes>, usize),
+        trial: &Both<Row>,
+        slip: &Slip,
+    ) {
         let (shells, slip, lane) = (&springs.shells, &slip.points, lane % L);
         if slip.set == 0 {
             return;
         }
-        let by_pressure = springs.per_pressure * by.pressures();
+        let (by, mut by_pressure) = (Shells::middle(ends), Row::ZERO);
+        for j in from.max(FLAT_EDGE)..shells.range().end {
+            by_pressure += Shells::middle_pressure(ends, nodes, j);
+        }
+        by_pressure = springs.per_pressure * by_pressure;
         for k in 0..2 {
             let (v, per_shift, slipped) = (&slip.v[k], &springs.per_shift[k], slip.r[k] * springs.per_pressure);
-            let stiffness = stiffness_slopes(springs, k, by);
+            let stiffness = stiffness_slopes(springs, k, &by);
             let (mut tractions, mut before, falls) = (Row::ZERO, 0.0, falls(v) * *per_shift);
             for j in shells.range() {
                 let mut sum = 0.0;
                 if j >= from {
-                    let row = by.pressure[j] - by.shift[k][j] * per_shift[j] * shells.pressure[j];
+                    let row = Shells::middle_pressure(ends, nodes, j) - by.shift[k][j] * per_shift[j] * springs.pressure[j];
                     tractions += falls[j] * row;
                     sum = per_shift[j] * dot(&slipped, &row);
                 }
@@ -180,12 +191,11 @@ impl<const L: usize> Terms<L> {
             // By the load, only the last shells have derivatives.
             let lasts = [from, to].map(|by| by.map_or(N, |by| by.shells.last));
             let first = if nodes.is_some() { 0 } else { lasts[0].min(lasts[1]) };
-            let by = Shells::middle(ends[0], ends[1]);
             let half = both(|k| 0.5 * (step.old.v[k] + step.trial[k]));
-            self.middle.add(lane, between, (&by, first), &half, &step.middle);
+            self.middle.add(lane, between, (ends, nodes, first), &half, &step.middle);
             let used = contact.used();
             let beyond = both(|k| used * (2.0 * step.middle.points.v[k] - step.old.v[k]));
-            self.end.add(lane, &step.springs, (ends[1], first), &beyond, &step.end);
+            self.end.add(lane, &step.springs, ([ends[1]; 2], nodes, first), &beyond, &step.end);
             let lane = lane % L;
             for k in 0..2 {
                 let stiffness = stiffness_slopes(&step.springs, k, ends[1]);
