@@ -7,6 +7,7 @@ INSTALL ?= install
 # Not from the environment, where these names have other uses.
 SHARED =
 TARGET =
+CPU =
 
 version := $(shell sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml)
 sources := $(shell find src -type f) Cargo.toml Cargo.lock
@@ -30,15 +31,16 @@ files := lib/libmicroslip.a include/microslip.h include/microslip.f90 $(pcdir)/m
 products := $(addprefix $(tree)/,$(files))
 
 .PHONY: all shared install uninstall demo audit coverage miri test verify bench instructions \
-	figures identification host fuzz check parallel header python docs dist recipes release clean help
+	figures identification host fuzz check parallel header python docs dist recipes release clean help always
 .DELETE_ON_ERROR:
 
-## all: build dist/, the tree that `install` copies (the default); TARGET=aarch64-unknown-linux-gnu for another processor
+## all: build dist/, the tree that `install` copies (the default); CPU=x86-64 for processors without AVX2 (before 2013),
+##   TARGET=aarch64-unknown-linux-gnu for another one
 all: $(products)
 
 # The sources are named here so that `make install`, as another user, need not run cargo again.
-$(tree)/lib/libmicroslip.a: $(sources) tools/archive.sh tools/archive.toml tools/localise.sh
-	CARGO="$(CARGO)" tools/archive.sh $@ target $(TARGET)
+$(tree)/lib/libmicroslip.a: $(sources) tools/archive.sh tools/archive.toml tools/localise.sh $(if $(CPU),always)
+	CPU="$(CPU)" CARGO="$(CARGO)" tools/archive.sh $@ target $(TARGET)
 
 ## shared: build the shared library besides
 shared: $(tree)/$(shared)

@@ -41,7 +41,6 @@ impl HarmonicOutput<'_> {
 }
 
 /// The largest of a function of some values, without those beyond the last block of four.
-#[inline(always)]
 pub(crate) fn largest_of(values: &[f64], of: fn(f64) -> f64) -> f64 {
     let mut lanes = [f64::MIN; 4];
     for block in values.as_chunks::<4>().0 {
@@ -67,7 +66,6 @@ pub(crate) fn complete_half_wave(sums: &mut [f64], sign: f64) {
 }
 
 /// Scales Fourier sums to coefficients: the constant by `weight`, harmonics by twice that.
-#[inline(always)]
 pub(crate) fn normalise(sums: &mut [f64], weight: f64) {
     sums.iter_mut().for_each(|sum| *sum *= 2.0 * weight);
     if let Some(constant) = sums.first_mut() {

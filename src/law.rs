@@ -59,7 +59,6 @@ pub trait Law: Sized {
     /// Checks that a contact or an element is initialised, and belongs to this law.
     fn check(item: &Self::Item) -> Result<(), Error>;
     /// Whether a state with a valid tag is as long as its counts require.
-    #[inline(always)]
     fn contains_counted(_state: &[f64]) -> bool {
         true
     }
@@ -76,7 +75,6 @@ pub trait Law: Sized {
         0.0
     }
     /// Copies at least what is in use of a state whose header was checked to one of the same length.
-    #[inline(always)]
     fn copy_used(from: &[f64], to: &mut [f64]) {
         to.iter_mut().zip(from).for_each(|(to, from)| *to = *from);
     }
@@ -123,7 +121,6 @@ pub trait Law: Sized {
 
     /// Checks length, tag and counts of a state.
     /// Errors: `StateTooShort`, `BadState`; `BadDirections` for a state for the other number of directions.
-    #[inline(always)]
     fn check_header(state: &[f64]) -> Result<(), Error> {
         let has_tag_of = |kind: Kind| state.first().is_some_and(|tag| kind.is_tag(*tag));
         let is_short = state.len() < Self::STATE_LENGTH;

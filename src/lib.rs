@@ -18,7 +18,6 @@ pub mod parameters;
 
 mod limits;
 mod numerics;
-mod simd;
 mod tag;
 
 mod fourier;

@@ -7,7 +7,6 @@ use crate::numerics::fp_class::{abs_le, is_finite};
 pub(crate) const MAX_DISPLACEMENT: f64 = 1e150;
 
 /// `BadDisplacement` unless it is finite and at most 1e150 in magnitude.
-#[inline(always)]
 pub(crate) fn check_displacement(displacement: f64) -> Result<(), Error> {
     if abs_le(displacement, MAX_DISPLACEMENT) { Ok(()) } else { Err(Error::BadDisplacement) }
 }

@@ -146,7 +146,6 @@ impl Shape {
     }
 
     /// K_n or K_t \[m/N\] without the layer, or 1 for N.
-    #[inline(always)]
     fn own_compliance(&self, quantity: Quantity, punch: &RoundedPunch) -> f64 {
         match quantity {
             Quantity::Load => 1.0,
@@ -161,7 +160,6 @@ impl Shape {
     }
 
     /// N, U or S without the layer \[N, m\], given g and its derivative by N.
-    #[inline(always)]
     fn own_value(&self, quantity: Quantity, punch: &RoundedPunch, load: f64, compliance: f64) -> f64 {
         self.load_scale
             * match quantity {
@@ -187,7 +185,6 @@ impl Shape {
         self.sums(quantity, &self.punch_at(leg))
     }
 
-    #[inline(always)]
     fn sums(&self, quantity: Quantity, punch: &RoundedPunch) -> [f64; 2] {
         let (load, unloaded) = (punch.load(), self.layer.unloaded(quantity));
         let mut compliance = self.own_compliance(quantity, punch);

@@ -22,12 +22,10 @@ pub enum Kind {
 
 impl Kind {
     /// Tag of a buffer of this kind.
-    #[inline(always)]
     pub const fn tag(self) -> f64 {
         (self as u64 * 10_000_000_000 + 10 * LAYOUT + 1) as f64
     }
 
-    #[inline(always)]
     pub const fn is_tag(self, value: f64) -> bool {
         value.to_bits() == self.tag().to_bits()
     }
@@ -37,13 +35,11 @@ impl Kind {
 const WHOLE: f64 = f64::from_bits((1023 + 52) << 52);
 
 /// A count as a double. Unsigned integers would be converted by a subtraction, which gives -0 if the rounding direction is downwards.
-#[inline(always)]
 pub(crate) fn stored(count: usize) -> f64 {
     count.cast_signed() as f64
 }
 
 /// A count that was stored as a double; `None` for what no count is stored as. The nearest whole number if it was changed since then.
-#[inline(always)]
 pub(crate) fn count(stored: f64) -> Option<usize> {
     // The bit patterns of negative doubles and NaNs are larger.
     if stored.to_bits() >= WHOLE.to_bits() {

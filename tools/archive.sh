@@ -2,6 +2,9 @@
 # archive.sh TO.a [DIRECTORY [TRIPLE]]: build the library by cargo in DIRECTORY (target), for the Linux of TRIPLE (that of
 # CARGO_BUILD_TARGET, or else of this machine), and localise it. Run in the source directory. Whatever cargo's configuration and
 # environment say, the archive is the same, or one sentence says why there is none.
+#
+# CPU: the oldest processor on which it runs, as rustc names it (rustc --print target-cpus). On x86-64 the default is x86-64-v3, which
+# has AVX2, if this machine has it, else the oldest one. Results have the same bits.
 set -eu
 
 [ $# -gt 0 ] || { echo "usage: $0 TO.a [DIRECTORY [TRIPLE]]" >&2; exit 2; }
@@ -21,7 +24,11 @@ case $triple in *-linux-*) ;; *) fail "the archive is for Linux, not for $triple
     fail "Rust has no standard library for $triple: install it by 'rustup target add $triple'"
 mkdir -p "$directory" "$(dirname "$to")"
 
+if [ -z "${CPU:-}" ] && [ "$triple" = "$host" ] && [ "${host%%-*}" = x86_64 ] && grep -qw avx2 /proc/cpuinfo; then
+    CPU=x86-64-v3
+fi
+
 # Flags of the user may add code that panics, or make object files that only Rust's linker reads.
-CARGO_ENCODED_RUSTFLAGS='' CARGO_INCREMENTAL=0 "$CARGO" build --config tools/archive.toml --release --locked --package microslip \
+CARGO_ENCODED_RUSTFLAGS="${CPU:+-Ctarget-cpu=$CPU}" CARGO_INCREMENTAL=0 "$CARGO" build --config tools/archive.toml --release --locked --package microslip \
     --target-dir "$directory" --target "$triple"
 tools/localise.sh "$directory/$triple/release/libmicroslip.a" "$to"

@@ -27,7 +27,6 @@ use crate::numerics::fp_class::in_0_to;
 use crate::numerics::lanes::Lanes;
 use crate::numerics::polynomial::Rows;
 use crate::numerics::quadrature::gauss_even;
-use crate::simd::{dispatch, plus};
 use core::f64::consts::PI;
 
 /// Complex stiffness at one displacement amplitude.
@@ -74,7 +73,6 @@ static RULE_IN_SLIP: [[[f64; 4]; 3]; BLOCKS_IN_SLIP] = {
 };
 
 /// `sinh²(4a)` and its derivative with respect to `sinh²(a)`, from this one.
-#[inline(always)]
 fn two_doublings<const L: usize>(mut square: Lanes<L>) -> (Lanes<L>, Lanes<L>) {
     let mut rate = Lanes([1.0; L]);
     for _ in 0..2 {
@@ -85,12 +83,11 @@ fn two_doublings<const L: usize>(mut square: Lanes<L>) -> (Lanes<L>, Lanes<L>) {
 }
 
 /// F and dF/dx_0 from the terms of F and of 2 dF/dx_0 at blocks of nodes.
-#[inline(always)]
 fn sum<B>(blocks: impl Iterator<Item = B>, at: impl Fn(B) -> [[f64; 4]; 2]) -> [f64; 2] {
     let mut sums = [[0.0; 4]; 2];
     for block in blocks {
         let [terms, rates] = at(block);
-        sums = [plus(sums[0], 1.0, terms), plus(sums[1], 0.5, rates)];
+        sums = [(Lanes(sums[0]) + Lanes(terms)).0, (Lanes(sums[1]) + 0.5 * Lanes(rates)).0];
     }
     sums.map(|sum| (sum[0] + sum[2]) + (sum[1] + sum[3]))
 }
@@ -102,7 +99,6 @@ pub(crate) type ValueAndSlope = (f64, f64);
 pub(crate) type StiffnessOutputs<'a> = [Option<&'a mut [f64]>; 4];
 
 /// Writes what is requested of K' and K'' as value i of each output.
-#[inline(always)]
 pub(crate) fn write_values([real, imaginary]: [ValueAndSlope; 2], i: usize, outputs: &mut StiffnessOutputs) {
     for (output, value) in outputs.iter_mut().zip([real.0, imaginary.0, real.1, imaginary.1]) {
         if let Some(place) = output.as_deref_mut().and_then(|values| values.get_mut(i)) {
@@ -112,7 +108,6 @@ pub(crate) fn write_values([real, imaginary]: [ValueAndSlope; 2], i: usize, outp
 }
 
 /// Whether K' and K'', or their derivatives, are requested.
-#[inline(always)]
 pub(crate) fn requested([k_real, k_imag, dk_real, dk_imag]: &StiffnessOutputs) -> [bool; 2] {
     [k_real.is_some() || dk_real.is_some(), k_imag.is_some() || dk_imag.is_some()]
 }
@@ -128,33 +123,26 @@ impl Contact {
 
     /// F and dF/dx_0 at x_0 = 1 - ρ_0, in units of the initial stiffness.
     fn real_stiffness_integrals(&self, x_0: f64, rho_0: f64) -> [f64; 2] {
-        dispatch!({
-            if !self.has_weights_in_slip() {
-                return self.integrals(&RULE_WITHOUT_WEIGHTS, x_0, rho_0);
-            }
-            if rho_0 > IN_SLIP {
-                let rule: &[_] = match rho_0 {
-                    0.25.. => &RULE_FROM_QUARTER,
-                    0.05.. => &RULE_FROM_TWENTIETH,
-                    1e-3.. => &RULE_FROM_MILLI,
-                    1e-6.. | ..-1e-6 => &RULE_FROM_MICRO,
-                    _ => &RULE_AT_SLIP,
-                };
-                return self.integrals(rule, x_0, rho_0);
-            }
-            sum(
-                self.weights_in_slip.iter().zip(&RULE_IN_SLIP),
-                #[inline(always)]
-                |(weights, [rho, ..])| {
-                    let (weights, roots) = (Lanes(*weights), (Lanes(*rho) - rho_0).sqrt());
-                    [(weights * roots).0, (weights / roots).0]
-                },
-            )
+        if !self.has_weights_in_slip() {
+            return self.integrals(&RULE_WITHOUT_WEIGHTS, x_0, rho_0);
+        }
+        if rho_0 > IN_SLIP {
+            let rule: &[_] = match rho_0 {
+                0.25.. => &RULE_FROM_QUARTER,
+                0.05.. => &RULE_FROM_TWENTIETH,
+                1e-3.. => &RULE_FROM_MILLI,
+                1e-6.. | ..-1e-6 => &RULE_FROM_MICRO,
+                _ => &RULE_AT_SLIP,
+            };
+            return self.integrals(rule, x_0, rho_0);
+        }
+        sum(self.weights_in_slip.iter().zip(&RULE_IN_SLIP), |(weights, [rho, ..])| {
+            let (weights, roots) = (Lanes(*weights), (Lanes(*rho) - rho_0).sqrt());
+            [(weights * roots).0, (weights / roots).0]
         })
     }
 
     /// F and dF/dx_0 by Gauss's rule.
-    #[inline(always)]
     fn integrals(&self, rule: &[[[f64; 4]; 2]], x_0: f64, rho_0: f64) -> [f64; 2] {
         let (below, excess) = (rho_0.max(0.0), (-rho_0).max(0.0));
         let distance = rho_0.abs().cbrt();
@@ -171,28 +159,24 @@ impl Contact {
             .sqrt();
         let is_bent = bend < 0.4 && !self.has_weights_in_slip();
         let largest = if is_bent { (1.0 / bend).asinh() } else { 0.0 };
-        sum(
-            rule.iter(),
-            #[inline(always)]
-            |[nodes, weights]| {
-                let (mut t, mut weights) = (Lanes(*nodes), Lanes(*weights));
-                if is_bent {
-                    let sinh = (largest * t).map(f64::sinh);
-                    weights = weights * (bend * largest * (1.0 + sinh * sinh).sqrt());
-                    t = bend * sinh;
-                }
-                let fraction = 1.0 - t * t;
-                let (square, rate) = two_doublings(end * (fraction * fraction));
-                let step = scale * square;
-                let y = y_0 + step;
-                // ρ less its smallest value.
-                let rise = step * (y * y + y * y_0 + y_0 * y_0);
-                let (rest, x, rho) = (rise + excess, (top - rise).max(0.0), below + rise);
-                let weights = weights * ((x * rest).sqrt() * (12.0 * y * y) * (scale * end * rate * fraction * t));
-                let stiffness = self.relative_stiffnesses(x, rho);
-                [(weights * stiffness).0, (weights / rest * stiffness).0]
-            },
-        )
+        sum(rule.iter(), |[nodes, weights]| {
+            let (mut t, mut weights) = (Lanes(*nodes), Lanes(*weights));
+            if is_bent {
+                let sinh = (largest * t).map(f64::sinh);
+                weights = weights * (bend * largest * (1.0 + sinh * sinh).sqrt());
+                t = bend * sinh;
+            }
+            let fraction = 1.0 - t * t;
+            let (square, rate) = two_doublings(end * (fraction * fraction));
+            let step = scale * square;
+            let y = y_0 + step;
+            // ρ less its smallest value.
+            let rise = step * (y * y + y * y_0 + y_0 * y_0);
+            let (rest, x, rho) = (rise + excess, (top - rise).max(0.0), below + rise);
+            let weights = weights * ((x * rest).sqrt() * (12.0 * y * y) * (scale * end * rate * fraction * t));
+            let stiffness = self.relative_stiffnesses(x, rho);
+            [(weights * stiffness).0, (weights / rest * stiffness).0]
+        })
     }
 
     /// The curve, continued to negative displacements, has a point of zero compliance, to first order at this distance from 0, in
@@ -214,7 +198,6 @@ impl Contact {
         })
     }
 
-    #[inline(always)]
     fn has_weights_in_slip(&self) -> bool {
         self.weights_in_slip[0][0] > 0.0
     }
@@ -266,7 +249,6 @@ impl Contact {
     }
 
     /// Energy dissipated per cycle, and its derivative with respect to the amplitude.
-    #[inline(always)]
     fn energy_of_cycle(&self, amplitude: f64) -> ValueAndSlope {
         if self.is_frictionless() || amplitude >= self.slip_displacement {
             let slope = 4.0 * self.slip_force;

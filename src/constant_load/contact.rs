@@ -179,29 +179,24 @@ impl Contact {
     }
 
     /// Errors: `BadContact` unless this memory was initialised by a library of this version.
-    #[inline(always)]
     pub(crate) fn check(&self) -> Result<(), Error> {
         if self.tag == TAG { Ok(()) } else { Err(Error::BadContact) }
     }
 
-    #[inline(always)]
     pub(crate) fn interpolant(&self) -> &ForceInterpolant {
         &self.interpolant
     }
 
     /// Whether a layer bends the curve strongly near gross slip.
-    #[inline(always)]
     pub(crate) fn has_knee(&self) -> bool {
         self.zones.layer.has_knee()
     }
 
-    #[inline(always)]
     pub(crate) fn stick_zones(&self) -> &StickZones {
         &self.zones
     }
 
     /// No tangential force is possible: an open contact, or one without friction.
-    #[inline(always)]
     pub(crate) fn is_frictionless(&self) -> bool {
         self.slip_force <= 0.0
     }

@@ -30,7 +30,6 @@ impl Contact {
 
     /// Energy \[J\] dissipated per cycle with a displacement amplitude up to that of gross slip, and its derivative with respect to the
     /// amplitude \[N\].
-    #[inline(always)]
     pub(crate) fn cycle_energy(&self, amplitude: Complement) -> (f64, f64) {
         let zones = self.stick_zones();
         let (load, stiffness) = self.load_at(amplitude).unwrap_or_else(|| {
@@ -43,7 +42,6 @@ impl Contact {
     }
 
     /// Energy \[J\] dissipated per cycle from the interpolant, in the range of its first polynomial.
-    #[inline(always)]
     pub(crate) fn inner_cycle_energy(&self, amplitude: f64) -> Option<f64> {
         let y = amplitude * self.inner_scale;
         if y > 1.0 {
@@ -66,7 +64,6 @@ impl<'a> Dissipation<'a> {
         Dissipation { contact, sum: 0.0, last: Segment { scale: 0.0, start: 0.0, end: 0.0, slip_length: 0.0 } }
     }
 
-    #[inline(always)]
     pub fn add(&mut self, segment: Segment) {
         if segment.scale == self.last.scale && segment.start == self.last.end {
             self.last.end = segment.end;

@@ -25,7 +25,6 @@ pub(crate) const BEYOND: usize = 6;
 
 impl Contact {
     /// Force and stiffness at a displacement >= 0; beyond that of gross slip mu N and 0, and 0 and 0 without friction.
-    #[inline(always)]
     pub(crate) fn response(&self, displacement: f64) -> Response {
         self.interpolated(displacement).unwrap_or_else(|| self.solved_response(displacement))
     }
@@ -77,20 +76,17 @@ impl Contact {
 }
 
 /// Four values from an index on.
-#[inline(always)]
 fn block(values: &[f64], first: usize) -> Option<&[f64; 4]> {
     values.get(first..first + 4)?.first_chunk()
 }
 
 /// Number of leading values, the first included, for which a condition holds that is monotone: seldom fewer than all.
-#[inline(always)]
 fn leading(values: &[f64; 4], condition: impl Fn(f64) -> bool) -> usize {
     let [_, second, third, fourth] = *values;
     if condition(fourth) { 4 } else { 1 + usize::from(condition(second)) + usize::from(condition(third)) }
 }
 
 /// Stores results from an index on.
-#[inline(always)]
 fn store<const STIFFNESS: bool>(
     forces: &mut [f64],
     stiffnesses: &mut [f64],
@@ -111,7 +107,6 @@ fn store<const STIFFNESS: bool>(
 
 impl Contact {
     /// [`Contact::response`]; `None` if there is no interpolant at this displacement.
-    #[inline(always)]
     pub(crate) fn interpolated(&self, displacement: f64) -> Option<Response> {
         let remaining = self.slip_displacement - displacement;
         if remaining < 0.0 {
@@ -136,7 +131,6 @@ impl Contact {
     /// Forces, and stiffnesses if requested, at rising displacements up to that of gross slip, with the same bits as at one. Four are
     /// evaluated at once: the arrays have at least [`BEYOND`] more values than the `count` displacements, those of displacements not
     /// below the last; `roots` is scratch memory.
-    #[inline(always)]
     pub(crate) fn along<const STIFFNESS: bool>(
         &self,
         count: usize,
@@ -184,7 +178,6 @@ impl Contact {
 
     /// Tangent stiffnesses over the initial one, for integrals, at four rising x and remaining ρ = 1 - x over the displacement of gross
     /// slip: at once if all are on one polynomial of the force or beyond all of them.
-    #[inline(always)]
     pub(crate) fn relative_stiffnesses(&self, x: Lanes<4>, rho: Lanes<4>) -> Lanes<4> {
         let slip = self.slip_displacement;
         let (displacement, remaining) = (x * slip, rho * slip * self.outer_scale);
@@ -208,7 +201,6 @@ impl Contact {
     }
 
     /// Forces and, if requested, stiffnesses at displacements in the range of the first polynomial.
-    #[inline(always)]
     fn inner<const L: usize, const STIFFNESS: bool>(&self, displacement: Lanes<L>) -> (Lanes<L>, Lanes<L>) {
         let y = displacement * self.inner_scale;
         let (secant, slope) = values_and_slopes::<_, L, STIFFNESS>(self.interpolant().secant(), y);
@@ -217,7 +209,6 @@ impl Contact {
     }
 
     /// Forces and, if requested, stiffnesses at places v of one interval.
-    #[inline(always)]
     fn outer<const L: usize, const STIFFNESS: bool>(&self, interval: Interval, v: Lanes<L>) -> (Lanes<L>, Lanes<L>) {
         let (remaining, slope) = self.interpolant().complements_and_slopes::<L, STIFFNESS>(interval, v);
         (self.slip_force - self.slip_force * remaining, slope * self.outer_stiffness())
@@ -239,7 +230,6 @@ impl Contact {
 
     /// The load at a displacement up to that of gross slip, with an accurate complement, and the stiffness; `None` if there is no
     /// interpolant at this displacement.
-    #[inline(always)]
     pub(crate) fn load_at(&self, displacement: Complement) -> Option<(Complement, f64)> {
         if !self.interpolant().is_converged() {
             return None;
@@ -259,7 +249,6 @@ impl Contact {
     }
 
     /// Stiffness for a derivative by ρ of 1.
-    #[inline(always)]
     fn outer_stiffness(&self) -> f64 {
         self.slip_force * self.outer_scale
     }

@@ -52,7 +52,6 @@ static CYCLE_WEIGHTS: Polynomial = {
 static ENERGY_WEIGHTS: Polynomial = rows(&tabulate!(TERMS, |n| -4.0 * n as f64 / (n as f64 + 2.0)));
 
 /// A polynomial with weights on its powers.
-#[inline(always)]
 fn weighted(polynomial: &Polynomial, weights: &Polynomial) -> Polynomial {
     let mut powers = *polynomial;
     for (row, weights) in powers.iter_mut().zip(weights) {
@@ -117,13 +116,11 @@ impl ForceInterpolant {
         ForceInterpolant { inner, pieces, last, converged: converged as u64 }
     }
 
-    #[inline(always)]
     pub fn is_converged(&self) -> bool {
         self.converged != 0
     }
 
     /// The secant stiffness over the initial one at places y = x/(2/5 x_s), at most 1, if converged.
-    #[inline(always)]
     pub fn secant(&self) -> &Polynomial {
         &self.inner
     }
@@ -135,14 +132,12 @@ impl ForceInterpolant {
     }
 
     /// Energy of a cycle up to y = 1 over the initial stiffness and the square of the amplitude; `None` if not converged.
-    #[inline(always)]
     pub fn cycle_energy(&self, y: f64) -> Option<f64> {
         self.is_converged().then(|| sum(weighted(&self.inner, &ENERGY_WEIGHTS).into_iter(), y))
     }
 
     /// 1 - τ and, if requested, its derivative with respect to ρ at roots √ρ of one interval, if converged; any value at other
     /// roots and intervals.
-    #[inline(always)]
     pub fn complements_and_slopes<const L: usize, const SLOPES: bool>(
         &self,
         Interval(exponent): Interval,
@@ -155,7 +150,6 @@ impl ForceInterpolant {
     }
 
     /// The derivatives at places below the last interval of √ρ, for integrals, if converged.
-    #[inline(always)]
     pub fn last_slopes<const N: usize>(&self, rho: &[f64; N]) -> [f64; N] {
         // Roots of several take the time of one.
         let (mut roots, mut slopes) = ([0.0; N], [0.0; N]);
@@ -182,7 +176,6 @@ struct DyadicPlace {
 
 impl DyadicPlace {
     /// The place of an eighth root on one of some pieces, that of the end of the last one if it is below.
-    #[inline(always)]
     pub fn of(root: f64, pieces: usize) -> DyadicPlace {
         let root = root.max(f64::from_bits((1023 - pieces as u64) << 52));
         let Interval(exponent) = Interval::of(root);
@@ -201,19 +194,16 @@ impl DyadicPlace {
     }
 
     /// `d(d f)/dd` with respect to the distance d, of a function f of z with this value and slope.
-    #[inline(always)]
     pub fn product_slope(&self, (value, slope): (f64, f64)) -> f64 {
         value + 0.125 * (self.z + 3.0) * slope
     }
 }
 
-#[inline(always)]
 fn eighth_root(x: f64) -> f64 {
     root(x).sqrt().sqrt()
 }
 
 /// The root of ρ, at least a positive one.
-#[inline(always)]
 pub(crate) fn root_of(rho: f64) -> f64 {
     rho.max(TINY).sqrt()
 }
@@ -224,20 +214,17 @@ pub(crate) struct Interval(u64);
 
 impl Interval {
     /// 2⁻ʲ is the next power of 2 above the root; 1 belongs to the first interval.
-    #[inline(always)]
     pub fn of(root: f64) -> Interval {
         Interval((root.to_bits() >> 52).min(1022))
     }
 
     /// Whether it has a polynomial.
-    #[inline(always)]
     pub fn is_covered(self) -> bool {
         1022 - self.0 < PIECES as u64
     }
 }
 
 /// 2ʲ for the exponent of an interval.
-#[inline(always)]
 fn power_of(exponent: u64) -> f64 {
     f64::from_bits((2047 - 2 - exponent) << 52)
 }

@@ -13,12 +13,10 @@ use crate::law::{Law, PathOutput, Requested, StepResult};
 use crate::limits::check_displacement;
 use crate::numerics::fp_class::is_finite;
 use crate::numerics::total::Total;
-use crate::simd::dispatch;
 use crate::tag::{Kind, is_count};
 
 impl Branch {
     /// Force and stiffness at a displacement on the branch.
-    #[inline(always)]
     pub fn response(&self, contact: &Contact, displacement: f64) -> Response {
         if self.gross_slip {
             return Response { force: self.direction * contact.slip_force, stiffness: 0.0 };
@@ -27,7 +25,6 @@ impl Branch {
     }
 
     /// The response on the branch, from that of the monotonic curve.
-    #[inline(always)]
     fn on_branch(&self, contact: &Contact, Response { force, stiffness }: Response) -> Response {
         let (force, limit) = (self.start.force + self.direction * self.scale * force, contact.slip_force);
         let force = if force > limit { limit } else { force };
@@ -37,7 +34,6 @@ impl Branch {
     /// Forces, and stiffnesses if requested, at `count` displacements in the order of the branch, which is not gross slip, with the
     /// same bits. All arrays, of which the first two are scratch memory, have at least [`BEYOND`] more values; those of the outputs are
     /// overwritten.
-    #[inline(always)]
     pub fn along<const STIFFNESS: bool>(
         &self,
         contact: &Contact,
@@ -47,33 +43,31 @@ impl Branch {
         forces: &mut [f64],
         stiffnesses: &mut [f64],
     ) {
-        dispatch!({
-            let (branch, limit) = (*self, contact.slip_force);
-            let factor = branch.direction * branch.scale;
-            let blocks = distances.as_chunks_mut::<4>().0.iter_mut().zip(displacement.as_chunks::<4>().0);
-            for (block, &x) in blocks.take(count.div_ceil(4)) {
-                // Stored together: otherwise they could overlap the next displacement.
-                let mut distances = [0.0; 4];
-                for k in 0..4 {
-                    distances[k] = branch.distance(contact.slip_displacement, x[k]);
-                }
-                *block = distances;
+        let (branch, limit) = (*self, contact.slip_force);
+        let factor = branch.direction * branch.scale;
+        let blocks = distances.as_chunks_mut::<4>().0.iter_mut().zip(displacement.as_chunks::<4>().0);
+        for (block, &x) in blocks.take(count.div_ceil(4)) {
+            // Stored together: otherwise they could overlap the next displacement.
+            let mut distances = [0.0; 4];
+            for k in 0..4 {
+                distances[k] = branch.distance(contact.slip_displacement, x[k]);
             }
-            let last = count.checked_sub(1).and_then(|last| distances.get(last)).copied().unwrap_or(0.0);
-            if let Some(beyond) = distances.get_mut(count..count + BEYOND).and_then(|beyond| beyond.first_chunk_mut()) {
-                *beyond = [last; BEYOND];
+            *block = distances;
+        }
+        let last = count.checked_sub(1).and_then(|last| distances.get(last)).copied().unwrap_or(0.0);
+        if let Some(beyond) = distances.get_mut(count..count + BEYOND).and_then(|beyond| beyond.first_chunk_mut()) {
+            *beyond = [last; BEYOND];
+        }
+        contact.along::<STIFFNESS>(count, distances, roots, forces, stiffnesses);
+        for force in forces.as_chunks_mut::<4>().0.iter_mut().take(count.div_ceil(4)) {
+            let mut sums = *force;
+            for sum in &mut sums {
+                *sum = branch.start.force + factor * *sum;
+                *sum = if *sum > limit { limit } else { *sum };
+                *sum = if *sum < -limit { -limit } else { *sum };
             }
-            contact.along::<STIFFNESS>(count, distances, roots, forces, stiffnesses);
-            for force in forces.as_chunks_mut::<4>().0.iter_mut().take(count.div_ceil(4)) {
-                let mut sums = *force;
-                for sum in &mut sums {
-                    *sum = branch.start.force + factor * *sum;
-                    *sum = if *sum > limit { limit } else { *sum };
-                    *sum = if *sum < -limit { -limit } else { *sum };
-                }
-                *force = sums;
-            }
-        });
+            *force = sums;
+        }
     }
 }
 
@@ -93,7 +87,6 @@ struct StepRecord {
 
 /// Force and stiffness after a step that only advances the present point: it continues the branch, does not reach its end, and needs
 /// no iteration. `None` for every other step. State and displacement are checked.
-#[inline(always)]
 pub(crate) fn continued(contact: &Contact, state: &[f64], displacement: f64) -> Option<Response> {
     let branch = state::memory(state).branch_ahead(contact, displacement)?;
     let response = contact.interpolated(branch.distance(contact.slip_displacement, displacement))?;
@@ -104,7 +97,6 @@ pub(crate) fn continued(contact: &Contact, state: &[f64], displacement: f64) -> 
 const TEXT: f64 = 1e-14;
 
 /// Finds the step of a contact from a state to a displacement \[m\], both checked.
-#[inline(always)]
 fn step(contact: &Contact, state: &[f64], displacement: f64) -> StepRecord {
     let memory = state::memory(state);
     let Transition { mut branch, mut reversed } = memory.locate(contact, displacement, |_| {});
@@ -138,13 +130,11 @@ fn dissipated(contact: &Contact, state: &[f64], displacement: f64) -> f64 {
 }
 
 impl StepRecord {
-    #[inline(always)]
     fn result(&self, dissipated: f64) -> Step {
         Step { force: self.end.force, tangent: self.stiffness, dissipated }
     }
 
     /// Writes the step into the state from which it was found, or into a copy of that.
-    #[inline(always)]
     fn write(&self, state: &mut [f64]) {
         let mut depth = self.depth;
         if self.reversed {
@@ -166,17 +156,14 @@ impl Law for ConstantLoad {
     const STATE_LENGTH: usize = state::state_length(0);
     const STATE: Kind = Kind::State;
 
-    #[inline(always)]
     fn check(contact: &Contact) -> Result<(), Error> {
         contact.check()
     }
 
-    #[inline(always)]
     fn contains_counted(state: &[f64]) -> bool {
         state::depth(state).is_some_and(|depth| depth <= state.len().saturating_sub(HEADER) / PER_REVERSAL)
     }
 
-    #[inline(always)]
     fn check_step(_: &Contact, displacement: &f64) -> Result<(), Error> {
         check_displacement(*displacement)
     }
@@ -211,7 +198,6 @@ impl Law for ConstantLoad {
         force_error(state::memory(state).reversals)
     }
 
-    #[inline(always)]
     fn trial(contact: &Contact, state: &[f64], displacement: f64, requested: Requested) -> Step {
         let energy = energy_if(requested, contact, state, displacement);
         match continued(contact, state, displacement) {
@@ -220,7 +206,6 @@ impl Law for ConstantLoad {
         }
     }
 
-    #[inline(always)]
     fn advance(contact: &Contact, state: &mut [f64], displacement: f64, requested: Requested) -> Step {
         let energy = energy_if(requested, contact, state, displacement);
         if let Some(Response { force, stiffness }) = continued(contact, state, displacement) {
@@ -246,7 +231,6 @@ impl Law for ConstantLoad {
 /// Result of a step: force, tangent stiffness and dissipated energy.
 pub type Step = StepResult<f64, f64>;
 
-#[inline(always)]
 fn energy_if(requested: Requested, contact: &Contact, state: &[f64], displacement: f64) -> f64 {
     if requested.energy { dissipated(contact, state, displacement) } else { 0.0 }
 }

@@ -42,7 +42,6 @@ impl InitialCurve {
     pub const UNLOADED: InitialCurve = InitialCurve { offset: 0.0, slip_direction: 0.0 };
 
     /// The curve after a step that ends on `branch` at `displacement`. Without friction it starts at every displacement.
-    #[inline(always)]
     pub fn after(self, contact: &Contact, branch: &Branch, displacement: f64) -> InitialCurve {
         if contact.is_frictionless() {
             InitialCurve { offset: displacement, slip_direction: 0.0 }
@@ -75,7 +74,6 @@ pub(crate) struct Branch {
 
 impl Branch {
     /// The branch that leaves a reversal, number `depth` on the stack, with the one before it.
-    #[inline(always)]
     fn from_reversal(depth: usize, start: Point, before: Option<Point>, offset: f64, direction: f64) -> Branch {
         let end = before.map_or(2.0 * offset - start.displacement, |before| before.displacement);
         Branch { depth, start, direction, end, scale: 2.0, inverse_scale: 0.5, gross_slip: false }
@@ -83,7 +81,6 @@ impl Branch {
 
     /// Whether a displacement in the direction of the branch lies before its end. The end of the initial loading curve belongs to
     /// it: gross slip starts beyond.
-    #[inline(always)]
     pub fn contains(&self, displacement: f64) -> bool {
         let beyond = self.direction * (displacement - self.end);
         self.gross_slip || beyond < 0.0 || (beyond == 0.0 && self.depth == 0)
@@ -91,7 +88,6 @@ impl Branch {
 
     /// Displacement on the monotonic curve that corresponds to one on the branch: `|δ-δ_r|/2` after a reversal. A distance that
     /// exceeds that of gross slip by rounding is cut off there.
-    #[inline(always)]
     pub fn distance(&self, slip_displacement: f64, displacement: f64) -> f64 {
         let distance = (displacement - self.start.displacement).abs() * self.inverse_scale;
         if distance > slip_displacement { slip_displacement } else { distance }
@@ -132,19 +128,16 @@ impl Memory<'_> {
     pub const UNLOADED: Memory<'static> =
         Memory { initial: InitialCurve::UNLOADED, now: Point { displacement: 0.0, force: 0.0 }, reversals: &[] };
 
-    #[inline(always)]
     pub fn depth(&self) -> usize {
         self.reversals.len()
     }
 
     /// A reversal of the stack; 1 is the oldest.
-    #[inline(always)]
     fn reversal(&self, number: usize) -> Option<Point> {
         self.reversals.get(number.wrapping_sub(1)).map(|reversal| point(*reversal))
     }
 
     /// The branch that leaves reversal `depth` of the stack; the initial loading curve for 0.
-    #[inline(always)]
     pub fn branch(&self, contact: &Contact, depth: usize, direction: f64) -> Branch {
         let InitialCurve { offset, slip_direction } = self.initial;
         match self.reversal(depth) {
@@ -164,7 +157,6 @@ impl Memory<'_> {
 
     /// The branch that continues one at its end: that of the enclosing loop once a loop is closed, the initial loading curve
     /// after the mirror point, gross slip after the initial loading curve.
-    #[inline(always)]
     pub fn continuation(&self, contact: &Contact, branch: &Branch) -> Branch {
         if branch.depth == 0 {
             Branch { gross_slip: true, ..*branch }
@@ -174,7 +166,6 @@ impl Memory<'_> {
     }
 
     /// Direction of the branch at the present point; 0 at the start of the initial loading curve.
-    #[inline(always)]
     fn heading(&self) -> f64 {
         match self.reversals.last() {
             Some(newest) => self.now.displacement - point(*newest).displacement,
@@ -186,7 +177,6 @@ impl Memory<'_> {
 
     /// The branch of the present point, if a displacement lies on it ahead of that point and before its end, without gross slip;
     /// `None` without friction. What [`Memory::locate`] finds then.
-    #[inline(always)]
     pub fn branch_ahead(&self, contact: &Contact, target: f64) -> Option<Branch> {
         let is_gross_slip = self.reversals.is_empty() && self.initial.slip_direction != 0.0;
         if is_gross_slip || contact.is_frictionless() {
@@ -200,7 +190,6 @@ impl Memory<'_> {
 
     /// Locates the branch on which a displacement lies, closing loops on the way; `on_segment` is called for each segment.
     /// A step of zero continues the present branch. Without friction there is nothing to remember.
-    #[inline(always)]
     pub fn locate(&self, contact: &Contact, target: f64, mut on_segment: impl FnMut(Segment)) -> Transition {
         let from = self.now.displacement;
         let heading = self.heading();
@@ -248,7 +237,6 @@ impl Memory<'_> {
 
 impl Branch {
     /// The segment of the branch between two displacements.
-    #[inline(always)]
     pub fn segment(&self, slip_displacement: f64, from: f64, to: f64) -> Segment {
         if self.gross_slip {
             return Segment { scale: 1.0, start: 0.0, end: 0.0, slip_length: (to - from).abs() };
@@ -260,7 +248,6 @@ impl Branch {
 
 /// Pushes a reversal on a stack of `depth`, whose length is its capacity, 2 at least. A full stack is merged first. Returns the depth
 /// after it, and by how much the merge has shifted the force.
-#[inline(always)]
 pub(crate) fn push(
     contact: &Contact,
     offset: f64,

@@ -92,7 +92,6 @@ impl Contact {
     }
 
     /// Load and λ at a displacement >= 0 up to that of gross slip.
-    #[inline(always)]
     fn load_and_increase(&self, displacement: f64) -> (Complement, f64) {
         let full_stick = self.stick_zones().small_load.compliance;
         match self.load_at(self.before_slip(displacement)) {

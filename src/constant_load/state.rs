@@ -28,19 +28,16 @@ pub const fn state_length(reversals: usize) -> usize {
 }
 
 /// The number of reversals in a state.
-#[inline(always)]
 pub(crate) fn depth(state: &[f64]) -> Option<usize> {
     state.get(1).copied().and_then(count)
 }
 
 /// Whether a state whose header was checked holds as many reversals as fit.
-#[inline(always)]
 pub(crate) fn is_full(state: &[f64]) -> bool {
     HEADER + PER_REVERSAL * (depth(state).unwrap_or(0) + 1) > state.len()
 }
 
 /// The memory in a state whose header was checked.
-#[inline(always)]
 pub(crate) fn memory(state: &[f64]) -> Memory<'_> {
     let &[_, depth, displacement, slip_direction, force, offset, ref reversals @ ..] = state else {
         return Memory::UNLOADED;
@@ -74,13 +71,11 @@ pub(crate) fn copy(contact: &Contact, from: &[f64], to: &mut [f64]) {
 }
 
 /// The reversals of a state, used or not.
-#[inline(always)]
 pub(crate) fn reversals_mut(state: &mut [f64]) -> &mut [Reversal] {
     state.part_mut(HEADER..).as_chunks_mut().0
 }
 
 /// Writes the header.
-#[inline(always)]
 pub(crate) fn write_header(state: &mut [f64], depth: usize, initial: InitialCurve, now: Point) {
     if let Some(header) = state.first_chunk_mut::<HEADER>() {
         let InitialCurve { offset, slip_direction } = initial;
@@ -89,7 +84,6 @@ pub(crate) fn write_header(state: &mut [f64], depth: usize, initial: InitialCurv
 }
 
 /// Sets displacement and force in the header.
-#[inline(always)]
 pub(crate) fn set_point(state: &mut [f64], now: Point) {
     if let Some([_, _, displacement, _, force, _]) = state.first_chunk_mut::<HEADER>() {
         (*displacement, *force) = (now.displacement, now.force);

@@ -51,7 +51,6 @@ unsafe fn step<L: Law>(
 }
 
 /// Advances the state of one contact or element, which is checked.
-#[inline(always)]
 pub(super) unsafe fn update_one<L: Law>(
     law: &L::Item,
     (state_length, state_old, state_new): States,
@@ -159,7 +158,6 @@ impl<'a, T: Copy> Items<'a, T> {
     }
 
     /// Checks the contacts or elements of all active items, and with each what else belongs to the item.
-    #[inline(always)]
     fn check<L: Law<Item = T>>(self, mut item: impl FnMut(usize, &T) -> Result<(), Error>) -> Result<(), Failure> {
         let mut check_item = |i| {
             let law = self.law(i).ok_or(Error::BadIndex)?;
@@ -173,12 +171,10 @@ impl<'a, T: Copy> Items<'a, T> {
     }
 
     /// Indices of the active items.
-    #[inline(always)]
     fn active(self) -> impl Iterator<Item = usize> {
         (0..self.n).filter(move |i| self.active.is_none_or(|active| active.get(*i).is_none_or(|flag| *flag != 0)))
     }
 
-    #[inline(always)]
     fn law(&self, i: usize) -> Option<&'a T> {
         match self.index {
             None => self.laws.get(i),
@@ -187,7 +183,6 @@ impl<'a, T: Copy> Items<'a, T> {
     }
 
     /// Active items that were checked: index, contact or element, and what `value` finds for an index.
-    #[inline(always)]
     fn with<V>(self, value: impl Fn(usize) -> Option<V>) -> impl Iterator<Item = (usize, &'a T, V)> {
         self.active().filter_map(move |i| Some((i, self.law(i)?, value(i)?)))
     }
@@ -242,7 +237,6 @@ unsafe fn update<L: Law>(
 }
 
 /// Item i of an output; NULL if that is.
-#[inline(always)]
 fn item_of<T>(output: *mut T, i: usize) -> *mut T {
     if output.is_null() { output } else { output.wrapping_add(i) }
 }
@@ -254,7 +248,6 @@ const CHECKED_AHEAD: usize = 32;
 
 /// Fetches the first cache lines of a state, its tag or also its first reversals or knots: the hardware does not, because states
 /// are read in part only. Other processors than x86-64 have no stable intrinsic for it.
-#[inline(always)]
 #[cfg_attr(not(target_arch = "x86_64"), expect(unused_variables))]
 fn prefetch<const LINES: usize>(state: *const f64) {
     #[cfg(target_arch = "x86_64")]

@@ -11,7 +11,6 @@ use super::angle;
 use super::workspace::{Blocks, Parts, padded};
 use crate::error::Error;
 use crate::numerics::total::Total;
-use crate::simd::dispatch;
 use core::hint::black_box;
 
 /// Length of an array of samples: whole blocks of four, and at least one value beyond the period.
@@ -20,7 +19,6 @@ pub(crate) fn sample_length(samples: usize) -> usize {
 }
 
 /// Whether the samples are folded twice, to a quarter of the period.
-#[inline(always)]
 fn folds_twice(samples: usize) -> bool {
     samples.is_multiple_of(2) && samples > 4
 }
@@ -86,12 +84,10 @@ impl<'a> FoldedFourier<'a> {
     }
 
     /// Evaluates the series with coefficients c0, a1, b1, a2, b2, ... at all samples.
-    #[inline(always)]
     pub fn synthesise(&self, coefficients: &[f64], values: &mut [f64]) {
-        dispatch!(self.synthesis_kernel(coefficients, values));
+        self.synthesis_kernel(coefficients, values);
     }
 
-    #[inline(always)]
     pub fn synthesis_kernel(&self, coefficients: &[f64], values: &mut [f64]) {
         let Some((&constant, pairs)) = coefficients.split_first() else { return };
         let (quads, last) = pairs.as_chunks::<4>();
@@ -155,50 +151,45 @@ impl<'a> FoldedFourier<'a> {
     }
 
     /// Sums of the samples times 1, cos t, sin t, cos 2t, ..., one for each of `sums`. The first value is repeated after the period.
-    #[inline(always)]
     pub fn sum(&mut self, values: &mut [f64], sums: &mut [f64]) {
-        dispatch!({
-            if let Some(([first, ..], [next, ..])) = values.split_at_mut_checked(self.samples) {
-                *next = *first;
+        if let Some(([first, ..], [next, ..])) = values.split_at_mut_checked(self.samples) {
+            *next = *first;
+        }
+        self.fold(values);
+        let FoldedFourier { quads, folded, totals, .. } = self;
+        let stride = (self.orders / 2).max(1);
+        let mut total = [0.0; 4];
+        for [_, _, even_cosines, _] in folded.iter() {
+            for k in 0..4 {
+                total[k] += even_cosines[k];
             }
-            self.fold(values);
-            let FoldedFourier { quads, folded, totals, .. } = self;
-            let stride = (self.orders / 2).max(1);
-            let mut total = [0.0; 4];
-            for [_, _, even_cosines, _] in folded.iter() {
+        }
+        let (Some((first, sums)), Some((constant, totals))) = (sums.split_first_mut(), totals.split_first_mut()) else {
+            return;
+        };
+        *constant = total;
+        let count = sums.len().div_ceil(4);
+        for (quad, totals) in totals.as_chunks_mut::<SYMMETRIES>().0.iter_mut().take(count).enumerate() {
+            let [mut a, mut b, mut c, mut d] = [[0.0; 4]; 4];
+            for (block, folded) in folded.iter().enumerate() {
+                let Some(rows) = quads.get(quad + block * stride) else { break };
                 for k in 0..4 {
-                    total[k] += even_cosines[k];
+                    a[k] += folded[0][k] * rows[0][k];
+                    b[k] += folded[1][k] * rows[1][k];
+                    c[k] += folded[2][k] * rows[2][k];
+                    d[k] += folded[3][k] * rows[3][k];
                 }
             }
-            let (Some((first, sums)), Some((constant, totals))) = (sums.split_first_mut(), totals.split_first_mut())
-            else {
-                return;
-            };
-            *constant = total;
-            let count = sums.len().div_ceil(4);
-            for (quad, totals) in totals.as_chunks_mut::<SYMMETRIES>().0.iter_mut().take(count).enumerate() {
-                let [mut a, mut b, mut c, mut d] = [[0.0; 4]; 4];
-                for (block, folded) in folded.iter().enumerate() {
-                    let Some(rows) = quads.get(quad + block * stride) else { break };
-                    for k in 0..4 {
-                        a[k] += folded[0][k] * rows[0][k];
-                        b[k] += folded[1][k] * rows[1][k];
-                        c[k] += folded[2][k] * rows[2][k];
-                        d[k] += folded[3][k] * rows[3][k];
-                    }
-                }
-                *totals = [a, b, c, d];
-            }
-            // Summed from memory, which keeps the loop above vectorised along the positions.
-            *first = sum_of(*constant);
-            for (sum, total) in sums.iter_mut().zip(totals.iter()) {
-                *sum = sum_of(*total);
-            }
-        });
+            *totals = [a, b, c, d];
+        }
+        // Summed from memory, which keeps the loop above vectorised along the positions.
+        *first = sum_of(*constant);
+        for (sum, total) in sums.iter_mut().zip(totals.iter()) {
+            *sum = sum_of(*total);
+        }
     }
 
     /// The folded sums of the samples at each position.
-    #[inline(always)]
     fn fold(&mut self, values: &[f64]) {
         let (samples, half) = (self.samples, self.samples / 2);
         let upwards = |from: usize| values.part(from..).as_chunks::<4>().0;
@@ -230,7 +221,6 @@ impl<'a> FoldedFourier<'a> {
 }
 
 /// Fills the values beyond the period.
-#[inline(always)]
 pub(crate) fn continue_periodically(values: &mut [f64], samples: usize) {
     let (period, beyond) = values.split_at_mut_checked(samples).unwrap_or((&mut [], &mut []));
     for beyond in beyond.chunks_mut(samples.max(1)) {
@@ -240,33 +230,27 @@ pub(crate) fn continue_periodically(values: &mut [f64], samples: usize) {
     }
 }
 
-#[inline(always)]
 fn add(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]]
 }
 
-#[inline(always)]
 fn subtract(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]]
 }
 
-#[inline(always)]
 fn times(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
     [a[0] * b[0], a[1] * b[1], a[2] * b[2], a[3] * b[3]]
 }
 
-#[inline(always)]
 fn sum_of([a, b, c, d]: [f64; 4]) -> f64 {
     (a + c) + (b + d)
 }
 
-#[inline(always)]
 fn reversed([a, b, c, d]: [f64; 4]) -> [f64; 4] {
     [d, c, b, a]
 }
 
 /// Stores a block upwards from a value, after the given number of blocks.
-#[inline(always)]
 fn store(values: &mut [f64], from: usize, before: usize, block: [f64; 4]) {
     if let Some(place) = values.get_mut(from..).and_then(|values| values.as_chunks_mut().0.get_mut(before)) {
         *place = block;
@@ -274,7 +258,6 @@ fn store(values: &mut [f64], from: usize, before: usize, block: [f64; 4]) {
 }
 
 /// Stores a block downwards from a value, after the given number of blocks.
-#[inline(always)]
 fn store_reversed(values: &mut [f64], from: usize, before: usize, block: [f64; 4]) {
     if let Some(place) =
         values.get_mut(..=from).and_then(|values| values.as_rchunks_mut().1.iter_mut().nth_back(before))

@@ -11,7 +11,6 @@ use crate::numerics::total::Total;
 use core::f64::consts::PI;
 
 /// Blocks of four in a row over the coefficients 1, cos t, sin t, cos 2t, ...
-#[inline(always)]
 pub(crate) fn row_blocks(harmonics: usize) -> usize {
     let blocks = (2 * harmonics + 1).div_ceil(4);
     if blocks <= 5 { blocks | 1 } else { blocks.next_multiple_of(5) }
@@ -20,19 +19,14 @@ pub(crate) fn row_blocks(harmonics: usize) -> usize {
 /// A strip of a row.
 pub(crate) type Strip<const N: usize> = [[f64; 4]; N];
 
-#[inline(always)]
 pub(crate) fn add_scaled<const N: usize>(target: &mut Strip<N>, scale: f64, row: &Strip<N>) {
     for block in 0..N {
         target[block] = (Lanes(target[block]) + scale * Lanes(row[block])).0;
     }
 }
 
-#[inline(always)]
 pub(crate) fn scaled<const N: usize>(scale: f64, row: &Strip<N>) -> Strip<N> {
-    row.map(
-        #[inline(always)]
-        |block| (scale * Lanes(block)).0,
-    )
+    row.map(|block| (scale * Lanes(block)).0)
 }
 
 /// Tables of φ at all samples, and of the antiderivatives A, which are 0 for the constant and otherwise
@@ -91,7 +85,6 @@ impl<'a> Rows<'a> {
     }
 
     /// The strips of all samples; N is that of [`with_strips`].
-    #[inline(always)]
     pub fn strips<const N: usize>(&self, strip: usize) -> RowStrips<'_, N> {
         let range = strip * self.samples..(strip + 1) * self.samples;
         RowStrips {
@@ -104,7 +97,6 @@ impl<'a> Rows<'a> {
 
 impl<const N: usize> RowStrips<'_, N> {
     /// The sum of φ over `count` samples, from sample `from` to the one before `to`.
-    #[inline(always)]
     pub fn sum_between(&self, from: usize, to: usize, count: usize) -> Strip<N> {
         let mut sum = self.antiderivatives.at(to);
         add_scaled(&mut sum, -1.0, &self.antiderivatives.at(from));
@@ -149,7 +141,6 @@ pub(crate) struct Terms<'a, const N: usize, const D: usize> {
 
 impl<const N: usize, const D: usize> Terms<'_, N, D> {
     /// Appends a term.
-    #[inline(always)]
     pub fn push(&mut self, y: [Strip<N>; D], phi: &Strip<N>) {
         self.y.set(*self.count, y);
         *self.count += usize::from(self.phi.set(*self.count, *phi));
@@ -169,13 +160,11 @@ impl<'a> OuterProducts<'a> {
     }
 
     /// Number of strips of N blocks.
-    #[inline(always)]
     pub fn strips<const N: usize>(&self) -> usize {
         (self.row_blocks / N).max(1)
     }
 
     /// A strip of the terms with D rows of each, emptied: the same number must be appended to each strip.
-    #[inline(always)]
     pub fn terms<const N: usize, const D: usize>(&mut self, strip: usize) -> Terms<'_, N, D> {
         let range = strip * self.capacity..(strip + 1) * self.capacity;
         self.count = 0;
@@ -187,12 +176,10 @@ impl<'a> OuterProducts<'a> {
     }
 
     /// `Σ Y_j ⊗ φ_j` with the rows Y of an index.
-    #[inline(always)]
     pub fn sum(&self, index: usize, products: &mut Blocks) {
         with_strips!(self.row_blocks, self.sum_of(index, products));
     }
 
-    #[inline(always)]
     fn sum_of<const N: usize>(&self, index: usize, products: &mut Blocks) {
         let (y_rows, phi_rows) = (self.y.as_chunks::<N>().0, self.phi.as_chunks::<N>().0);
         let (strips, of_each) = (self.strips::<N>(), self.of_each.max(1));

@@ -12,8 +12,8 @@
 use super::rows::{OuterProducts, row_blocks};
 use super::workspace::{Blocks, Parts};
 use crate::error::Error;
+use crate::numerics::lanes::Lanes;
 use crate::numerics::total::Total;
-use crate::simd::{dispatch, plus};
 
 #[derive(Debug)]
 pub(crate) struct Assembly<'a> {
@@ -43,7 +43,6 @@ impl<'a> Assembly<'a> {
     }
 
     /// Extends the sums to the pairs of all orders.
-    #[inline(always)]
     fn extend(&mut self) {
         let Assembly { harmonics, weight, .. } = *self;
         let Some((constant, sums)) = self.sums.split_first() else { return };
@@ -60,54 +59,45 @@ impl<'a> Assembly<'a> {
     }
 
     /// Writes `Σ weight φ ⊗ φ`, normalised, to the rows from `offset` on of columns that are `stride` apart.
-    #[inline(always)]
     pub fn write_sums(&mut self, columns: &mut [f64], stride: usize, offset: usize) {
-        dispatch!({
-            let length = 2 * self.harmonics + 1;
-            let columns =
-                columns.chunks_exact_mut(stride.max(1)).map(|column| column.part_mut(offset..offset + length));
-            self.extend();
-            let harmonics = self.harmonics;
-            for (index, column) in columns.enumerate() {
-                let (order, is_sine) = (index.div_ceil(2), index % 2 == 0 && index > 0);
-                let from = |order: usize| self.pairs.part(order..);
-                let Some((constant, rows)) = column.split_first_mut() else { continue };
-                let [cosine, sine] = from(order + harmonics).first().copied().unwrap_or_default();
-                *constant = if is_sine { sine } else { cosine };
-                let (sums, differences) = (from(harmonics + 1 + order), from(harmonics + 1 - order.min(harmonics)));
-                for ((row, [c, s]), [d, t]) in rows.as_chunks_mut::<2>().0.iter_mut().zip(sums).zip(differences) {
-                    *row = if is_sine { [s - t, d - c] } else { [c + d, s + t] };
-                }
+        let length = 2 * self.harmonics + 1;
+        let columns = columns.chunks_exact_mut(stride.max(1)).map(|column| column.part_mut(offset..offset + length));
+        self.extend();
+        let harmonics = self.harmonics;
+        for (index, column) in columns.enumerate() {
+            let (order, is_sine) = (index.div_ceil(2), index % 2 == 0 && index > 0);
+            let from = |order: usize| self.pairs.part(order..);
+            let Some((constant, rows)) = column.split_first_mut() else { continue };
+            let [cosine, sine] = from(order + harmonics).first().copied().unwrap_or_default();
+            *constant = if is_sine { sine } else { cosine };
+            let (sums, differences) = (from(harmonics + 1 + order), from(harmonics + 1 - order.min(harmonics)));
+            for ((row, [c, s]), [d, t]) in rows.as_chunks_mut::<2>().0.iter_mut().zip(sums).zip(differences) {
+                *row = if is_sine { [s - t, d - c] } else { [c + d, s + t] };
             }
-        });
+        }
     }
 
     /// Writes `Σ weight φ ⊗ φ` and the outer products to the first rows of the columns. Under half-wave symmetry the products are
     /// those of half a period, and only rows and columns of equal (+1) or opposite (-1) parity remain.
-    #[inline(always)]
     pub fn write(&mut self, symmetry: Option<f64>, columns: &mut [f64], stride: usize) {
         self.write_sums(columns, stride, 0);
-        dispatch!(self.products_kernel(symmetry, columns, stride));
+        self.products_kernel(symmetry, columns, stride);
     }
 
     /// Sets the outer products to those with the rows Y of an index.
     pub fn set_products(&mut self, outer: &OuterProducts, index: usize) {
-        dispatch!(outer.sum(index, self.products));
+        outer.sum(index, self.products);
     }
 
     /// Adds two products, the second with the opposite sign, of rows with columns, to the outer products.
-    #[inline(always)]
     pub fn add_products(&mut self, [a, b]: [&[f64]; 2], [x, y]: [&Blocks; 2]) {
-        dispatch!({
-            for ((column, &a), &b) in self.products.chunks_exact_mut(x.len().max(1)).zip(a).zip(b) {
-                for ((block, x), y) in column.iter_mut().zip(x).zip(y) {
-                    *block = plus(plus(*block, a, *x), -b, *y);
-                }
+        for ((column, &a), &b) in self.products.chunks_exact_mut(x.len().max(1)).zip(a).zip(b) {
+            for ((block, x), y) in column.iter_mut().zip(x).zip(y) {
+                *block = (Lanes(*block) + a * Lanes(*x) - b * Lanes(*y)).0;
             }
-        });
+        }
     }
 
-    #[inline(always)]
     fn products_kernel(&mut self, symmetry: Option<f64>, columns: &mut [f64], stride: usize) {
         let rows = 2 * self.harmonics + 1;
         let columns = columns.chunks_exact_mut(stride.max(1)).map(|column| column.part_mut(..rows));

@@ -97,7 +97,6 @@ pub(crate) trait Layout<'a>: Sized {
     }
 
     /// Size and number of doubles of an initialised workspace, from its header.
-    #[inline(always)]
     fn read(&[tag, ref counts @ ..]: &[f64; HEADER]) -> Result<(Size, usize), Error> {
         let [Some(harmonics), Some(samples), Some(periods @ 1..)] = counts.map(count) else {
             return Err(Error::BadWorkspace);
@@ -111,7 +110,6 @@ pub(crate) trait Layout<'a>: Sized {
 
     /// Opens an initialised workspace.
     /// Errors: `BadWorkspace` if uninitialised or too short.
-    #[inline(always)]
     fn open(workspace: &'a mut [f64]) -> Result<Self, Error> {
         let (size, _) = Self::read(workspace.first_chunk().ok_or(Error::BadWorkspace)?)?;
         Self::of_size(size, workspace)
@@ -119,7 +117,6 @@ pub(crate) trait Layout<'a>: Sized {
 
     /// A workspace of this size, which was read from its header.
     /// Errors: `BadWorkspace` if too short.
-    #[inline(always)]
     fn of_size(size: Size, workspace: &'a mut [f64]) -> Result<Self, Error> {
         let buffers = workspace.get_mut(HEADER..).ok_or(Error::BadWorkspace)?;
         Self::take(size, &mut Parts::Taking(buffers))
@@ -147,7 +144,6 @@ impl<'a> Parts<'a> {
         if let (Parts::Counting(doubles), Ok(_)) = (parts, taken) { doubles } else { 0 }
     }
 
-    #[inline(always)]
     pub fn take(&mut self, length: usize) -> Result<&'a mut [f64], Error> {
         match self {
             Parts::Taking(memory) => {
@@ -163,7 +159,6 @@ impl<'a> Parts<'a> {
         }
     }
 
-    #[inline(always)]
     pub fn take_arrays<const K: usize>(&mut self, length: usize) -> Result<[&'a mut [f64]; K], Error> {
         let mut arrays = [(); K].map(|()| <&mut [f64]>::default());
         for array in &mut arrays {
@@ -172,12 +167,10 @@ impl<'a> Parts<'a> {
         Ok(arrays)
     }
 
-    #[inline(always)]
     pub fn take_blocks(&mut self, blocks: usize) -> Result<&'a mut Blocks, Error> {
         Ok(self.take(4 * blocks)?.as_chunks_mut().0)
     }
 
-    #[inline(always)]
     pub fn take_records<T: Record>(&mut self, count: usize) -> Result<&'a mut [T], Error> {
         const { assert!(align_of::<T>() <= align_of::<f64>() && size_of::<T>().is_multiple_of(size_of::<f64>())) };
         let doubles = self.take(count * (size_of::<T>() / size_of::<f64>()))?;
@@ -224,7 +217,6 @@ macro_rules! record {
         unsafe impl $crate::fourier::workspace::Record for $name where $($type: $crate::fourier::workspace::Record),+ {}
 
         impl $crate::numerics::total::Zero for $name {
-            #[inline(always)]
             fn zero() -> Self {
                 $name { $($field: $crate::numerics::total::Zero::zero()),+ }
             }

@@ -152,7 +152,6 @@ impl<const N: usize> Interpolant<N> {
 }
 
 /// Adds rows, each times its factor.
-#[inline(always)]
 fn add_rows<const M: usize>(sums: &mut [f64], factors: impl Iterator<Item = f64>, rows: &[[f64; M]; M]) {
     for (factor, row) in factors.zip(rows) {
         sums.iter_mut().zip(row).for_each(|(sum, value)| *sum += factor * value);

@@ -13,7 +13,6 @@ pub(crate) struct Lanes<const L: usize>(pub [f64; L]);
 impl<const L: usize> Lanes<L> {
     pub const ZERO: Self = Lanes([0.0; L]);
 
-    #[inline(always)]
     pub fn map(self, function: impl Fn(f64) -> f64) -> Self {
         let mut values = self.0;
         for value in &mut values {
@@ -22,19 +21,16 @@ impl<const L: usize> Lanes<L> {
         Lanes(values)
     }
 
-    #[inline(always)]
     pub fn sqrt(self) -> Self {
         self.map(f64::sqrt)
     }
 
-    #[inline(always)]
     pub fn max(self, least: f64) -> Self {
         self.map(|value| value.max(least))
     }
 }
 
 impl<const L: usize> Default for Lanes<L> {
-    #[inline(always)]
     fn default() -> Self {
         Self::ZERO
     }
@@ -42,14 +38,12 @@ impl<const L: usize> Default for Lanes<L> {
 
 impl<const L: usize> Deref for Lanes<L> {
     type Target = [f64; L];
-    #[inline(always)]
     fn deref(&self) -> &[f64; L] {
         &self.0
     }
 }
 
 impl<const L: usize> DerefMut for Lanes<L> {
-    #[inline(always)]
     fn deref_mut(&mut self) -> &mut [f64; L] {
         &mut self.0
     }
@@ -59,7 +53,6 @@ macro_rules! operator {
     ($($trait:ident $name:ident $operator:tt;)*) => { $(
         impl<const L: usize> $trait for Lanes<L> {
             type Output = Self;
-            #[inline(always)]
             fn $name(self, other: Self) -> Self {
                 let mut values = self.0;
                 for k in 0..L {
@@ -70,14 +63,12 @@ macro_rules! operator {
         }
         impl<const L: usize> $trait<f64> for Lanes<L> {
             type Output = Self;
-            #[inline(always)]
             fn $name(self, other: f64) -> Self {
                 self.$name(Lanes([other; L]))
             }
         }
         impl<const L: usize> $trait<Lanes<L>> for f64 {
             type Output = Lanes<L>;
-            #[inline(always)]
             fn $name(self, other: Lanes<L>) -> Lanes<L> {
                 Lanes([self; L]).$name(other)
             }
@@ -87,7 +78,6 @@ macro_rules! operator {
 operator! { Add add +=; Sub sub -=; Mul mul *=; Div div /=; }
 
 impl<const L: usize> AddAssign for Lanes<L> {
-    #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
@@ -95,14 +85,12 @@ impl<const L: usize> AddAssign for Lanes<L> {
 
 impl<const L: usize> Neg for Lanes<L> {
     type Output = Self;
-    #[inline(always)]
     fn neg(self) -> Self {
         Self::ZERO - self
     }
 }
 
 impl<const L: usize> SubAssign for Lanes<L> {
-    #[inline(always)]
     fn sub_assign(&mut self, other: Self) {
         *self = *self - other;
     }

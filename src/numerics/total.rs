@@ -11,21 +11,18 @@ pub(crate) trait Zero: Copy {
 }
 
 impl Zero for f64 {
-    #[inline(always)]
     fn zero() -> f64 {
         0.0
     }
 }
 
 impl Zero for u64 {
-    #[inline(always)]
     fn zero() -> u64 {
         0
     }
 }
 
 impl<T: Zero, const N: usize> Zero for [T; N] {
-    #[inline(always)]
     fn zero() -> [T; N] {
         [T::zero(); N]
     }
@@ -47,7 +44,6 @@ pub(crate) trait Total<T> {
 }
 
 impl<T: Zero> Total<T> for [T] {
-    #[inline(always)]
     fn at(&self, index: usize) -> T {
         match self.get(index) {
             Some(value) => *value,
@@ -55,7 +51,6 @@ impl<T: Zero> Total<T> for [T] {
         }
     }
 
-    #[inline(always)]
     fn set(&mut self, index: usize, value: T) -> bool {
         match self.get_mut(index) {
             Some(place) => {
@@ -66,17 +61,14 @@ impl<T: Zero> Total<T> for [T] {
         }
     }
 
-    #[inline(always)]
     fn part<R: SliceIndex<[T], Output = [T]>>(&self, range: R) -> &[T] {
         self.get(range).unwrap_or_default()
     }
 
-    #[inline(always)]
     fn part_mut<R: SliceIndex<[T], Output = [T]>>(&mut self, range: R) -> &mut [T] {
         self.get_mut(range).unwrap_or_default()
     }
 
-    #[inline(always)]
     fn copy_from(&mut self, source: &[T]) {
         self.iter_mut().zip(source).for_each(|(place, value)| *place = *value);
     }
@@ -90,13 +82,11 @@ pub(crate) struct Stack<'a, T> {
 }
 
 impl<T: Zero> Stack<'_, T> {
-    #[inline(always)]
     pub fn push(&mut self, value: T) {
         self.depth += usize::from(self.values.set(self.depth, value));
     }
 
     /// The last value, if there is one.
-    #[inline(always)]
     pub fn top(&mut self) -> Option<&mut T> {
         self.values.get_mut(self.depth.checked_sub(1)?)
     }

@@ -55,7 +55,6 @@ impl Knot {
 }
 
 /// D/mu of a piece by its lengths in both coordinates: exactly ±1 in a slip zone, which is parallel to an axis.
-#[inline(always)]
 pub(crate) fn slope(falling: f64, rising: f64) -> f64 {
     match (falling > 0.0, rising > 0.0) {
         (false, false) => 0.0,
@@ -84,12 +83,10 @@ pub(crate) trait Diagram {
 
 /// A diagram that is read only: its changes are discarded.
 impl Diagram for &[[f64; 4]] {
-    #[inline(always)]
     fn knots(&self) -> &[[f64; 4]] {
         self
     }
 
-    #[inline(always)]
     fn replace<const N: usize>(&mut self, _: usize, _: [Knot; N]) {}
 }
 
@@ -103,7 +100,6 @@ struct End {
 
 impl End {
     /// The outermost knot, within Coulomb's bound, which a sum of forces may exceed by rounding.
-    #[inline(always)]
     fn knot(&self, force: f64) -> Knot {
         let (load, limit) = (self.normal.load, self.friction_coefficient * self.normal.load);
         let bounded = |force: f64| if force > limit { limit } else { force };
@@ -112,7 +108,6 @@ impl End {
 }
 
 /// The step to a closed contact with the given normal state at the displacement u.
-#[inline(always)]
 pub(crate) fn step(element: &Element, diagram: &mut impl Diagram, displacement: f64, normal: &Normal) -> Response {
     let mu = element.friction_coefficient;
     let (xi, eta) = (displacement - mu * normal.shift, displacement + mu * normal.shift);
@@ -129,7 +124,6 @@ pub(crate) fn step(element: &Element, diagram: &mut impl Diagram, displacement: 
 }
 
 /// Gross slip: one piece of slope ±mu.
-#[inline(always)]
 fn slip_grossly(diagram: &mut impl Diagram, displacement: f64, end: &End) -> Response {
     let &End { friction_coefficient: mu, xi, eta, normal: Normal { load, load_slope, .. } } = end;
     let knots = diagram.knots();
@@ -147,7 +141,6 @@ fn slip_grossly(diagram: &mut impl Diagram, displacement: f64, end: &End) -> Res
 }
 
 /// Everything sticks: a piece with D = Δu/ΔS from the outermost knot `inner`.
-#[inline(always)]
 fn stick(element: &Element, diagram: &mut impl Diagram, kept: usize, inner: &Knot, end: &End) -> Response {
     let &End { friction_coefficient: mu, xi, eta, normal: Normal { load, shift, load_slope, shift_slope } } = end;
     let (falling, rising) = (inner.xi - xi, eta - inner.eta);
@@ -170,7 +163,6 @@ fn stick(element: &Element, diagram: &mut impl Diagram, kept: usize, inner: &Kno
 }
 
 /// The piece from `inner` to `outer` leaves the quadrant through one of its sides, where a slip zone cuts it, or through its corner.
-#[inline(always)]
 fn cut(element: &Element, diagram: &mut impl Diagram, kept: usize, [inner, outer]: [&Knot; 2], end: &End) -> Response {
     let &End { friction_coefficient: mu, xi, eta, normal: Normal { load, load_slope, shift_slope, .. } } = end;
     let (falling, rising) = (inner.xi - outer.xi, outer.eta - inner.eta);
@@ -243,12 +235,10 @@ pub(crate) struct Polygon<'a> {
 }
 
 impl Diagram for Polygon<'_> {
-    #[inline(always)]
     fn knots(&self) -> &[[f64; 4]] {
         self.knots.part(..self.used)
     }
 
-    #[inline(always)]
     fn replace<const N: usize>(&mut self, kept: usize, new: [Knot; N]) {
         self.anew = kept == 0;
         self.used = kept;
@@ -263,7 +253,6 @@ impl Diagram for Polygon<'_> {
 }
 
 impl Polygon<'_> {
-    #[inline(always)]
     pub fn new(friction_coefficient: f64, knots: &mut [f64], used: usize) -> Polygon<'_> {
         let knots = knots.as_chunks_mut().0;
         Polygon { friction_coefficient, knots, used, anew: false, change: 0.0, error: 0.0 }

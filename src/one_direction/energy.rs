@@ -13,7 +13,6 @@
 use crate::element::{Curvature, Element};
 use crate::numerics::quadrature::{MAX_GAUSS_BLOCKS, gauss_legendre, gauss_rule};
 use crate::one_direction::diagram::Knot;
-use crate::simd::dispatch;
 
 /// The path of a step, straight in (S, u).
 #[derive(Debug, Clone, Copy)]
@@ -29,13 +28,11 @@ impl Path {
     }
 
     /// Rate of the boundary of a slip zone through a piece of slope D, of slip in the direction ±mu.
-    #[inline(always)]
     fn rate(&self, slope: f64, sign: f64) -> f64 {
         (self.displacement - sign * self.contact_rate()) / (slope - sign)
     }
 
     /// The direction ±mu in which slip starts at the edge of a piece of slope D; `None` if it does not.
-    #[inline(always)]
     fn direction_of_slip(&self, mu: f64, slope: f64) -> Option<f64> {
         let contact_rate = self.contact_rate();
         let grows = contact_rate > 0.0;
@@ -127,7 +124,6 @@ fn gross_slip(element: &Element, path: &Path, direction: Option<f64>, fraction: 
 }
 
 /// The mean of N between two shifts S >= 0.
-#[inline(always)]
 fn mean_load(element: &Element, [from, to]: [f64; 2]) -> f64 {
     let width = to - from;
     if width == 0.0 {
@@ -163,50 +159,47 @@ impl Slip {
     /// The inner integral is the remainder `N(S_b) - N(S_c) - N'(S_c)(S_b - S_c)`. Unless the slip zone is too narrow for this
     /// difference, the mean of the remainder along the path follows from N and N', or by parts from N and M.
     fn integral(&self, element: &Element) -> f64 {
-        dispatch!({
-            let [c0, c1] = self.inner;
-            let [b0, b1] = self.outer;
-            let (growth, swept) = (b1 - b0, c0 - c1);
-            if swept <= 0.0 {
-                return 0.0;
+        let [c0, c1] = self.inner;
+        let [b0, b1] = self.outer;
+        let (growth, swept) = (b1 - b0, c0 - c1);
+        if swept <= 0.0 {
+            return 0.0;
+        }
+        let widest = b0.max(b1);
+        let width = widest - c1;
+        if 2.5 * width < widest {
+            let room = room(element, c1, widest);
+            let longest;
+            let mut rules: Option<[&[Block]; 2]> = None;
+            if 1.5 * width < room {
+                let path_rule = gauss_rule(if 16.0 * swept.max(growth.abs()) < room { 1 } else { 2 });
+                rules = Some([path_rule, if 8.0 * width < room { &ZONE_RULE } else { &WIDE_ZONE_RULE }]);
+            } else if 8.0 * width < widest {
+                // A wider zone loses few digits, because N'' is large there.
+                longest = rules_near_the_largest_size();
+                rules = Some([&longest[0], &longest[1]]);
             }
-            let widest = b0.max(b1);
-            let width = widest - c1;
-            if 2.5 * width < widest {
-                let room = room(element, c1, widest);
-                let longest;
-                let mut rules: Option<[&[Block]; 2]> = None;
-                if 1.5 * width < room {
-                    let path_rule = gauss_rule(if 16.0 * swept.max(growth.abs()) < room { 1 } else { 2 });
-                    rules = Some([path_rule, if 8.0 * width < room { &ZONE_RULE } else { &WIDE_ZONE_RULE }]);
-                } else if 8.0 * width < widest {
-                    // A wider zone loses few digits, because N'' is large there.
-                    longest = rules_near_the_largest_size();
-                    rules = Some([&longest[0], &longest[1]]);
-                }
-                if let Some(rules) = rules {
-                    return self.integral_of_curvature(element, rules);
-                }
+            if let Some(rules) = rules {
+                return self.integral_of_curvature(element, rules);
             }
-            let inner = if 16.0 * swept < room(element, c1, c0) {
-                let [[nodes, weights]] = PATH_RULE;
-                let (loads, slopes) = element.loads_at::<true, 4>(&nodes.map(|node| c0 - node * swept));
-                let mut tangents = [0.0; 4];
-                for k in 0..4 {
-                    tangents[k] = loads[k] + slopes[k] * self.width(nodes[k]);
-                }
-                dot(&weights, &tangents)
-            } else {
-                let at = |s: f64, width: f64| element.load_under(s) * width;
-                let ends = at(c0, b0 - c0) - at(c1, b1 - c1);
-                ((growth + 2.0 * swept) * mean_load(element, [c0, c1]) + ends) / swept
-            };
-            swept * (mean_load(element, self.outer) - inner).max(0.0)
-        })
+        }
+        let inner = if 16.0 * swept < room(element, c1, c0) {
+            let [[nodes, weights]] = PATH_RULE;
+            let (loads, slopes) = element.loads_at::<true, 4>(&nodes.map(|node| c0 - node * swept));
+            let mut tangents = [0.0; 4];
+            for k in 0..4 {
+                tangents[k] = loads[k] + slopes[k] * self.width(nodes[k]);
+            }
+            dot(&weights, &tangents)
+        } else {
+            let at = |s: f64, width: f64| element.load_under(s) * width;
+            let ends = at(c0, b0 - c0) - at(c1, b1 - c1);
+            ((growth + 2.0 * swept) * mean_load(element, [c0, c1]) + ends) / swept
+        };
+        swept * (mean_load(element, self.outer) - inner).max(0.0)
     }
 
     /// Width of the slip zone after a fraction of the segment.
-    #[inline(always)]
     fn width(&self, fraction: f64) -> f64 {
         let ([c0, c1], [b0, b1]) = (self.inner, self.outer);
         (b0 - c0) + fraction * ((b1 - b0) + (c0 - c1))
@@ -214,7 +207,6 @@ impl Slip {
 
     /// The integral with the remainder as an integral of N'' > 0, free of cancellation: the square of the width of the slip zone
     /// times `∫ t N''(S_b - width t) dt`, t from 0 to 1.
-    #[inline(always)]
     fn integral_of_curvature(&self, element: &Element, [path_rule, zone_rule]: [&[Block]; 2]) -> f64 {
         let [b0, b1] = self.outer;
         let (mut sum, mut quarter) = (0.0, Curvature::new());
@@ -298,12 +290,10 @@ fn squared(block: Block) -> Block {
 
 /// Distance of an interval to the singularities of N(S): S = 0 and, where the compliance of a short contact vanishes, at least 0.7 % beyond
 /// the largest shift.
-#[inline(always)]
 fn room(element: &Element, low: f64, high: f64) -> f64 {
     low.min(1.007 * element.largest_shift - high)
 }
 
-#[inline(always)]
 fn dot(weights: &[f64; 4], values: &[f64; 4]) -> f64 {
     (weights[0] * values[0] + weights[1] * values[1]) + (weights[2] * values[2] + weights[3] * values[3])
 }

@@ -76,7 +76,6 @@ impl<'a> Layout<'a> for Workspace<'a> {
         self.sensitivity.rows.fill();
     }
 
-    #[inline(always)]
     fn take(size: Size, parts: &mut Parts<'a>) -> Result<Workspace<'a>, Error> {
         let Size { harmonics, samples: count, .. } = size;
         // At most one knot, piece and run per sample, and a few more.

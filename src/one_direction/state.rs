@@ -31,20 +31,17 @@ pub const fn state_length(pieces: usize) -> usize {
 const ERROR: usize = 8;
 
 impl Header {
-    #[inline(always)]
     fn read(&[_, _, displacement, input, load, shift, load_slope, shift_slope, error]: &[f64; HEADER]) -> Header {
         Header { displacement, input, normal: Normal { load, shift, load_slope, shift_slope }, error }
     }
 }
 
 /// Number of knots in use: one more than pieces.
-#[inline(always)]
 fn used_knots(&[_, pieces, ..]: &[f64; HEADER]) -> usize {
     count(pieces).unwrap_or(0) + 1
 }
 
 /// Header and knots in use of a state whose header was checked.
-#[inline(always)]
 pub(crate) fn read(state: &[f64]) -> (Header, &[[f64; PER_KNOT]]) {
     let (header, knots) = state.split_first_chunk().unwrap_or((&[0.0; HEADER], &[]));
     let knots = knots.as_chunks().0;
@@ -60,18 +57,15 @@ impl Law for OneDirection {
     const STATE: Kind = Kind::ElementState;
     const OTHER_STATE: Option<Kind> = Some(Kind::TwoDirectionsState);
 
-    #[inline(always)]
     fn check(element: &Element) -> Result<(), Error> {
         element.check_directions(Directions::One)
     }
 
-    #[inline(always)]
     fn contains_counted(state: &[f64]) -> bool {
         let pieces = state.get(1).copied().and_then(count);
         pieces.is_some_and(|pieces| pieces < state.len().saturating_sub(HEADER) / PER_KNOT)
     }
 
-    #[inline(always)]
     fn check_step(element: &Element, &[displacement, input]: &[f64; 2]) -> Result<(), Error> {
         check_displacement(displacement)?;
         element.check_normal(element.by_approach(), input)
@@ -112,7 +106,6 @@ impl Law for OneDirection {
         state.at(ERROR)
     }
 
-    #[inline(always)]
     fn copy_used(from: &[f64], to: &mut [f64]) {
         let used = HEADER + PER_KNOT * read(from).1.len();
         if let (Some(from), Some(to)) = (from.get(..used), to.get_mut(..used)) {
@@ -120,7 +113,6 @@ impl Law for OneDirection {
         }
     }
 
-    #[inline(always)]
     fn trial(element: &Element, state: &[f64], displacement: [f64; 2], requested: Requested) -> Step {
         let (header, mut knots) = read(state);
         step(element, &header, &mut knots, displacement, requested.energy).0

@@ -39,7 +39,6 @@ impl Crossing {
 }
 
 /// A step to a displacement that was checked, from a point and its diagram. Returns the step and the new point.
-#[inline(always)]
 pub(crate) fn step(
     element: &Element,
     from: &Header,

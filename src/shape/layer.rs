@@ -107,7 +107,6 @@ impl Layer {
     }
 
     /// dS2/dN \[m/N\].
-    #[inline(always)]
     pub fn compliance(&self, load: f64) -> f64 {
         self.tangential * self.softness(load)
     }
@@ -118,7 +117,6 @@ impl Layer {
     }
 
     /// Whether the stiffness is constant.
-    #[inline(always)]
     pub fn is_linear(&self) -> bool {
         self.stiffening == 0.0
     }

@@ -116,7 +116,6 @@ impl RoundedPunch {
     }
 
     /// Whether it is an ellipse.
-    #[inline(always)]
     pub fn is_elliptic(&self) -> bool {
         self.elliptic != 0
     }
@@ -148,7 +147,6 @@ impl RoundedPunch {
     }
 
     /// Decrease of the compliance with ln leg, and the derivative of this decrease with respect to ln leg.
-    #[inline(always)]
     pub fn decrease(&self) -> [f64; 2] {
         if self.is_elliptic() {
             let compliance = quotient(1.0, self.leg);

@@ -27,13 +27,11 @@ impl Reversed {
     pub const ZERO: Reversed = Reversed([0.0; 2 * ORDER]);
 
     /// Sets the coefficient k.
-    #[inline(always)]
     pub fn set(&mut self, k: usize, value: f64) {
         self.0.set((ORDER - 1).wrapping_sub(k), value);
     }
 
     /// Term k of the product with another series.
-    #[inline(always)]
     pub fn product_term(&self, other: &Series, k: usize) -> f64 {
         let reversed =
             self.0.get((ORDER - 1).wrapping_sub(k)..).and_then(<[f64]>::first_chunk).unwrap_or(&[0.0; ORDER]);
@@ -48,7 +46,6 @@ impl Reversed {
 
     /// Term k of this series as a quotient, from the terms before it, given term k of the numerator and the reciprocal of term 0 of the
     /// denominator.
-    #[inline(always)]
     pub fn quotient_term(&mut self, numerator: f64, denominator: &Series, reciprocal: f64, k: usize) -> f64 {
         let term = (numerator - self.product_term(denominator, k)) * reciprocal;
         self.set(k, term);

@@ -121,13 +121,11 @@ impl StickZones {
     }
 
     /// Whether there is a layer that is compliant in the tangential direction.
-    #[inline(always)]
     pub fn has_layer(&self) -> bool {
         self.layer.tangential > 0.0
     }
 
     /// λ of a size of the contact without its layer, accurate also for c close to b.
-    #[inline(always)]
     fn increase_of(&self, punch: &RoundedPunch) -> f64 {
         let size = punch.half_width * punch.half_width;
         if self.is_elliptic() {
@@ -169,7 +167,6 @@ impl StickZones {
     }
 
     /// The size with `1 - τ = remaining`, given λ of contact and layer to the rounding of Λ + λ, and its load g.
-    #[inline(always)]
     fn size_near(&self, remaining: f64, compliance_increase: f64) -> (RoundedPunch, f64) {
         let load = remaining * self.load;
         if self.is_elliptic() {
@@ -183,7 +180,6 @@ impl StickZones {
 
     /// The stick zone of a size with the load g and `1 - τ = g/g_b`. In the form Λ τ + h the consumed shift is no difference of two
     /// large terms if the curve is nearly straight; that of the layer, a logarithm which the iteration does not need, is not in it.
-    #[inline(always)]
     fn zone(&self, punch: &RoundedPunch, load: f64, remaining: f64) -> StickZone {
         let (full_stick, beta) = (self.contact.compliance, punch.beta(load));
         let (load, increase) = (Complement::of_remaining(remaining), self.increase_of(punch));
@@ -263,7 +259,6 @@ impl StickZones {
     /// The stick zone at a remaining shift, a last step of the size away: an expansion in which fourth powers of 2e-5, over the
     /// cube of the compliance if that is small, are below rounding. Third powers are not: those of the load, `dg/d leg = 4 leg ψ`,
     /// are included.
-    #[inline(always)]
     fn last_step(&self, now: &StickZone, punch: &RoundedPunch, step: f64, remaining: f64) -> (StickZone, RoundedPunch) {
         let (leg, c2) = (punch.leg, (punch.half_width * punch.half_width).max(TINY));
         let moved = punch.moved(step);

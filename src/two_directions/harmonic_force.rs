@@ -24,7 +24,6 @@ use crate::fourier::workspace::{Layout, Parts, Size};
 use crate::fourier::{angle, work};
 use crate::limits::check_coefficients;
 use crate::numerics::lanes::Lanes;
-use crate::simd::{dispatch, plus};
 use crate::tag::Kind;
 
 pub use crate::fourier::HarmonicOutput;
@@ -297,11 +296,11 @@ fn differentiate(
     terms.add(REFERENCE, contact, (step, motion.constant_load), [Some(&by_start[1]), Some(&by_end[1])], Some(nodes));
     let (contact, step, terms) = (&*contact, &*step, &*terms);
     let values = (step, &*springs);
-    let (by_parameters, force) = dispatch!({
+    let (by_parameters, force) = {
         let (by, mut changes) = ([Lanes::ZERO; 2], SpringChanges::<4>::ZERO);
         let force = propagate(contact, own_nodes, (motion, &by), values, &mut changes, Some(terms));
         (changes, tangent::bounded(*unbounded, contact.now.load, force, Some(terms.load)))
-    });
+    };
     let (forces_x, forces_y) = workspace.forces.split_at_mut(workspace.forces.len() / 2);
     let blocks = workspace.changes.as_chunks_mut::<COLUMNS>().0.as_chunks_mut::<CHANGES>().0;
     let [forces_x, forces_y] = [forces_x, forces_y].map(|forces| forces.as_chunks_mut::<COLUMNS>().0);
@@ -319,33 +318,31 @@ fn differentiate(
             parameters[START][lane] = if start.is_empty() { top } else { from };
             (parameters[END][lane], parameters[REFERENCE][lane]) = (to, by_top * top);
         }
-        dispatch!({
-            let with_parameters = |columns: Columns, slopes: &Lanes<4>| {
-                let mut columns = columns.0;
-                for p in 0..3 {
-                    let [block, ..] = columns.as_chunks_mut::<BLOCK>().0 else { return Lanes(columns) };
-                    *block = plus(*block, slopes[p], parameters[p]);
-                }
-                Lanes(columns)
-            };
-            let mut changes = SpringChanges::ZERO;
-            for k in 0..2 {
-                for j in 0..N {
-                    changes.v[k][j] = Lanes(columns[k * N + j]);
-                }
-                changes.edge[k] = Lanes(columns[2 * N + k]);
+        let with_parameters = |columns: Columns, slopes: &Lanes<4>| {
+            let mut columns = columns.0;
+            for p in 0..3 {
+                let [block, ..] = columns.as_chunks_mut::<BLOCK>().0 else { return Lanes(columns) };
+                *block = (Lanes(*block) + slopes[p] * Lanes(parameters[p])).0;
             }
-            let forces = propagate(contact, own_nodes, (motion, &by), values, &mut changes, None);
-            let forces = tangent::bounded(*unbounded, contact.now.load, forces, None);
-            for k in 0..2 {
-                for j in 0..N {
-                    columns[k * N + j] = with_parameters(changes.v[k][j], &by_parameters.v[k][j]).0;
-                }
-                columns[2 * N + k] = with_parameters(changes.edge[k], &by_parameters.edge[k]).0;
+            Lanes(columns)
+        };
+        let mut changes = SpringChanges::ZERO;
+        for k in 0..2 {
+            for j in 0..N {
+                changes.v[k][j] = Lanes(columns[k * N + j]);
             }
-            *to_x = with_parameters(forces[0], &force[0]).0;
-            *to_y = with_parameters(forces[1], &force[1]).0;
-        });
+            changes.edge[k] = Lanes(columns[2 * N + k]);
+        }
+        let forces = propagate(contact, own_nodes, (motion, &by), values, &mut changes, None);
+        let forces = tangent::bounded(*unbounded, contact.now.load, forces, None);
+        for k in 0..2 {
+            for j in 0..N {
+                columns[k * N + j] = with_parameters(changes.v[k][j], &by_parameters.v[k][j]).0;
+            }
+            columns[2 * N + k] = with_parameters(changes.edge[k], &by_parameters.edge[k]).0;
+        }
+        *to_x = with_parameters(forces[0], &force[0]).0;
+        *to_y = with_parameters(forces[1], &force[1]).0;
     }
 }
 
@@ -505,17 +502,15 @@ fn row(matrix: &[f64], n: usize, r: usize) -> &[f64] {
 
 /// Adds the derivatives of both forces times each value of the basis.
 fn accumulate(sums: &mut [f64], basis: &[f64], forces: &[f64]) {
-    dispatch!({
-        let half = forces.len() / 2;
-        let of_both = sums.chunks_exact_mut((half * basis.len()).max(1)).zip(forces.chunks_exact(half.max(1)));
-        for (sums, forces) in of_both {
-            for (sums, value) in sums.chunks_exact_mut(half.max(1)).zip(basis) {
-                for (sums, forces) in sums.as_chunks_mut::<4>().0.iter_mut().zip(forces.as_chunks::<4>().0) {
-                    for k in 0..4 {
-                        sums[k] += value * forces[k];
-                    }
+    let half = forces.len() / 2;
+    let of_both = sums.chunks_exact_mut((half * basis.len()).max(1)).zip(forces.chunks_exact(half.max(1)));
+    for (sums, forces) in of_both {
+        for (sums, value) in sums.chunks_exact_mut(half.max(1)).zip(basis) {
+            for (sums, forces) in sums.as_chunks_mut::<4>().0.iter_mut().zip(forces.as_chunks::<4>().0) {
+                for k in 0..4 {
+                    sums[k] += value * forces[k];
                 }
             }
         }
-    });
+    }
 }

@@ -5,7 +5,6 @@ use crate::numerics::guard::TINY;
 use crate::numerics::lanes::Lanes;
 
 /// Σ x_m matrix[m], of the rows from one to another.
-#[inline(always)]
 pub(super) fn times(matrix: &Matrix, [first, end]: [usize; 2], x: &Row) -> Row {
     let mut y = Row::ZERO;
     for m in first..end.min(N) {
@@ -17,7 +16,6 @@ pub(super) fn times(matrix: &Matrix, [first, end]: [usize; 2], x: &Row) -> Row {
 /// Inverts the sum of a matrix and a diagonal in place, by Gauss-Jordan elimination with pivots of two rows, for the points from one to
 /// another. Single elements are chosen by their place in the lanes: a vector that is loaded right after one of its elements was stored
 /// would wait for it.
-#[inline(always)]
 pub(super) fn invert(matrix: &mut Matrix, diagonal: &Row, [first, end]: [usize; 2]) {
     for h in 0..N / 2 {
         let (p, q, mut keep) = (2 * h, 2 * h + 1, Lanes([1.0; N]));

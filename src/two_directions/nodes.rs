@@ -37,8 +37,7 @@ pub(crate) type Row = Lanes<N>;
 pub(crate) type Both<T> = [T; 2];
 pub(crate) type Matrix = [Row; N];
 
-/// The values of a function of the direction. Inlined, unlike a map of an array, whose closure would be compiled for the baseline.
-#[inline(always)]
+/// The values of a function of the direction.
 pub(crate) fn both<T>(value: impl Fn(usize) -> T) -> Both<T> {
     [value(0), value(1)]
 }
@@ -172,7 +171,6 @@ pub(crate) fn fill(nodes: &mut Nodes, element: &Element, units: &Units, referenc
 }
 
 /// F_ij of shell j up to a size with w²: `ψ_j [√(w² - x²) - √(w_j² - x²)]`, the second root 0 if x is beyond, free of cancellation.
-#[inline(always)]
 pub(crate) fn pressure(nodes: &Nodes, j: usize, to: f64, i: usize) -> f64 {
     let (upper, lower) = (to - nodes[POINTS][i], nodes[SIZE][j] - nodes[POINTS][i]);
     let (height, inner) = (root(upper), root(lower));
@@ -182,7 +180,6 @@ pub(crate) fn pressure(nodes: &Nodes, j: usize, to: f64, i: usize) -> f64 {
 }
 
 /// Its derivative by a parameter, from those of w² and of the nodes.
-#[inline(always)]
 pub(crate) fn pressure_slope(nodes: &Nodes, by: Option<&Nodes>, j: usize, [to, by_to]: [f64; 2], i: usize) -> f64 {
     let slope = |row: usize, i: usize| by.map_or(0.0, |nodes| nodes[row][i]);
     let (upper, lower) = (to - nodes[POINTS][i], nodes[SIZE][j] - nodes[POINTS][i]);
@@ -193,7 +190,6 @@ pub(crate) fn pressure_slope(nodes: &Nodes, by: Option<&Nodes>, j: usize, [to, b
 }
 
 /// F at the own point of the last shell, which lies at the same part of it as in a whole shell.
-#[inline(always)]
 pub(crate) fn pressure_at_edge(nodes: &Nodes, j: usize, to: f64) -> f64 {
     let flat = -nodes[SIZE][0];
     let [outer, inner] = [to, nodes[SIZE][j]].map(|square| root(square + flat));
@@ -203,7 +199,6 @@ pub(crate) fn pressure_at_edge(nodes: &Nodes, j: usize, to: f64) -> f64 {
 }
 
 /// Its derivative by a parameter, from those of w² and of the nodes.
-#[inline(always)]
 pub(crate) fn pressure_at_edge_slope(nodes: &Nodes, by: Option<&Nodes>, j: usize, [to, by_to]: [f64; 2]) -> f64 {
     let slope = |row: usize, i: usize| by.map_or(0.0, |nodes| nodes[row][i]);
     let (flat, at) = (-nodes[SIZE][0], pressure_at_edge(nodes, j, to));
@@ -220,7 +215,6 @@ pub(crate) fn pressure_at_edge_slope(nodes: &Nodes, by: Option<&Nodes>, j: usize
 }
 
 /// F_ij cut so that F_ij/ΔS_j does not exceed that of the shell before, given the ratios of ΔS of both.
-#[inline(always)]
 pub(crate) fn bounded(pressure: f64, before: f64, steps: Both<f64>) -> f64 {
     let bound = before * if steps[0] < steps[1] { steps[0] } else { steps[1] };
     if pressure < bound { pressure } else { bound }

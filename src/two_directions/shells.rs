@@ -80,7 +80,6 @@ pub(crate) struct Shells {
 }
 
 impl Shells {
-    #[inline(always)]
     pub fn new(nodes: &Nodes, now: &Pressed) -> Shells {
         let last = last_node(nodes, now.inside_shift[0] * (1.0 - THINNEST)).min(N - 1);
         let mut shells = Shells::before(nodes, first_shell(nodes), last);
@@ -89,7 +88,6 @@ impl Shells {
     }
 
     /// The shells from one to the one before the last one.
-    #[inline(always)]
     pub fn before(nodes: &Nodes, first: usize, last: usize) -> Shells {
         let mut shells = Shells { first, last: last.min(N - 1), ..Shells::default() };
         for j in 0..shells.last {
@@ -102,7 +100,6 @@ impl Shells {
     }
 
     /// The last shell.
-    #[inline(always)]
     fn set_last(&mut self, nodes: &Nodes, now: &Pressed) {
         let last = self.last.min(N - 1);
         let (before, mut steps) = (last.max(1) - 1, [0.0; 2]);
@@ -124,7 +121,6 @@ impl Shells {
     }
 
     /// Derivatives of the last shell, from those of the normal state and of the nodes by one parameter.
-    #[inline(always)]
     pub fn set_last_slopes(
         &mut self,
         nodes: &Nodes,
@@ -165,7 +161,6 @@ impl Shells {
     }
 
     /// F_ij of a shell, given the tables of nodes; 0 before the last shell without.
-    #[inline(always)]
     fn pressure(&self, nodes: Option<&Nodes>, j: usize) -> Row {
         match nodes {
             _ if j == self.last => self.last_pressure,
@@ -175,13 +170,11 @@ impl Shells {
     }
 
     /// F_ij of a shell in the middle of a step.
-    #[inline(always)]
     pub fn middle_pressure([from, to]: [&Shells; 2], nodes: Option<&Nodes>, j: usize) -> Row {
         0.5 * (from.pressure(nodes, j) + to.pressure(nodes, j))
     }
 
     /// The contact in the middle of a step: the means of the shells at both ends.
-    #[inline(always)]
     pub fn middle([from, to]: [&Shells; 2]) -> Shells {
         let mut middle = Shells { first: to.first, last: from.last.max(to.last), ..Shells::default() };
         for k in 0..2 {
@@ -192,13 +185,11 @@ impl Shells {
     }
 
     /// The shells, and springs, from the first to the last one.
-    #[inline(always)]
     pub fn range(&self) -> Range<usize> {
         self.first.min(FLAT_EDGE)..(self.last + 1).min(N)
     }
 
     /// k_j in a direction, given 1/ΔS_j.
-    #[inline(always)]
     pub fn stiffness(&self, k: usize, per_shift: &Row) -> Row {
         let (secant, mut stiffness) = (self.load[k] * *per_shift, Row::ZERO);
         let mut before = 0.0;
@@ -213,7 +204,6 @@ impl Shells {
 }
 
 /// v_j - v_{j+1}: the springs beyond the edge are 0.
-#[inline(always)]
 pub(crate) fn falls(v: &Row) -> Row {
     let mut falls = *v;
     for j in 0..N - 1 {
@@ -239,7 +229,6 @@ pub(crate) struct Springs {
 
 impl Springs {
     /// Sets the springs in the middle between shells: at the end of a step, between the same ones.
-    #[inline(always)]
     pub fn set(&mut self, nodes: &Nodes, ends: [&Shells; 2]) {
         let Springs { shells, pressure, per_pressure, per_shift, stiffness, inverse } = self;
         *shells = Shells::middle(ends);
@@ -273,7 +262,6 @@ impl Springs {
     }
 
     /// q of springs.
-    #[inline(always)]
     pub fn tractions(&self, v: &Both<Row>) -> Both<Row> {
         let mut q = [Row::ZERO; 2];
         let falls = both(|k| falls(&v[k]) * self.per_shift[k]);

@@ -75,7 +75,6 @@ pub(crate) struct Points {
 
 impl Slip {
     /// Finds the slip from a trial state of springs under a load. The derivatives of slip are prepared if they are requested.
-    #[inline(always)]
     pub fn find(&mut self, springs: &Springs, trial: &Both<Row>, load: f64, derivatives: bool) {
         let q = springs.tractions(trial);
         let ([x, y], mut beyond) = directions(&q);
@@ -105,7 +104,6 @@ impl Slip {
     }
 
     /// Newton's method from present directions; whether it converged.
-    #[inline(always)]
     fn newton(&mut self, springs: &Springs, trial: &Both<Row>, q: &Both<Row>, load: f64, derivatives: bool) -> bool {
         let Slip { points, metric, inverse, kept, known, .. } = self;
         let mut steps = 0;
@@ -161,7 +159,6 @@ impl Slip {
 
 impl Points {
     /// Slip across and along these directions: the former is the residual. Tractions of points that stick.
-    #[inline(always)]
     fn residual(&mut self, metric: &Both<Matrix>, q: &Both<Row>, range: [usize; 2]) -> [Row; 2] {
         let inside = lanes_of(within(range)) * (1.0 - self.slips);
         for k in 0..2 {
@@ -174,7 +171,6 @@ impl Points {
     }
 
     /// Sets J⁻¹; the identity at points that stick.
-    #[inline(always)]
     fn set_inverse(&self, inverse: &mut Matrix, metric: &Both<Matrix>, along: &Row, [first, end]: [usize; 2]) {
         let [x, y] = [self.slips * self.e[0], self.slips * self.e[1]];
         let diagonal = self.slips * *along + (1.0 - self.slips);
@@ -185,7 +181,6 @@ impl Points {
     }
 
     /// Turns the directions, by Cayley's formula.
-    #[inline(always)]
     fn turn(&mut self, turns: &Row) {
         let ([x, y], half) = (self.e, 0.5 * *turns);
         let scale = 1.0 / (1.0 + half * half);
@@ -194,7 +189,6 @@ impl Points {
     }
 
     /// The springs after slip. Points beyond the limit slip, and those whose slip is against the traction stick: whether any has changed.
-    #[inline(always)]
     fn review(&mut self, springs: &Springs, metric: &Both<Matrix>, trial: &Both<Row>, q: &Both<Row>) -> bool {
         let before = self.set;
         self.v = *trial;
@@ -225,7 +219,6 @@ impl Points {
 }
 
 /// Directions of tractions, and the points whose tractions exceed Coulomb's bound.
-#[inline(always)]
 fn directions([x, y]: &Both<Row>) -> (Both<Row>, Set) {
     let square = *x * *x + *y * *y;
     let per_length = 1.0 / square.max(TINY).sqrt();
@@ -233,7 +226,6 @@ fn directions([x, y]: &Both<Row>) -> (Both<Row>, Set) {
 }
 
 /// The points at which values exceed a limit.
-#[inline(always)]
 fn members(values: &Row, limit: f64) -> Set {
     let mut set = 0;
     for i in 0..N {
@@ -243,7 +235,6 @@ fn members(values: &Row, limit: f64) -> Set {
 }
 
 /// Sets `K = C⁻¹'k C⁻¹` in a direction, of the springs from one on.
-#[inline(always)]
 fn set_full_metric(metric: &mut Matrix, springs: &Springs, k: usize, first: usize) {
     for m in first..springs.shells.range().end {
         let mut row = Row::ZERO;
@@ -256,7 +247,6 @@ fn set_full_metric(metric: &mut Matrix, springs: &Springs, k: usize, first: usiz
 }
 
 /// Sets K of a set of points, the innermost of which is the first of a range: the others in it are eliminated.
-#[inline(always)]
 fn set_metric(metric: &mut Both<Matrix>, springs: &Springs, [first, end]: [usize; 2], set: Set) {
     for k in 0..2 {
         set_full_metric(&mut metric[k], springs, k, first);
@@ -269,7 +259,6 @@ fn set_metric(metric: &mut Both<Matrix>, springs: &Springs, [first, end]: [usize
 }
 
 /// 1 at the points of a set, 0 at others.
-#[inline(always)]
 pub(crate) fn lanes_of(set: Set) -> Row {
     let mut row = Row::ZERO;
     for i in 0..N {
@@ -279,13 +268,11 @@ pub(crate) fn lanes_of(set: Set) -> Row {
 }
 
 /// The points of a range.
-#[inline(always)]
 pub(crate) fn within([first, end]: [usize; 2]) -> Set {
     ((1 << end.min(31)) - 1) & !((1 << first.min(31)) - 1)
 }
 
 /// Eliminates a point from a symmetric matrix: what is left of it between others, its row times its reciprocal, and minus this reciprocal.
-#[inline(always)]
 fn eliminate(matrix: &mut Matrix, i: usize, [first, end]: [usize; 2]) {
     let i = i.min(N - 1);
     let per_pivot = 1.0 / matrix[i][i].max(TINY);
@@ -330,7 +317,6 @@ fn sweep(springs: &Springs, trial: &Both<Row>, q: &mut Both<Row>) -> (Both<Row>,
 }
 
 /// Σ x_i y_i, in an order of vectors.
-#[inline(always)]
 pub(crate) fn dot(x: &Row, y: &Row) -> f64 {
     let product = *x * *y;
     let mut sums = Lanes::<4>::ZERO;
@@ -343,7 +329,6 @@ pub(crate) fn dot(x: &Row, y: &Row) -> f64 {
 }
 
 /// The largest size, in an order of vectors.
-#[inline(always)]
 fn largest(x: &Row) -> f64 {
     let mut sizes = Lanes::<4>::ZERO;
     for b in 0..N / 4 {

@@ -27,7 +27,6 @@ use crate::limits::check_displacement;
 use crate::numerics::fp_class::is_finite;
 use crate::numerics::guard::TINY;
 use crate::numerics::lanes::Lanes;
-use crate::simd::dispatch;
 use crate::tag::Kind;
 
 /// The largest load of the nodes over the present one that gross slip does not forget: nodes of such a load are accurate enough.
@@ -59,12 +58,10 @@ impl Law for TwoDirections {
     const STATE: Kind = Kind::TwoDirectionsState;
     const OTHER_STATE: Option<Kind> = Some(Kind::ElementState);
 
-    #[inline(always)]
     fn check(element: &Element) -> Result<(), Error> {
         element.check_directions(Directions::Two)
     }
 
-    #[inline(always)]
     fn check_step(element: &Element, &[u, v, input]: &[f64; 3]) -> Result<(), Error> {
         check_displacement(u)?;
         check_displacement(v)?;
@@ -97,9 +94,9 @@ impl Law for TwoDirections {
         let turned = memory.turned.as_flattened().iter().all(|tangent| tangent.abs() <= 1.0);
         let contact = Contact::new(nodes, &at.pressed);
         let within = (0..2).all(|k| {
-            let (limits, rounding) = (contact.limits(nodes, k), 1e-9 * now.shift[k] + 1e-30);
+            let (limits, rounding) = (contact.limits(nodes)[k], 1e-9 * now.shift[k] + 1e-30);
             springs.v[k].iter().zip(limits.iter()).all(|(v, limit)| v.abs() <= limit + rounding)
-                && springs.edge[k].abs() <= contact.edge_limit(k) + rounding
+                && springs.edge[k].abs() <= contact.edge_limits()[k] + rounding
         });
         let [.., all_digits, _, _, _, _, _, _, _] = memory.header[0];
         let positive = positive.iter().all(|value| *value > 0.0);
@@ -110,7 +107,6 @@ impl Law for TwoDirections {
         }
     }
 
-    #[inline(always)]
     fn trial(element: &Element, old: &[f64], displacement: [f64; 3], requested: Requested) -> super::Step {
         let mut copy = [0.0; LENGTH];
         Self::copy_used(old, &mut copy);
@@ -150,7 +146,6 @@ struct State<'a> {
 }
 
 impl State<'_> {
-    #[inline(always)]
     fn of(state: &mut [f64]) -> Option<State<'_>> {
         let (header, rest) = state.as_chunks_mut::<N>().0.split_first_chunk_mut()?;
         let (v, rest) = rest.split_first_chunk_mut()?;
@@ -158,7 +153,6 @@ impl State<'_> {
         Some(State { header, v, turned, nodes: rest.first_chunk_mut()? })
     }
 
-    #[inline(always)]
     fn place(&self) -> Place {
         let [first, [now @ .., _, _, _, _, _, _, a, b, c, d, e, f, g]] = *self.header;
         let [_, normal_force, load_slope, v, u, input, key, load, shift, size, ..] = first;
@@ -172,13 +166,11 @@ impl State<'_> {
         }
     }
 
-    #[inline(always)]
     fn springs(&self) -> Displacements {
         let ([x, y], [.., edge_x, edge_y, _, _, _, _, _, _, _, _]) = (*self.v, self.header[0]);
         Displacements { v: [Lanes(x), Lanes(y)], edge: [edge_x, edge_y] }
     }
 
-    #[inline(always)]
     fn write(&mut self, at: &Place, springs: &Displacements) {
         let Place { displacement: [u, v, input], normal_force, load_slope, key, units, pressed } = *at;
         let Units { load, shift, size } = units;
@@ -322,7 +314,6 @@ impl Place {
     }
 
     /// The load of the nodes after a step with this force. Gross slip in one direction forgets an overload, as the innermost spring slips.
-    #[inline(always)]
     fn remembered_load(&self, contact: &Contact, step: &Step, springs: &Displacements, force: Both<f64>) -> f64 {
         let (load, largest) = (REMEMBERED * self.normal_force, self.units.load);
         if largest <= load {
@@ -377,11 +368,11 @@ fn tangent(
             Some(&by_nodes),
         );
     }
-    let slopes = dispatch!({
+    let slopes = {
         let (motion, values) = ((motion, &by), (step, springs));
         let force_slopes = propagate(contact, nodes, motion, values, &mut changes, Some(&terms));
         tangent::bounded(force, contact.now.load, force_slopes, Some(terms.load))
-    });
+    };
     // The size is the reference size.
     slopes
         .map(|slopes| [slopes[END] + 0.5 * contact.slopes.size * slopes[REFERENCE], slopes[ALONG[0]], slopes[ALONG[1]]])
@@ -401,8 +392,9 @@ impl Outgrown {
         let (ratio, first) = (self.units.shift / units.shift, self.contact.shells.first.min(FLAT_EDGE));
         let last = last_node(nodes, now.inside_shift[0]);
         let mut new = Displacements { edge: self.springs.edge.map(|edge| ratio * edge), ..Displacements::default() };
+        let limits = self.contact.limits(&self.nodes);
         for k in 0..2 {
-            let (limits, old) = (self.contact.limits(&self.nodes, k), &self.springs.v[k]);
+            let (limits, old) = (limits[k], &self.springs.v[k]);
             for j in first..FLAT_EDGE {
                 new.v[k][j] = ratio * old[j];
             }

@@ -16,7 +16,6 @@ use super::shells::{Pressed, Shells, Springs};
 use super::slip::{Slip, dot, lanes_of, within};
 use crate::numerics::guard::{TINY, root};
 use crate::numerics::lanes::Lanes;
-use crate::simd::dispatch;
 
 /// A contact under a load: its normal state, with derivatives by the normal component over its scale, and its shells.
 #[derive(Debug, Clone, Copy, Default)]
@@ -32,19 +31,16 @@ impl Contact {
     }
 
     /// The limits S_b - S_j of the springs, 0 beyond the edge.
-    #[inline(always)]
-    pub fn limits(&self, nodes: &Nodes, k: usize) -> Row {
-        self.used() * (self.now.shift[k] - Lanes(nodes[SHIFT + k]))
+    pub fn limits(&self, nodes: &Nodes) -> Both<Row> {
+        both(|k| self.used() * (self.now.shift[k] - Lanes(nodes[SHIFT + k])))
     }
 
     /// The limit of the spring at the edge.
-    #[inline(always)]
-    pub fn edge_limit(&self, k: usize) -> f64 {
-        self.now.shift[k] - self.now.inside_shift[k]
+    pub fn edge_limits(&self) -> Both<f64> {
+        both(|k| self.now.shift[k] - self.now.inside_shift[k])
     }
 
     /// 1 for the springs in use, 0 for others.
-    #[inline(always)]
     pub fn used(&self) -> Row {
         lanes_of(within([self.shells.first, self.shells.last + 1]))
     }
@@ -87,7 +83,6 @@ pub(crate) struct Far {
 }
 
 impl Far {
-    #[inline(always)]
     fn new(to: &Contact, motion: &Motion, old: &Displacements) -> Far {
         let (mut by, mut cut, mut ratio) = (motion.by, [0.0; 2], [0.0; 2]);
         for k in 0..2 {
@@ -121,7 +116,6 @@ pub(crate) struct Released {
 }
 
 impl Released {
-    #[inline(always)]
     pub fn new(limit: Both<f64>, fall: f64, trial: Both<f64>) -> Released {
         let ratio = both(|k| trial[k] / limit[k].max(LEAST));
         let length = (ratio[0] * ratio[0] + ratio[1] * ratio[1]).sqrt();
@@ -171,36 +165,33 @@ impl Step {
         springs: &mut Displacements,
         derivatives: bool,
     ) -> Both<f64> {
-        dispatch!({
-            if !motion.constant_load || self.springs.shells.last != to.shells.last {
-                self.springs.set(nodes, [&to.shells; 2]);
+        if !motion.constant_load || self.springs.shells.last != to.shells.last {
+            self.springs.set(nodes, [&to.shells; 2]);
+        }
+        self.old = *springs;
+        self.far = Far::new(to, motion, springs);
+        self.stick(nodes, to, motion);
+        if self.far.part < 1.0 {
+            self.slip(nodes, [from, to], motion, derivatives);
+        } else {
+            (self.middle.points.set, self.end.points.set) = (0, 0);
+        }
+        let (mut force, rest) = ([0.0; 2], 1.0 - self.far.part);
+        self.move_edge([from, to], motion, springs);
+        for k in 0..2 {
+            springs.v[k] = self.end.points.v[k];
+            if self.far.part > 0.0 {
+                let gross_slip = self.far.part * self.far.e[k] * to.limits(nodes)[k];
+                springs.v[k] = rest * self.end.points.v[k] + gross_slip;
             }
-            self.old = *springs;
-            self.far = Far::new(to, motion, springs);
-            self.stick(nodes, to, motion);
-            if self.far.part < 1.0 {
-                self.slip(nodes, [from, to], motion, derivatives);
-            } else {
-                (self.middle.points.set, self.end.points.set) = (0, 0);
-            }
-            let (mut force, rest) = ([0.0; 2], 1.0 - self.far.part);
-            self.move_edge([from, to], motion, springs);
-            for k in 0..2 {
-                springs.v[k] = self.end.points.v[k];
-                if self.far.part > 0.0 {
-                    let gross_slip = self.far.part * self.far.e[k] * to.limits(nodes, k);
-                    springs.v[k] = rest * self.end.points.v[k] + gross_slip;
-                }
-                force[k] = dot(&self.springs.stiffness[k], &springs.v[k]) + to.shells.edge[k] * springs.edge[k];
-            }
-            force
-        })
+            force[k] = dot(&self.springs.stiffness[k], &springs.v[k]) + to.shells.edge[k] * springs.edge[k];
+        }
+        force
     }
 
     /// The trial state, in which nothing slips.
-    #[inline(always)]
     fn stick(&mut self, nodes: &Nodes, to: &Contact, motion: &Motion) {
-        let limits = both(|k| to.limits(nodes, k));
+        let limits = to.limits(nodes);
         for k in 0..2 {
             self.parts[k] = Lanes([1.0; N]);
             let rise = to.now.shift[k] - motion.before[k];
@@ -223,7 +214,6 @@ impl Step {
     }
 
     /// Slip in the middle and at the end.
-    #[inline(always)]
     fn slip(&mut self, nodes: &Nodes, [from, to]: [&Contact; 2], motion: &Motion, derivatives: bool) {
         let half = both(|k| 0.5 * (self.old.v[k] + self.trial[k]));
         if motion.constant_load {
@@ -238,13 +228,12 @@ impl Step {
     }
 
     /// The spring at the edge is another one under another load: a rising load keeps that part of it which is still at the edge.
-    #[inline(always)]
     fn move_edge(&mut self, [from, to]: [&Contact; 2], motion: &Motion, springs: &mut Displacements) {
-        let limit = [to.edge_limit(0).max(LEAST), to.edge_limit(1).max(LEAST)];
+        let [limit, before] = [to, from].map(|contact| contact.edge_limits().map(|limit| limit.max(LEAST)));
         for k in 0..2 {
             let rise = to.now.shift[k] - motion.before[k];
             self.edge.part[k] = limit[k] / rise.max(limit[k]);
-            self.edge.before[k] = from.edge_limit(k).max(LEAST);
+            self.edge.before[k] = before[k];
             self.edge.kept[k] = ((limit[k] - rise) / self.edge.before[k]).clamp(0.0, 1.0);
             let old = self.edge.kept[k] * self.old.edge[k];
             self.edge.ratio[k] = (old + self.edge.part[k] * motion.by[k]) / limit[k];
@@ -263,7 +252,6 @@ impl Step {
 pub(crate) const ROUNDING: f64 = 1.0 + 1e-12;
 
 /// A force within Coulomb's bound.
-#[inline(always)]
 pub(crate) fn bounded(force: Both<f64>, bound: f64) -> Both<f64> {
     let length = (force[0] * force[0] + force[1] * force[1]).sqrt();
     let scale = if length > bound { bound / length.max(TINY) } else { 1.0 };
@@ -286,7 +274,7 @@ pub(crate) fn dissipated(
     let mut energy =
         if to.now.shift[0] < from.now.shift[0] { separated(nodes, from, &to.now, motion.by, &step.old) } else { 0.0 };
     if step.middle.points.set != 0 || step.end.points.set != 0 || step.far.part > 0.0 {
-        let limits = both(|k| to.limits(nodes, k));
+        let limits = to.limits(nodes);
         let follow = both(|k| step.old.v[k] + step.parts[k] * motion.by[k]);
         for j in to.shells.range() {
             let per_limit = both(|k| 1.0 / limits[k][j].max(LEAST));
@@ -318,7 +306,7 @@ pub(crate) fn dissipated(
 pub(crate) fn separated(nodes: &Nodes, from: &Contact, now: &Pressed, by: Both<f64>, old: &Displacements) -> f64 {
     let mut energy = 0.0;
     let fall = both(|k| from.now.shift[k] - now.shift[k]);
-    let limits = both(|k| from.limits(nodes, k));
+    let limits = from.limits(nodes);
     let stiffness = both(|k| from.shells.stiffness(k, &(1.0 / from.shells.shift[k].max(TINY))));
     for j in from.shells.range() {
         if now.load > 0.0 && nodes[SHIFT][j] < now.shift[0] {
@@ -338,7 +326,6 @@ pub(crate) fn separated(nodes: &Nodes, from: &Contact, now: &Pressed, by: Both<f
 }
 
 /// The first x in [0, 1] at which `a x² + 2 b x + c` becomes positive; 1 if there is none.
-#[inline(always)]
 fn first_exceedance(a: f64, b: f64, c: f64) -> f64 {
     let root = root(b * b - a * c);
     // Quotients are at most 1 by their divisors: others may overflow.

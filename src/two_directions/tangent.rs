@@ -10,10 +10,9 @@
 use super::nodes::{Both, FLAT_EDGE, Matrix, N, NEIGHBOUR, Nodes, Row, SHIFT, both};
 use super::shells::{Pressed, Shells, Springs, falls};
 use super::slip::{Set, Slip, dot, within};
-use super::step::{Contact, Far, LEAST, Motion, Released, Step};
+use super::step::{Contact, LEAST, Motion, Released, Step};
 use crate::numerics::guard::TINY;
 use crate::numerics::lanes::Lanes;
-use crate::simd::dispatch;
 
 /// Changes of each spring.
 pub(crate) type Changes<const L: usize> = [Lanes<L>; N];
@@ -107,7 +106,6 @@ impl<const L: usize> SlipTerms<L> {
     };
 
     /// Adds a parameter, by which the shells from one on, and the nodes, have derivatives.
-    #[inline(always)]
     fn add(
         &mut self,
         lane: usize,
@@ -132,7 +130,8 @@ impl<const L: usize> SlipTerms<L> {
             for j in shells.range() {
                 let mut sum = 0.0;
                 if j >= from {
-                    let row = Shells::middle_pressure(ends, nodes, j) - by.shift[k][j] * per_shift[j] * springs.pressure[j];
+                    let row =
+                        Shells::middle_pressure(ends, nodes, j) - by.shift[k][j] * per_shift[j] * springs.pressure[j];
                     tractions += falls[j] * row;
                     sum = per_shift[j] * dot(&slipped, &row);
                 }
@@ -150,7 +149,6 @@ impl<const L: usize> SlipTerms<L> {
 }
 
 /// Derivatives of k_j.
-#[inline(always)]
 fn stiffness_slopes(springs: &Springs, k: usize, by: &Shells) -> Row {
     let secants = (by.load[k] - springs.shells.load[k] * springs.per_shift[k] * by.shift[k]) * springs.per_shift[k];
     let mut stiffness = secants;
@@ -184,39 +182,36 @@ impl<const L: usize> Terms<L> {
         [from, to]: [Option<&ContactSlopes>; 2],
         nodes: Option<&Nodes>,
     ) {
-        dispatch!({
-            let none = Shells::default();
-            let ends = [from, to].map(|by| by.map_or(&none, |by| &by.shells));
-            let between = if constant_load { &step.springs } else { &step.between };
-            // By the load, only the last shells have derivatives.
-            let lasts = [from, to].map(|by| by.map_or(N, |by| by.shells.last));
-            let first = if nodes.is_some() { 0 } else { lasts[0].min(lasts[1]) };
-            let half = both(|k| 0.5 * (step.old.v[k] + step.trial[k]));
-            self.middle.add(lane, between, (ends, nodes, first), &half, &step.middle);
-            let used = contact.used();
-            let beyond = both(|k| used * (2.0 * step.middle.points.v[k] - step.old.v[k]));
-            self.end.add(lane, &step.springs, ([ends[1]; 2], nodes, first), &beyond, &step.end);
-            let lane = lane % L;
-            for k in 0..2 {
-                let stiffness = stiffness_slopes(&step.springs, k, ends[1]);
-                for j in 0..N {
-                    self.stiffness[k][j][lane] = stiffness[j];
-                    self.nodes[k][j][lane] = nodes.map_or(0.0, |nodes| nodes[SHIFT + k][j]);
-                }
-                self.before[k][lane] = from.map_or(0.0, |by| by.shift[k]);
-                self.edge_stiffness[k][lane] = ends[1].edge[k];
-                self.now[k][lane] = to.map_or(0.0, |by| by.shift[k]);
-                self.edge_limit[k][lane] = to.map_or(0.0, |by| by.edge_limit[k]);
-                self.edge_before[k][lane] = from.map_or(0.0, |by| by.edge_limit[k]);
+        let none = Shells::default();
+        let ends = [from, to].map(|by| by.map_or(&none, |by| &by.shells));
+        let between = if constant_load { &step.springs } else { &step.between };
+        // By the load, only the last shells have derivatives.
+        let lasts = [from, to].map(|by| by.map_or(N, |by| by.shells.last));
+        let first = if nodes.is_some() { 0 } else { lasts[0].min(lasts[1]) };
+        let half = both(|k| 0.5 * (step.old.v[k] + step.trial[k]));
+        self.middle.add(lane, between, (ends, nodes, first), &half, &step.middle);
+        let used = contact.used();
+        let beyond = both(|k| used * (2.0 * step.middle.points.v[k] - step.old.v[k]));
+        self.end.add(lane, &step.springs, ([ends[1]; 2], nodes, first), &beyond, &step.end);
+        let lane = lane % L;
+        for k in 0..2 {
+            let stiffness = stiffness_slopes(&step.springs, k, ends[1]);
+            for j in 0..N {
+                self.stiffness[k][j][lane] = stiffness[j];
+                self.nodes[k][j][lane] = nodes.map_or(0.0, |nodes| nodes[SHIFT + k][j]);
             }
-            self.load[lane] = to.map_or(0.0, |by| by.load);
-        });
+            self.before[k][lane] = from.map_or(0.0, |by| by.shift[k]);
+            self.edge_stiffness[k][lane] = ends[1].edge[k];
+            self.now[k][lane] = to.map_or(0.0, |by| by.shift[k]);
+            self.edge_limit[k][lane] = to.map_or(0.0, |by| by.edge_limit[k]);
+            self.edge_before[k][lane] = from.map_or(0.0, |by| by.edge_limit[k]);
+        }
+        self.load[lane] = to.map_or(0.0, |by| by.load);
     }
 }
 
 /// Propagates changes of the springs and of the displacement through a step: those of the springs after it, in place, and of the force, which is
 /// not yet bounded.
-#[inline(always)]
 pub(crate) fn propagate<const L: usize>(
     contact: &Contact,
     nodes: &Nodes,
@@ -262,19 +257,20 @@ pub(crate) fn propagate<const L: usize>(
     let mut edges = move_edge(contact, (motion, by), step, &springs.edge, terms);
     if far.part > 0.0 {
         let changes = FarChanges::new(contact, (motion, by), step, &old, terms);
+        let (limits, edge_limits) = (contact.limits(nodes), contact.edge_limits());
         for k in 0..2 {
-            let (limits, by_limit) = (contact.limits(nodes, k), |j: usize| match terms {
+            let (limits, by_limit) = (limits[k], |j: usize| match terms {
                 Some(terms) => used[j] * (terms.now[k] - terms.nodes[k][j]),
                 None => Lanes::ZERO,
             });
             for j in 0..N {
                 let value = step.end.points.v[k][j];
-                v[k][j] = changes.blend((far, k), (v[k][j], value), (limits[j], by_limit(j)));
+                v[k][j] = changes.blend((far.part, far.e[k], changes.e[k]), (v[k][j], value), (limits[j], by_limit(j)));
             }
             let by_limit = terms.map_or(Lanes::ZERO, |terms| terms.edge_limit[k]);
-            let (limit, edge) = (contact.edge_limit(k), &step.edge);
+            let (limit, edge) = (edge_limits[k], &step.edge);
             let value = limit * edge.ratio[k] / if edge.slips { edge.length.max(1.0) } else { 1.0 };
-            edges[k] = changes.blend((far, k), (edges[k], value), (limit, by_limit));
+            edges[k] = changes.blend((far.part, far.e[k], changes.e[k]), (edges[k], value), (limit, by_limit));
         }
     }
     let mut force = [Lanes::ZERO; 2];
@@ -295,7 +291,6 @@ pub(crate) fn propagate<const L: usize>(
 }
 
 /// Changes of the trial state of springs that are released.
-#[inline(always)]
 fn release<const L: usize>(
     contact: &Contact,
     nodes: &Nodes,
@@ -308,7 +303,7 @@ fn release<const L: usize>(
     if motion.constant_load || fall <= 0.0 {
         return;
     }
-    let limits = both(|k| contact.limits(nodes, k));
+    let limits = contact.limits(nodes);
     for j in contact.shells.range() {
         let limit = [limits[0][j].max(LEAST), limits[1][j].max(LEAST)];
         let trial = [step.old.v[0][j] + motion.by[0], step.old.v[1][j] + motion.by[1]];
@@ -316,16 +311,18 @@ fn release<const L: usize>(
         if released.scale >= 1.0 {
             continue;
         }
-        let (per_length, before) = (1.0 / released.length.max(1.0), limit[0] + fall);
+        // Four divisors, not three: the compiler would divide by what is beside them in the vector register.
+        let divisors = Lanes([limit[0], limit[1], released.length.max(1.0), limit[0] + fall]);
+        let [per_x, per_y, per_length, per_before] = *(1.0 / divisors);
         let (mut by_limit, mut by_part) = ([Lanes::ZERO; 2], Lanes::ZERO);
         if let Some(terms) = terms {
             by_limit = [terms.now[0] - terms.nodes[0][j], terms.now[1] - terms.nodes[1][j]];
-            by_part = (released.part / limit[0]) * by_limit[0]
-                - (released.part / before) * (terms.before[0] - terms.nodes[0][j]);
+            by_part = (released.part * per_x) * by_limit[0]
+                - (released.part * per_before) * (terms.before[0] - terms.nodes[0][j]);
         }
         let mut ratio = [Lanes::ZERO; 2];
         for k in 0..2 {
-            ratio[k] = (1.0 / limit[k]) * (v[k][j] - released.ratio[k] * by_limit[k]);
+            ratio[k] = [per_x, per_y][k] * (v[k][j] - released.ratio[k] * by_limit[k]);
         }
         let length = per_length * (released.ratio[0] * ratio[0] + released.ratio[1] * ratio[1]);
         let scale = per_length * ((released.part - released.scale) * length + (released.length - 1.0) * by_part);
@@ -343,7 +340,6 @@ struct FarChanges<const L: usize> {
 }
 
 impl<const L: usize> FarChanges<L> {
-    #[inline(always)]
     fn new(
         contact: &Contact,
         (motion, by): (&Motion, &Both<Lanes<L>>),
@@ -371,21 +367,17 @@ impl<const L: usize> FarChanges<L> {
     }
 
     /// Changes of a spring with a limit that ends in gross slip to a part, `v = (1 - part) v + part l e`.
-    #[inline(always)]
     fn blend(
         &self,
-        (far, k): (&Far, usize),
+        (part, e, by_e): (f64, f64, Lanes<L>),
         (v, value): (Lanes<L>, f64),
         (limit, by_limit): (f64, Lanes<L>),
     ) -> Lanes<L> {
-        (1.0 - far.part) * v
-            + (limit * far.e[k] - value) * self.part
-            + far.part * (limit * self.e[k] + far.e[k] * by_limit)
+        (1.0 - part) * v + (limit * e - value) * self.part + part * (limit * by_e + e * by_limit)
     }
 }
 
 /// Changes of the spring at the edge.
-#[inline(always)]
 fn move_edge<const L: usize>(
     contact: &Contact,
     (motion, by): (&Motion, &Both<Lanes<L>>),
@@ -394,7 +386,7 @@ fn move_edge<const L: usize>(
     terms: Option<&Terms<L>>,
 ) -> Both<Lanes<L>> {
     let (mut ratio, edge) = ([Lanes::ZERO; 2], &step.edge);
-    let limit = both(|k| contact.edge_limit(k).max(LEAST));
+    let limit = contact.edge_limits().map(|limit| limit.max(LEAST));
     for k in 0..2 {
         ratio[k] = edge.part[k] * by[k] + edge.kept[k] * old[k];
         if let Some(terms) = terms {
@@ -428,7 +420,6 @@ fn move_edge<const L: usize>(
 }
 
 /// Changes of a force that Coulomb's law bounds.
-#[inline(always)]
 pub(crate) fn bounded<const L: usize>(
     force: Both<f64>,
     bound: f64,
@@ -448,12 +439,11 @@ pub(crate) fn bounded<const L: usize>(
 
 impl Slip {
     /// Changes of springs after slip, in place of those of the trial state.
-    #[inline(always)]
     fn differentiate<const L: usize>(&self, springs: &Springs, v: &mut Both<Changes<L>>, terms: Option<&SlipTerms<L>>) {
         if self.points.set == 0 {
             return;
         }
-        let (first, end) = (self.points.first.min(N), springs.shells.range().end);
+        let (first, end) = (self.points.first.min(N), springs.shells.range().end.min(N));
         // The springs at the present tractions, and the slip at them. Both maps are triangular, and applied in place.
         let mut own = [[Lanes::ZERO; N]; 2];
         if let Some(terms) = terms {
@@ -477,7 +467,7 @@ impl Slip {
             }
             for i in (first..end).rev().map(|i| i.min(N - 1)) {
                 let mut sum = Lanes::ZERO;
-                for j in first..=i {
+                for j in first..i + 1 {
                     sum += springs.inverse[k][j][i] * v[k][j];
                 }
                 v[k][i] = sum;
@@ -499,9 +489,9 @@ impl Slip {
     }
 
     /// Changes of the tractions, in place of those of slip at the present tractions.
-    #[inline(always)]
     fn turn<const L: usize>(&self, slip: &mut Both<Changes<L>>, [first, end]: [usize; 2]) {
         let Slip { points, metric, inverse, .. } = self;
+        let (first, end) = (first.min(N), end.min(N));
         let sticks = !points.set & within([first, end]);
         if sticks != 0 {
             eliminate(metric, slip, [first, end], (points.set, sticks));

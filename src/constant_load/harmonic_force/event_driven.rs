@@ -84,7 +84,6 @@ impl<'a> Layout<'a> for Workspace<'a> {
         self.buffers.grid.fourier.fill();
     }
 
-    #[inline(always)]
     fn take(size: Size, parts: &mut Parts<'a>) -> Result<Workspace<'a>, Error> {
         let (points, row, reversals) = (grid_points(size), row_blocks(size.harmonics), most_reversals(size));
         let buffers = Buffers {
@@ -185,7 +184,6 @@ impl Buffers<'_> {
         self.phi_integrals.len().max(1)
     }
 
-    #[inline(always)]
     fn instant(&self, index: usize) -> Instant {
         self.instants.at(index)
     }

@@ -59,7 +59,6 @@ impl<'a> Motion<'a> {
 
     /// Finds the reversals in chronological order. Returns their number, and whether the displacement is half-wave symmetric; then
     /// only half a period is searched.
-    #[inline(always)]
     pub fn find_reversals(&self, grid: &mut Grid, instants: &mut [Instant]) -> (usize, bool) {
         let Grid { points, fourier, coefficients, rate } = grid;
         let Some((constant, pairs)) = coefficients.split_first_mut() else { return (0, false) };
@@ -157,7 +156,6 @@ impl ReversalSearch<'_> {
 }
 
 /// φ at an instant: the row 1, cos t, sin t, cos 2t, ...
-#[inline(always)]
 pub(super) fn fill_phi(row: &mut [f64], t: f64) {
     let (sine, cosine) = t.sin_cos();
     let (mut c, mut s) = (cosine, sine);
@@ -170,7 +168,6 @@ pub(super) fn fill_phi(row: &mut [f64], t: f64) {
 }
 
 /// ∫ φ dt between two instants.
-#[inline(always)]
 pub(super) fn fill_integrals(row: &mut [f64], from: f64, to: f64) {
     let ((sine0, cosine0), (sine1, cosine1)) = (from.sin_cos(), to.sin_cos());
     let (mut c0, mut s0, mut c1, mut s1) = (cosine0, sine0, cosine1, sine1);

@@ -11,7 +11,6 @@
 use crate::fourier::rows::{OuterProducts, RowStrips, Rows, Strip, Terms, add_scaled, row_blocks, with_strips};
 use crate::fourier::workspace::{Blocks, record};
 use crate::numerics::total::Total;
-use crate::simd::dispatch;
 
 record! {
     /// Consecutive samples on a branch.
@@ -44,31 +43,27 @@ pub(super) struct ReversalTerms<'a> {
 
 impl ReversalTerms<'_> {
     /// Gathers the terms along the branches, with the stiffness at the samples of two periods.
-    #[inline(always)]
     pub fn gather(&mut self, branches: &[Branch], stiffness: &[f64]) {
         with_strips!(row_blocks(self.rows.harmonics), self.gather_strips(branches, stiffness));
     }
 
-    #[inline(always)]
     fn gather_strips<const N: usize>(&mut self, branches: &[Branch], stiffness: &[f64]) {
-        dispatch!({
-            let ReversalTerms { rows, entries, sums, outer } = self;
-            let sums = sums.as_chunks_mut::<N>().0.as_chunks_mut().0;
-            for strip in 0..outer.strips::<N>() {
-                let (rows, terms) = (rows.strips::<N>(strip), outer.terms(strip));
-                let mut stack = Stack { rows, entries, sums, depth: 0, terms };
-                for &Branch { first, count, depth } in branches {
-                    let [first, count, depth] = [first, count, depth].map(|number| number as usize);
-                    stack.pop(depth);
-                    if depth > stack.depth {
-                        let before = first - 1;
-                        stack.push(before, stiffness.at(before));
-                    }
-                    stack.add(first, count, stiffness);
+        let ReversalTerms { rows, entries, sums, outer } = self;
+        let sums = sums.as_chunks_mut::<N>().0.as_chunks_mut().0;
+        for strip in 0..outer.strips::<N>() {
+            let (rows, terms) = (rows.strips::<N>(strip), outer.terms(strip));
+            let mut stack = Stack { rows, entries, sums, depth: 0, terms };
+            for &Branch { first, count, depth } in branches {
+                let [first, count, depth] = [first, count, depth].map(|number| number as usize);
+                stack.pop(depth);
+                if depth > stack.depth {
+                    let before = first - 1;
+                    stack.push(before, stiffness.at(before));
                 }
-                stack.pop(0);
+                stack.add(first, count, stiffness);
             }
-        });
+            stack.pop(0);
+        }
     }
 }
 
@@ -83,12 +78,10 @@ struct Stack<'s, const N: usize> {
 
 impl<const N: usize> Stack<'_, N> {
     /// The sample of the first period.
-    #[inline(always)]
     fn in_period(&self, sample: usize) -> usize {
         sample.checked_sub(self.rows.phi.len()).unwrap_or(sample)
     }
 
-    #[inline(always)]
     fn push(&mut self, sample: usize, stiffness: f64) {
         let sample = self.in_period(sample);
         if let (Some(entry), Some(sums)) = (self.entries.get_mut(self.depth), self.sums.get_mut(self.depth)) {
@@ -98,7 +91,6 @@ impl<const N: usize> Stack<'_, N> {
     }
 
     /// Removes reversals down to a depth.
-    #[inline(always)]
     fn pop(&mut self, depth: usize) {
         while self.depth > depth {
             self.depth -= 1;
@@ -120,7 +112,6 @@ impl<const N: usize> Stack<'_, N> {
     }
 
     /// Adds the samples of a branch to the sums of the reversal that it leaves.
-    #[inline(always)]
     fn add(&mut self, first: usize, count: usize, stiffness: &[f64]) {
         let (from, to) = (self.in_period(first), self.in_period(first + count));
         let Some([covered, y]) = self.depth.checked_sub(1).and_then(|top| self.sums.get_mut(top)) else { return };

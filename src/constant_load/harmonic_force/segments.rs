@@ -8,7 +8,6 @@ use crate::error::Error;
 use crate::fourier::workspace::{Parts, Size};
 use crate::numerics::quadrature::{MAX_GAUSS_BLOCKS, gauss_rule};
 use crate::numerics::total::Total;
-use crate::simd::dispatch;
 use core::f64::consts::PI;
 
 /// Fewest blocks of four nodes on a segment.
@@ -38,7 +37,6 @@ pub(super) struct Segment {
 
 impl Segment {
     /// Number of panels for a density of nodes, and their rule.
-    #[inline(always)]
     fn panels(&self, nodes_per_period: usize) -> (usize, &'static [[[f64; 4]; 2]]) {
         // Nodes of the cube root are three times as far apart at the start of the segment.
         let (density, fewest) = if self.to_slip { (2.0, MIN_BLOCKS_TO_SLIP) } else { (1.0, MIN_BLOCKS) };
@@ -50,7 +48,6 @@ impl Segment {
     }
 
     /// Instants and weights of the nodes of a panel.
-    #[inline(always)]
     fn nodes(&self, panel: usize, panels: usize, rule: &[[[f64; 4]; 2]]) -> [Nodes; 2] {
         let Segment { from, to, to_slip, .. } = *self;
         let (length, fraction) = (to - from, 1.0 / panels as f64);
@@ -83,7 +80,6 @@ pub(super) struct NodalFourier<'a> {
 
 impl<'a> NodalFourier<'a> {
     /// For orders up to 2H.
-    #[inline(always)]
     pub fn take(parts: &mut Parts<'a>, size: Size) -> Result<NodalFourier<'a>, Error> {
         let rows = parts.take_blocks(4 * size.harmonics * MAX_GAUSS_BLOCKS)?.as_chunks_mut().0.as_chunks_mut().0;
         Ok(NodalFourier { nodes_per_period: size.samples, rows })
@@ -91,7 +87,6 @@ impl<'a> NodalFourier<'a> {
 
     /// Adds the integrals of functions of the displacement over a segment times 1, cos t, sin t, cos 2t, ... to their sums; those without
     /// sums are not requested. `orders`: the highest order of all.
-    #[inline(always)]
     pub fn integrate<const K: usize>(
         &mut self,
         motion: &Motion,
@@ -120,64 +115,56 @@ impl<'a> NodalFourier<'a> {
     }
 
     /// Adds the products of weights and values at the nodes of a panel with 1, cos t, sin t, cos 2t, ..., one for each of `sums`.
-    #[inline(always)]
     fn add(&self, weights: &[[f64; 4]], values: &Nodes, sums: &mut [f64]) {
-        dispatch!({
-            let total = |[one, two, three, four]: [f64; 4]| (one + two) + (three + four);
-            let Some((constant, pairs)) = sums.split_first_mut() else { return };
-            let mut products: Nodes = [[0.0; 4]; _];
-            let mut sum = [0.0; 4];
-            for ((product, weight), value) in products.iter_mut().zip(weights).zip(values) {
+        let total = |[one, two, three, four]: [f64; 4]| (one + two) + (three + four);
+        let Some((constant, pairs)) = sums.split_first_mut() else { return };
+        let mut products: Nodes = [[0.0; 4]; _];
+        let mut sum = [0.0; 4];
+        for ((product, weight), value) in products.iter_mut().zip(weights).zip(values) {
+            for k in 0..4 {
+                product[k] = weight[k] * value[k];
+                sum[k] += product[k];
+            }
+        }
+        *constant += total(sum);
+        let products = products.part(..weights.len());
+        for ([by_cosine, by_sine], [cosines, sines]) in pairs.as_chunks_mut::<2>().0.iter_mut().zip(self.rows.iter()) {
+            let (mut c, mut s) = ([0.0; 4], [0.0; 4]);
+            for ((product, cosine), sine) in products.iter().zip(cosines).zip(sines) {
                 for k in 0..4 {
-                    product[k] = weight[k] * value[k];
-                    sum[k] += product[k];
+                    c[k] += product[k] * cosine[k];
+                    s[k] += product[k] * sine[k];
                 }
             }
-            *constant += total(sum);
-            let products = products.part(..weights.len());
-            for ([by_cosine, by_sine], [cosines, sines]) in
-                pairs.as_chunks_mut::<2>().0.iter_mut().zip(self.rows.iter())
-            {
-                let (mut c, mut s) = ([0.0; 4], [0.0; 4]);
-                for ((product, cosine), sine) in products.iter().zip(cosines).zip(sines) {
-                    for k in 0..4 {
-                        c[k] += product[k] * cosine[k];
-                        s[k] += product[k] * sine[k];
-                    }
-                }
-                *by_cosine += total(c);
-                *by_sine += total(s);
-            }
-        });
+            *by_cosine += total(c);
+            *by_sine += total(s);
+        }
     }
 }
 
 /// Evaluates cos and sin of all orders up to `orders`, and the displacement, at the nodes of a panel.
-#[inline(always)]
 fn fill_rows(rows: &mut [[Nodes; 2]], motion: &Motion, orders: usize, times: &[[f64; 4]], displacement: &mut Nodes) {
-    dispatch!({
-        for (block, (times, displacement)) in times.iter().zip(displacement.iter_mut()).enumerate() {
-            let (mut cosine, mut sine) = ([0.0; 4], [0.0; 4]);
-            for k in 0..4 {
-                (sine[k], cosine[k]) = times[k].sin_cos();
-            }
-            let (mut c, mut s) = (cosine, sine);
-            let mut u = [motion.mean; 4];
-            let mut pairs = motion.pairs.iter();
-            for [cosines, sines] in rows.iter_mut().take(orders) {
-                if let (Some(cosines), Some(sines)) = (cosines.get_mut(block), sines.get_mut(block)) {
-                    (*cosines, *sines) = (c, s);
-                }
-                if let Some(&[a, b]) = pairs.next() {
-                    for k in 0..4 {
-                        u[k] += a * c[k] + b * s[k];
-                    }
-                }
-                for k in 0..4 {
-                    (c[k], s[k]) = (c[k] * cosine[k] - s[k] * sine[k], s[k] * cosine[k] + c[k] * sine[k]);
-                }
-            }
-            *displacement = u;
+    for (block, (times, displacement)) in times.iter().zip(displacement.iter_mut()).enumerate() {
+        let (mut cosine, mut sine) = ([0.0; 4], [0.0; 4]);
+        for k in 0..4 {
+            (sine[k], cosine[k]) = times[k].sin_cos();
         }
-    });
+        let (mut c, mut s) = (cosine, sine);
+        let mut u = [motion.mean; 4];
+        let mut pairs = motion.pairs.iter();
+        for [cosines, sines] in rows.iter_mut().take(orders) {
+            if let (Some(cosines), Some(sines)) = (cosines.get_mut(block), sines.get_mut(block)) {
+                (*cosines, *sines) = (c, s);
+            }
+            if let Some(&[a, b]) = pairs.next() {
+                for k in 0..4 {
+                    u[k] += a * c[k] + b * s[k];
+                }
+            }
+            for k in 0..4 {
+                (c[k], s[k]) = (c[k] * cosine[k] - s[k] * sine[k], s[k] * cosine[k] + c[k] * sine[k]);
+            }
+        }
+        *displacement = u;
+    }
 }

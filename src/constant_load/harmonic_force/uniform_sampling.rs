@@ -19,7 +19,6 @@ use crate::fourier::workspace::{Layout, Parts, Size, padded};
 use crate::fourier::{largest_of, normalise};
 use crate::numerics::total::{Stack, Total};
 use crate::parameters::{PARAMETERS, Sensitivity};
-use crate::simd::dispatch;
 use crate::tag::Kind;
 
 /// An opened workspace.
@@ -44,7 +43,6 @@ impl<'a> Layout<'a> for Workspace<'a> {
         self.terms.rows.fill();
     }
 
-    #[inline(always)]
     fn take(size: Size, parts: &mut Parts<'a>) -> Result<Workspace<'a>, Error> {
         let Size { harmonics, samples: count, .. } = size;
         // One reversal and one branch per sample, and one more.
@@ -145,19 +143,16 @@ struct Part {
 }
 
 /// Samples a displacement along two periods.
-#[inline(always)]
 fn sample(count: usize, fourier: &FoldedFourier, displacement: &[f64], samples: &mut [f64]) -> Part {
-    dispatch!({
-        fourier.synthesis_kernel(displacement, samples);
-        let even_order = |c: usize| c.div_ceil(2).is_multiple_of(2);
-        let only_odd_orders = displacement.iter().enumerate().all(|(c, value)| !even_order(c) || *value == 0.0);
-        let half_wave = count.is_multiple_of(2) && only_odd_orders;
-        let length = if half_wave { count / 2 } else { count };
-        // The first of these samples with the largest magnitude, which no sample exceeds.
-        let largest = largest_of(samples.part(..padded(length)), f64::abs);
-        let farthest = samples.iter().position(|value| value.abs() == largest).unwrap_or(0);
-        Part { farthest, length, half_wave }
-    })
+    fourier.synthesis_kernel(displacement, samples);
+    let even_order = |c: usize| c.div_ceil(2).is_multiple_of(2);
+    let only_odd_orders = displacement.iter().enumerate().all(|(c, value)| !even_order(c) || *value == 0.0);
+    let half_wave = count.is_multiple_of(2) && only_odd_orders;
+    let length = if half_wave { count / 2 } else { count };
+    // The first of these samples with the largest magnitude, which no sample exceeds.
+    let largest = largest_of(samples.part(..padded(length)), f64::abs);
+    let farthest = samples.iter().position(|value| value.abs() == largest).unwrap_or(0);
+    Part { farthest, length, half_wave }
 }
 
 /// Values at the samples of two periods, of which those of one period are evaluated, and the branches on which they lie.
@@ -211,7 +206,6 @@ impl Path<'_> {
 }
 
 /// Number of samples, the first included, before the motion reverses or reaches the end of the branch.
-#[inline(always)]
 fn count_on_branch(samples: &[f64], branch: &Branch) -> usize {
     let (direction, end) = (branch.direction, branch.direction * branch.end);
     let continues = |last: &f64, next: &f64| {

@@ -4,7 +4,6 @@ use crate::element::Element;
 use crate::numerics::total::Total;
 use crate::one_direction::harmonic_force::runs::{Place, Run};
 use crate::one_direction::harmonic_force::samples::Samples;
-use crate::simd::dispatch;
 
 /// Arrays of the tangential forces.
 #[derive(Debug)]
@@ -22,7 +21,6 @@ pub(super) struct Forces<'a> {
 
 impl Forces<'_> {
     /// `[N, T]` at the end of a piece.
-    #[inline(always)]
     fn at_place(&self, samples: &Samples, place: Place) -> [f64; 2] {
         let sample = place.sample();
         if place.is_end() {
@@ -33,7 +31,6 @@ impl Forces<'_> {
     }
 
     /// Evaluates the forces of all runs, from the shifts at the boundaries, and what their derivatives need if `SLOPES`.
-    #[inline(always)]
     pub fn evaluate<const SLOPES: bool>(
         &mut self,
         element: &Element,
@@ -41,51 +38,48 @@ impl Forces<'_> {
         cut_shift: &[[f64; 4]],
         runs: &[Run],
     ) {
-        dispatch!({
-            // Whole blocks of four at the boundaries of the slip zones.
-            let loads = self.cut_load.as_chunks_mut::<4>().0;
-            let stiffnesses = self.cut_stiffness.as_chunks_mut::<4>().0;
-            for ((shift, load), stiffness) in cut_shift.iter().zip(loads).zip(stiffnesses) {
-                let (loads, stiffnesses) = element.loads_at::<SLOPES, 4>(shift);
-                *load = loads;
-                if SLOPES {
-                    *stiffness = stiffnesses;
+        // Whole blocks of four at the boundaries of the slip zones.
+        let loads = self.cut_load.as_chunks_mut::<4>().0;
+        let stiffnesses = self.cut_stiffness.as_chunks_mut::<4>().0;
+        for ((shift, load), stiffness) in cut_shift.iter().zip(loads).zip(stiffnesses) {
+            let (loads, stiffnesses) = element.loads_at::<SLOPES, 4>(shift);
+            *load = loads;
+            if SLOPES {
+                *stiffness = stiffnesses;
+            }
+        }
+        let friction_coefficient = element.friction_coefficient;
+        for run in runs {
+            let range = run.samples();
+            let inner = self.at_place(samples, run.inner);
+            let loads = run.of(samples.load);
+            let forces = self.force.part_mut(range.clone());
+            let mu = run.sign * friction_coefficient;
+            match run.kind {
+                Run::OPEN | Run::GROSS_SLIP => {
+                    forces.iter_mut().zip(loads).for_each(|(force, load)| *force = mu * load);
+                }
+                Run::STUCK => {
+                    let slopes = self.slope.part_mut(range.clone());
+                    stick(samples, run, mu, slopes, inner, forces);
+                }
+                _ => {
+                    let [inner_load, inner_force] = inner;
+                    let slope = friction_coefficient * run.parameter;
+                    let cuts = self.cut_load.part(run.cuts());
+                    for ((force, &load), &cut_load) in forces.iter_mut().zip(loads).zip(cuts) {
+                        *force = inner_force + slope * (cut_load - inner_load) + mu * (load - cut_load);
+                    }
+                    if let (Some(&cut_load), Some(place)) = (cuts.last(), self.last_cut.get_mut(range.end - 1)) {
+                        *place = [cut_load, inner_force + slope * (cut_load - inner_load)];
+                    }
                 }
             }
-            let friction_coefficient = element.friction_coefficient;
-            for run in runs {
-                let range = run.samples();
-                let inner = self.at_place(samples, run.inner);
-                let loads = run.of(samples.load);
-                let forces = self.force.part_mut(range.clone());
-                let mu = run.sign * friction_coefficient;
-                match run.kind {
-                    Run::OPEN | Run::GROSS_SLIP => {
-                        forces.iter_mut().zip(loads).for_each(|(force, load)| *force = mu * load);
-                    }
-                    Run::STUCK => {
-                        let slopes = self.slope.part_mut(range.clone());
-                        stick(samples, run, mu, slopes, inner, forces);
-                    }
-                    _ => {
-                        let [inner_load, inner_force] = inner;
-                        let slope = friction_coefficient * run.parameter;
-                        let cuts = self.cut_load.part(run.cuts());
-                        for ((force, &load), &cut_load) in forces.iter_mut().zip(loads).zip(cuts) {
-                            *force = inner_force + slope * (cut_load - inner_load) + mu * (load - cut_load);
-                        }
-                        if let (Some(&cut_load), Some(place)) = (cuts.last(), self.last_cut.get_mut(range.end - 1)) {
-                            *place = [cut_load, inner_force + slope * (cut_load - inner_load)];
-                        }
-                    }
-                }
-            }
-        });
+        }
     }
 }
 
 /// Slopes and forces of samples that stick.
-#[inline(always)]
 fn stick(samples: &Samples, run: &Run, mu: f64, slopes: &mut [f64], inner: [f64; 2], forces: &mut [f64]) {
     let [mut load_before, mut force_before] = inner;
     let before = samples.before(run.samples().start);

@@ -26,7 +26,6 @@ use crate::numerics::total::{Stack, Total, Zero};
 use crate::one_direction::harmonic_force::runs::{Run, closing};
 use crate::one_direction::harmonic_force::samples::{Part, Samples};
 use crate::one_direction::step::Crossing;
-use crate::simd::dispatch;
 
 record! {
     /// A piece of the diagram, and its weights for the later samples.
@@ -75,7 +74,6 @@ impl Piece {
 }
 
 /// Weights of the constant and of the linear part of a stuck piece, with S, N and 1/K_t at its inner and at its outer end.
-#[inline(always)]
 fn weights_of_stuck(
     inverse_width: f64,
     [s_i, n_i, stiffness_i]: [f64; 3],
@@ -114,14 +112,12 @@ pub(super) struct Context<'c> {
 
 impl Context<'_> {
     /// The sample after the given number of samples from the start.
-    #[inline(always)]
     fn sample_at(&self, step: usize) -> usize {
         let sample = self.part.start + step;
         if sample >= self.samples.count { sample - self.samples.count } else { sample }
     }
 
     /// S, N and 1/K_t of the whole contact at a sample: 0 if it is open.
-    #[inline(always)]
     fn contact_at(&self, sample: usize) -> [f64; 3] {
         let Samples { shift, load, stiffness, .. } = self.samples;
         [shift.at(sample), load.at(sample), stiffness.at(sample)]
@@ -162,19 +158,16 @@ impl Sensitivity<'_> {
         }
     }
 
-    #[inline(always)]
     fn gather_strips<const N: usize>(&mut self, context: &Context, runs: &[Run]) {
-        dispatch!({
-            let Sensitivity { rows, pieces, stored, places, outer, .. } = self;
-            let stored = stored.as_chunks_mut::<N>().0.as_chunks_mut().0;
-            for strip in 0..outer.strips::<N>() {
-                places.fill(-1.0);
-                let (rows, terms) = (rows.strips(strip), outer.terms(strip));
-                let stack = Stack { values: pieces, depth: 0 };
-                let mut gathering = Gathering { context, rows, stack, stored, places, terms };
-                gathering.gather(runs);
-            }
-        });
+        let Sensitivity { rows, pieces, stored, places, outer, .. } = self;
+        let stored = stored.as_chunks_mut::<N>().0.as_chunks_mut().0;
+        for strip in 0..outer.strips::<N>() {
+            places.fill(-1.0);
+            let (rows, terms) = (rows.strips(strip), outer.terms(strip));
+            let stack = Stack { values: pieces, depth: 0 };
+            let mut gathering = Gathering { context, rows, stack, stored, places, terms };
+            gathering.gather(runs);
+        }
     }
 }
 
@@ -214,7 +207,6 @@ struct Gathering<'c, const N: usize> {
 }
 
 impl<const N: usize> Gathering<'_, N> {
-    #[inline(always)]
     fn gather(&mut self, runs: &[Run]) {
         let samples = self.context.samples;
         let mut now = 0;
@@ -256,7 +248,6 @@ impl<const N: usize> Gathering<'_, N> {
     }
 
     /// Adds the sum of φ over steps with constant weights.
-    #[inline(always)]
     fn add_covered(&self, sums: &mut [Strip<N>; 2], weights: [f64; 2], since: usize, now: usize) {
         if now <= since {
             return;
@@ -268,7 +259,6 @@ impl<const N: usize> Gathering<'_, N> {
     }
 
     /// The sums of a piece before a step; updates its weights to those at its last cut.
-    #[inline(always)]
     fn sums(&self, index: usize, piece: &mut Piece, now: usize) -> [Strip<N>; 2] {
         let mut sums = if piece.stored > 0 { self.stored.at(index) } else { Zero::zero() };
         let Piece { since, cut: Cut { step, count, packed }, .. } = *piece;
@@ -303,7 +293,6 @@ impl<const N: usize> Gathering<'_, N> {
     }
 
     /// Removes the pieces beyond those that stay. The last one of these, if it is cut again, stores its sums.
-    #[inline(always)]
     fn remove_beyond(&mut self, kept: usize, is_cut: bool, now: usize) {
         while self.stack.depth > 0 {
             let index = self.stack.depth - 1;
@@ -333,7 +322,6 @@ impl<const N: usize> Gathering<'_, N> {
 
     /// Adds the sums of a piece that is removed to those of the samples i and j that made it, with the opposite sign: the constant
     /// sum times m_i, the linear one times m_j - m_i.
-    #[inline(always)]
     fn distribute(&mut self, piece: &Piece, [constant, linear]: &[Strip<N>; 2]) {
         let Context { element, samples, slopes, .. } = *self.context;
         let (made, sample) = (piece.made, piece.sample as usize);
@@ -351,10 +339,7 @@ impl<const N: usize> Gathering<'_, N> {
             ([own, inner, own], 2)
         } else {
             let Crossing { fraction, rest, slope, .. } = closing(samples, element, sample);
-            let [inner, outer] = [rest, fraction].map(
-                #[inline(always)]
-                |share| [share, -share * slope],
-            );
+            let [inner, outer] = [rest, fraction].map(|share| [share, -share * slope]);
             ([own, (before, &difference, inner), (sample, &difference, outer)], 3)
         };
         for (sample, row, factors) in parts.into_iter().take(count) {
@@ -363,7 +348,6 @@ impl<const N: usize> Gathering<'_, N> {
     }
 
     /// Adds a row times the derivatives by u and by the input to the rows Y of a sample.
-    #[inline(always)]
     fn add(&mut self, sample: usize, row: &Strip<N>, [by_u, by_input]: [f64; 2]) {
         let place = self.places.at(sample);
         if place < 0.0 {

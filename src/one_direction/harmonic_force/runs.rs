@@ -77,7 +77,6 @@ impl Run {
     }
 
     /// The values of the samples.
-    #[inline(always)]
     pub fn of<'v>(&self, values: &'v [f64]) -> &'v [f64] {
         values.part(self.samples())
     }
@@ -142,7 +141,6 @@ impl PeriodicPath<'_> {
     }
 
     /// Advances along samples, run by run.
-    #[inline(always)]
     fn advance(&mut self, element: &Element, samples: &Samples, part: &Part, range: Range<usize>) {
         let end = range.end;
         let (Some(xi), Some(eta), Some(inputs)) =
@@ -181,7 +179,6 @@ impl PeriodicPath<'_> {
 
     /// Closes the loops that a step to ξ = x, η = y passes: removes the knots outside the quadrant ξ > x, η < y. Returns whether
     /// one was removed.
-    #[inline(always)]
     fn close_loops(&mut self, x: f64, y: f64) -> bool {
         let before = self.depth;
         while let Some(&Knot { xi, eta, .. }) = self.depth.checked_sub(1).and_then(|top| self.knots.get(top))
@@ -193,7 +190,6 @@ impl PeriodicPath<'_> {
     }
 
     /// Samples that stick.
-    #[inline(always)]
     fn stick(&mut self, first: usize, [xi, eta]: [&[f64]; 2]) -> Run {
         let kept = self.depth;
         let inner = self.knot(kept - 1);
@@ -218,7 +214,6 @@ impl PeriodicPath<'_> {
     }
 
     /// Samples of gross slip in one direction, from an empty stack that still holds the centre in its memory.
-    #[inline(always)]
     fn slip_grossly(&mut self, first: usize, x: f64, [xi, eta, inputs]: [&[f64]; 3]) -> Run {
         let (sign, moving) = if self.knot(0).xi <= x { (1.0, xi) } else { (-1.0, eta) };
         let later = |values| <[f64]>::get(values, first + 1..).unwrap_or(&[]).iter();
@@ -235,7 +230,6 @@ impl PeriodicPath<'_> {
     }
 
     /// Samples whose slip zone grows in one direction, along the piece above the last knot that stays.
-    #[inline(always)]
     fn slip(&mut self, first: usize, [xi, eta]: [&[f64]; 2], [x, y]: [f64; 2], per_two_mu: f64) -> Run {
         let kept = self.depth;
         let (inner, outer) = (self.knot(kept - 1), self.knot(kept));

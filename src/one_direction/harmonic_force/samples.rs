@@ -3,7 +3,6 @@
 use super::MotionKind;
 use crate::element::{Element, Normal};
 use crate::numerics::total::Total;
-use crate::simd::dispatch;
 
 /// Arrays over the samples of a period, continued periodically to whole blocks of four.
 #[derive(Debug)]
@@ -51,7 +50,6 @@ impl Samples<'_> {
     }
 
     /// The normal state of all samples under a constant input > 0.
-    #[inline(always)]
     pub fn press_constantly(&mut self, normal: &Normal) {
         self.load.fill(normal.load);
         self.shift.fill(normal.shift);
@@ -61,33 +59,30 @@ impl Samples<'_> {
     }
 
     /// The normal states of all samples, with derivatives if requested.
-    #[inline(always)]
     pub fn press<const SLOPES: bool>(&mut self, element: &Element) {
-        dispatch!({
-            let blocks = self
-                .input
-                .as_chunks::<4>()
-                .0
-                .iter()
-                .zip(self.load.as_chunks_mut::<4>().0)
-                .zip(self.shift.as_chunks_mut::<4>().0)
-                .zip(self.load_slope.as_chunks_mut::<4>().0)
-                .zip(self.shift_slope.as_chunks_mut::<4>().0)
-                .zip(self.stiffness.as_chunks_mut::<4>().0);
-            for (((((input, load), shift), load_slope), shift_slope), stiffness) in blocks {
-                let [loads, shifts, load_slopes, shift_slopes] = element.four_normals::<SLOPES>(input);
-                (*load, *shift) = (loads, shifts);
-                if SLOPES {
-                    (*load_slope, *shift_slope) = (load_slopes, shift_slopes);
-                    // 0 if open.
-                    let mut quotients = [0.0; 4];
-                    for k in 0..4 {
-                        quotients[k] = load_slopes[k] / if shift_slopes[k] > 0.0 { shift_slopes[k] } else { 1.0 };
-                    }
-                    *stiffness = quotients;
+        let blocks = self
+            .input
+            .as_chunks::<4>()
+            .0
+            .iter()
+            .zip(self.load.as_chunks_mut::<4>().0)
+            .zip(self.shift.as_chunks_mut::<4>().0)
+            .zip(self.load_slope.as_chunks_mut::<4>().0)
+            .zip(self.shift_slope.as_chunks_mut::<4>().0)
+            .zip(self.stiffness.as_chunks_mut::<4>().0);
+        for (((((input, load), shift), load_slope), shift_slope), stiffness) in blocks {
+            let [loads, shifts, load_slopes, shift_slopes] = element.four_normals::<SLOPES>(input);
+            (*load, *shift) = (loads, shifts);
+            if SLOPES {
+                (*load_slope, *shift_slope) = (load_slopes, shift_slopes);
+                // 0 if open.
+                let mut quotients = [0.0; 4];
+                for k in 0..4 {
+                    quotients[k] = load_slopes[k] / if shift_slopes[k] > 0.0 { shift_slopes[k] } else { 1.0 };
                 }
+                *stiffness = quotients;
             }
-        });
+        }
     }
 
     /// Characteristic coordinates, and the part of the period to evaluate.
@@ -99,42 +94,39 @@ impl Samples<'_> {
     /// - X > 0: the centre has at most this displacement, so the sample of X is one of gross slip, and o = X; Y < 0 accordingly;
     /// - otherwise there is no gross slip and o = 0; the part of the diagram with D = 0 that is never reached ends at S = min(-X, Y)/mu.
     ///   At the sample where that is attained everything beyond is slip zone.
-    #[inline(always)]
     pub fn enter_steady_state(&mut self, element: &Element, motion: MotionKind) -> Part {
-        dispatch!({
-            let mu = element.friction_coefficient;
-            let (mut largest, mut smallest) = ([f64::MIN; 4], [f64::MAX; 4]);
-            let blocks = self
-                .displacement
-                .as_chunks::<4>()
-                .0
-                .iter()
-                .zip(self.shift.as_chunks::<4>().0)
-                .zip(self.xi.as_chunks_mut::<4>().0)
-                .zip(self.eta.as_chunks_mut::<4>().0);
-            for (((displacement, shift), xi), eta) in blocks {
-                let (displacement, shift, [mut x, mut y]) = (*displacement, *shift, [[0.0; 4]; 2]);
-                for k in 0..4 {
-                    let limit = mu * shift[k];
-                    (x[k], y[k]) = (displacement[k] - limit, displacement[k] + limit);
-                    largest[k] = if x[k] > largest[k] { x[k] } else { largest[k] };
-                    smallest[k] = if y[k] < smallest[k] { y[k] } else { smallest[k] };
-                }
-                (*xi, *eta) = (x, y);
+        let mu = element.friction_coefficient;
+        let (mut largest, mut smallest) = ([f64::MIN; 4], [f64::MAX; 4]);
+        let blocks = self
+            .displacement
+            .as_chunks::<4>()
+            .0
+            .iter()
+            .zip(self.shift.as_chunks::<4>().0)
+            .zip(self.xi.as_chunks_mut::<4>().0)
+            .zip(self.eta.as_chunks_mut::<4>().0);
+        for (((displacement, shift), xi), eta) in blocks {
+            let (displacement, shift, [mut x, mut y]) = (*displacement, *shift, [[0.0; 4]; 2]);
+            for k in 0..4 {
+                let limit = mu * shift[k];
+                (x[k], y[k]) = (displacement[k] - limit, displacement[k] + limit);
+                largest[k] = if x[k] > largest[k] { x[k] } else { largest[k] };
+                smallest[k] = if y[k] < smallest[k] { y[k] } else { smallest[k] };
             }
-            let largest = largest.into_iter().fold(f64::MIN, f64::max);
-            let smallest = smallest.into_iter().fold(f64::MAX, f64::min);
-            let first = |values: &[f64], value: f64| values.iter().position(|v| *v == value).unwrap_or(0);
-            let opens = !element.is_closed(motion.least_input);
-            let start = if opens {
-                self.input.iter().position(|input| *input <= 0.0).unwrap_or(0)
-            } else if largest > 0.0 || (smallest >= 0.0 && -largest <= smallest) {
-                first(self.xi, largest)
-            } else {
-                first(self.eta, smallest)
-            };
-            let length = if motion.half_wave { self.count / 2 } else { self.count };
-            Part { start, length, opens }
-        })
+            (*xi, *eta) = (x, y);
+        }
+        let largest = largest.into_iter().fold(f64::MIN, f64::max);
+        let smallest = smallest.into_iter().fold(f64::MAX, f64::min);
+        let first = |values: &[f64], value: f64| values.iter().position(|v| *v == value).unwrap_or(0);
+        let opens = !element.is_closed(motion.least_input);
+        let start = if opens {
+            self.input.iter().position(|input| *input <= 0.0).unwrap_or(0)
+        } else if largest > 0.0 || (smallest >= 0.0 && -largest <= smallest) {
+            first(self.xi, largest)
+        } else {
+            first(self.eta, smallest)
+        };
+        let length = if motion.half_wave { self.count / 2 } else { self.count };
+        Part { start, length, opens }
     }
 }

@@ -66,7 +66,6 @@ impl SmallLoadSeries {
     }
 
     /// The coefficients c_m f_m.
-    #[inline(always)]
     fn terms(&self, factors: &Terms) -> Terms {
         let mut terms = self.curvature;
         for (row, factors) in terms.iter_mut().zip(factors) {
@@ -81,7 +80,6 @@ impl SmallLoadSeries {
     }
 
     /// W and dW/dτ at τ.
-    #[inline(always)]
     pub fn dissipation(&self, tau: f64) -> (f64, f64) {
         let (sum, slope) = polynomial::value_and_slope(&self.terms(&DISSIPATION), tau);
         let square = tau * tau;
