@@ -131,6 +131,7 @@ impl Normal {
 }
 
 impl From<[[f64; 1]; 4]> for Normal {
+    #[inline(always)]
     fn from([[load], [shift], [load_slope], [shift_slope]]: [[f64; 1]; 4]) -> Normal {
         Normal { load, shift, load_slope, shift_slope }
     }
@@ -242,6 +243,7 @@ impl Element {
     }
 
     /// S along y and its derivative, from N and S along x and theirs.
+    #[inline(always)]
     pub(crate) fn lateral(&self, normal: &Normal) -> [f64; 2] {
         let ([ratio, per_load], layer) = (self.lateral, &self.shape.layer);
         let Normal { load, shift, load_slope, shift_slope } = *normal;
@@ -260,6 +262,7 @@ impl Element {
 
     /// Checks the tag of an element that is used with the given number of directions.
     /// Errors: `BadElement` unless it was initialised by this version; `BadDirections` for the other number of directions.
+    #[inline(always)]
     pub(crate) fn check_directions(&self, directions: Directions) -> Result<(), Error> {
         match self.tag & !FORCE_INPUT {
             tag if tag == TAG | tag_of(directions) => Ok(()),
@@ -269,6 +272,7 @@ impl Element {
     }
 
     /// The number of tangential directions according to the tag.
+    #[inline(always)]
     pub(crate) fn tangential_directions(&self) -> Directions {
         if self.tag & TWO_DIRECTIONS == 0 { Directions::One } else { Directions::Two }
     }
@@ -313,6 +317,7 @@ impl Element {
     }
 
     /// The normal force at an approach \[m\] that [`Element::check_approach`] accepts; 0 for an approach <= 0, an open contact.
+    #[inline(always)]
     pub fn normal_force_at(&self, approach: f64) -> NormalPoint {
         let table = self.by_approach().then_some(&self.of_input);
         let (value, slope) = self.one(table, [Quantity::Load, Quantity::Approach], approach);
@@ -321,6 +326,7 @@ impl Element {
 
     /// The approach under a normal force \[N\] that [`Element::check_normal_force`] accepts. Its derivative at 0 is infinite for a
     /// cylinder or an ellipse.
+    #[inline(always)]
     pub fn approach_under(&self, normal_force: f64) -> NormalPoint {
         let table = (!self.by_approach()).then_some(&self.of_input);
         let (value, slope) = self.one(table, [Quantity::Approach, Quantity::Load], normal_force);
@@ -388,6 +394,7 @@ impl Element {
     }
 
     /// The normal force \[N\] at a tangential shift \[m\].
+    #[inline(always)]
     pub fn load_under(&self, shift: f64) -> f64 {
         let ([load], _) = self.loads_at::<false, 1>(&[shift]);
         load
@@ -409,6 +416,7 @@ impl Element {
     }
 
     /// Checks an approach or a normal force.
+    #[inline(always)]
     pub(crate) fn check_normal(&self, is_approach: bool, value: f64) -> Result<(), Error> {
         let (is_allowed, largest, error) = if is_approach {
             (abs_le(value, MAX_DISPLACEMENT), self.largest_approach, Error::BadDisplacement)
@@ -425,6 +433,7 @@ impl Element {
     /// Checks a normal approach.
     /// Errors: `BadDisplacement` unless it is finite and at most 1e150 in magnitude; `LengthTooShort` if the contact would become
     /// too wide for its length.
+    #[inline(always)]
     pub fn check_approach(&self, approach: f64) -> Result<(), Error> {
         self.check_normal(true, approach)
     }
@@ -432,11 +441,13 @@ impl Element {
     /// Checks a normal force.
     /// Errors: `BadNormalForce` unless it is finite, not negative, and at most 1e150; `LengthTooShort` if the contact would become
     /// too wide for its length.
+    #[inline(always)]
     pub fn check_normal_force(&self, normal_force: f64) -> Result<(), Error> {
         self.check_normal(false, normal_force)
     }
 
     /// Whether an input that was checked closes the contact.
+    #[inline(always)]
     pub(crate) fn is_closed(&self, input: f64) -> bool {
         input > self.smallest_input
     }
@@ -460,6 +471,7 @@ impl Element {
     }
 
     /// N, S and, if requested, their derivatives at four inputs; zeros for an open contact.
+    #[inline(always)]
     pub(crate) fn four_normals<const SLOPES: bool>(&self, input: &[f64; 4]) -> [[f64; 4]; 4] {
         // A closed contact in place of each open one.
         let substitute = self.of_input.smallest();
@@ -473,6 +485,7 @@ impl Element {
     }
 
     /// N, S and, if requested, their derivatives at inputs that close the contact.
+    #[inline(always)]
     pub(crate) fn normals<const SLOPES: bool, const L: usize>(&self, input: &[f64; L]) -> [[f64; L]; 4] {
         let ([per_approach, per_load], is_sum) = (self.shift_per, self.shift_per[0] > 0.0);
         let (of_input, shift) = (Some(&self.of_input), Some(&self.shift));
@@ -495,12 +508,14 @@ impl Element {
     }
 
     /// N and, if requested, 1/K_t at shifts S >= 0.
+    #[inline(always)]
     pub(crate) fn loads_at<const SLOPES: bool, const L: usize>(&self, shift: &[f64; L]) -> ([f64; L], [f64; L]) {
         let (table, quantities) = (&self.load_of_shift, [Quantity::Load, Quantity::Shift]);
         table.at::<SLOPES, L>(shift).unwrap_or_else(|| self.one_by_one(Some(table), quantities, *shift))
     }
 
     /// N'' at four monotone shifts S > 0. The quarter of the table from an earlier call is kept.
+    #[inline(always)]
     pub(crate) fn four_curvatures(&self, shift: &[f64; 4], quarter: &mut Curvature) -> [f64; 4] {
         match self.load_of_shift.four_curvatures(shift, quarter) {
             Some(values) => values,
@@ -518,6 +533,7 @@ impl Element {
     }
 
     /// M, the integral of N, at a shift S >= 0.
+    #[inline(always)]
     pub(crate) fn potential_at_shift(&self, shift: f64) -> f64 {
         match self.load_of_shift.position(shift) {
             Some(at) => {

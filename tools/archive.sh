@@ -27,6 +27,7 @@ mkdir -p "$directory" "$(dirname "$to")"
 if [ -z "${CPU:-}" ] && [ "$triple" = "$host" ] && [ "${host%%-*}" = x86_64 ] && grep -qw avx2 /proc/cpuinfo; then
     CPU=x86-64-v3
 fi
+[ -z "${CPU:-}" ] || rustc --print target-cpus --target "$triple" | grep -qw "^ *$CPU" || fail "Rust knows no processor $CPU for $triple: rustc --print target-cpus"
 
 # Flags of the user may add code that panics, or make object files that only Rust's linker reads.
 CARGO_ENCODED_RUSTFLAGS="${CPU:+-Ctarget-cpu=$CPU}" CARGO_INCREMENTAL=0 "$CARGO" build --config tools/archive.toml --release --locked --package microslip \

@@ -1,6 +1,5 @@
 #!/bin/sh
-# miri.sh: tests/ffi.rs under Miri, with stacked borrows and the kernels for AVX2, which are the code of the others behind an unsafe
-# call. Needs the nightly toolchain with Miri, which it installs by rustup; exit status 77 if that is not possible.
+# miri.sh: tests/ffi.rs under Miri, with stacked borrows. Needs the nightly toolchain with Miri, which it installs by rustup; exit status 77 if that is not possible.
 set -eu
 
 cd "$(dirname "$0")/.."
@@ -12,5 +11,5 @@ fi
 rustup run nightly cargo miri setup --quiet
 # Otherwise Miri varies the last digits of the mathematical functions.
 export MIRIFLAGS='-Zmiri-strict-provenance -Zmiri-symbolic-alignment-check -Zmiri-deterministic-floats'
-RUSTFLAGS=-Ctarget-feature=+avx2 CARGO_TARGET_DIR=target/miri \
+CARGO_TARGET_DIR=target/miri \
     rustup run nightly cargo miri test --test ffi --quiet --locked --package microslip

@@ -44,6 +44,7 @@ CARGO_NET_OFFLINE=true CARGO_TERM_VERBOSE=true CARGO_TERM_COLOR=always          
 POSIXLY_CORRECT=1 LC_ALL=tr_TR.UTF-8 CDPATH=/ GREP_OPTIONS=--color=always          :
 CC=clang CFLAGS=-flto LDFLAGS=-flto LD=gcc                                         :
 SOURCE_DATE_EPOCH=0 MAKEFLAGS=-j2                                                  :
+CPU=8086                                                                           : knows no processor
 CARGO=/nonexistent/cargo                                                           : Rust
 CARGO=$work/old_cargo                                                              : Rust
 CARGO_BUILD_TARGET=wasm32-unknown-unknown                                          : is for Linux
@@ -102,4 +103,15 @@ dry_run() {
     make -C "$folder" -n install PREFIX="$work/nothing" && [ ! -e "$work/nothing" ]
 }
 check 'make -n' dry_run
+
+# A sum of the bits of what all calls give.
+bits() {
+    for cpu in native x86-64-v3 x86-64; do
+        CPU=$cpu tools/archive.sh "$work/archive.a" &&
+            cc -O1 -I"$prefix/include" -Iverification/embedding verification/embedding/all_calls.c verification/embedding/application.c \
+                "$work/archive.a" -lm -o "$work/application" && "$work/application" > "$work/$cpu" && cmp "$work/native" "$work/$cpu" || return
+    done
+    cat "$work/native"
+}
+[ "$(uname -m)" != x86_64 ] || ! grep -qw avx2 /proc/cpuinfo || check 'every processor: the same bits' bits
 counts

@@ -43,8 +43,7 @@ printf '#include <microslip.h>\n' | $CC -E -P -I"$prefix/include" - |
 # Hidden symbols still bind in a static link.
 $OBJDUMP -t "$archive" | awk '$2 != "l" && /\.(hidden|internal|protected) /' > "$work/hidden"
 $OBJDUMP -h "$archive" > "$work/sections"
-# The only variable is Rust's cache of the processor's features.
-awk '$2 ~ /^\.(data|bss|tdata|tbss|init_array|ctors)/ && $2 !~ /^\.data\.rel\.ro/ && $2 !~ /std_detect.*CACHE$/ && $3 !~ /^0+$/' \
+awk '$2 ~ /^\.(data|bss|tdata|tbss|init_array|ctors)/ && $2 !~ /^\.data\.rel\.ro/ && $3 !~ /^0+$/' \
     "$work/sections" > "$work/writable"
 # valgrind does not implement the store form of vmovq between registers.
 $OBJDUMP -d "$archive" | grep -E 'c[45]( [0-9a-f]{2}){1,2} d6 [c-f][0-9a-f][[:space:]]+vmovq ' > "$work/unsupported" || true

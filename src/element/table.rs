@@ -76,6 +76,7 @@ impl Table {
     }
 
     /// Position of an argument; `None` outside the table.
+    #[inline(always)]
     pub fn position(&self, x: f64) -> Option<Position> {
         let bits = x.to_bits();
         let index = (bits >> SHIFT).wrapping_sub(self.base) as usize;
@@ -83,6 +84,7 @@ impl Table {
     }
 
     /// y and, if requested, dy/dx at some arguments; `None` if one is outside.
+    #[inline(always)]
     pub fn at<const SLOPES: bool, const L: usize>(&self, x: &[f64; L]) -> Option<([f64; L], [f64; L])> {
         let mut rows = [&[0.0; TERMS]; L];
         for (row, x) in rows.iter_mut().zip(x) {
@@ -122,16 +124,19 @@ impl Table {
     }
 
     /// y and dy/dx at an argument; `None` outside the table.
+    #[inline(always)]
     pub fn one_at(&self, x: f64) -> Option<(f64, f64)> {
         self.at::<true, 1>(&[x]).map(|([value], [slope])| (value, slope))
     }
 
     /// The smallest argument inside.
+    #[inline(always)]
     pub fn smallest(&self) -> f64 {
         f64::from_bits(self.base << SHIFT)
     }
 
     /// y'' at four monotone arguments; `None` if one is outside. The quarter of an earlier call is kept.
+    #[inline(always)]
     pub fn four_curvatures(&self, x: &[f64; 4], quarter: &mut Curvature) -> Option<[f64; 4]> {
         let &[first, .., last] = x;
         quarter.enter(self, first)?;
@@ -147,6 +152,7 @@ impl Table {
     }
 
     /// The integral of y from the middle of the quarter to x.
+    #[inline(always)]
     pub fn integral_from_middle(&self, at: Position) -> f64 {
         // By the number of the quarter: beside t, an argument in a vector that is raised to powers would overflow.
         let ([middle, half_length], t) = (middle_and_half_length(self.base + at.index as u64), at.t);
@@ -166,11 +172,13 @@ impl Table {
 }
 
 /// The lower bits of the mantissa of an argument as a number from 1 to 2.
+#[inline(always)]
 fn mantissa(x: f64, bits: u32) -> f64 {
     f64::from_bits((x.to_bits() & ((1 << bits) - 1)) | EXPONENT_OF_1)
 }
 
 /// t.
+#[inline(always)]
 fn position_in(x: f64) -> f64 {
     POSITION * mantissa(x, SHIFT) - (POSITION + 1.0)
 }
@@ -200,6 +208,7 @@ impl Curvature {
     }
 
     /// Changes to the quarter in which x lies.
+    #[inline(always)]
     fn enter(&mut self, table: &Table, x: f64) -> Option<()> {
         let number = x.to_bits() >> SHIFT;
         if number != self.number {
@@ -215,6 +224,7 @@ impl Curvature {
         Some(())
     }
 
+    #[inline(always)]
     fn at<const N: usize>(&self, x: &[f64; N]) -> [f64; N] {
         let t = x.map(position_in);
         let mut sum = [0.0; N];

@@ -40,8 +40,8 @@ static AROUND_MIDDLE: [[f64; 32]; 32] = powers_in(0.0, 1.0);
 /// Expansion about the lower end, in powers of y = (1+z)/2 from 0 to 1.
 static FROM_END: [[f64; 24]; 24] = powers_in(-1.0, 2.0);
 
-/// 1/(2n), from n = 1. A vectorised division may have an unused lane that divides by 0.
-static PER_TWICE: [f64; TERMS] = tabulate!(TERMS, |n| 0.5 / (n as f64 + 1.0));
+/// 1/n, from n = 1. A vectorised division may have an unused lane that divides by 0.
+static RECIPROCALS: [f64; TERMS] = tabulate!(TERMS, |n| 1.0 / (n as f64 + 1.0));
 
 /// Value and slope of a function at a point.
 #[derive(Debug, Clone, Copy, Default)]
@@ -122,7 +122,7 @@ impl<const N: usize> Interpolant<N> {
         padded[0] *= 2.0;
         let mut integral = [0.0; TERMS];
         for n in 1..TERMS {
-            integral[n] = PER_TWICE[n - 1] * (padded[n - 1] - padded[n + 1]);
+            integral[n] = 0.5 * RECIPROCALS[n - 1] * (padded[n - 1] - padded[n + 1]);
         }
         Interpolant(integral)
     }
@@ -140,7 +140,7 @@ impl<const N: usize> Interpolant<N> {
     /// Mean over (0, y), as a polynomial in y = (1+z)/2.
     pub fn mean_from_end(&self) -> [f64; N] {
         let mut powers = self.powers_from_end();
-        powers.iter_mut().zip(1..).for_each(|(power, n)| *power /= f64::from(n));
+        powers.iter_mut().zip(&RECIPROCALS).for_each(|(power, reciprocal)| *power *= reciprocal);
         powers
     }
 
@@ -152,6 +152,7 @@ impl<const N: usize> Interpolant<N> {
 }
 
 /// Adds rows, each times its factor.
+#[inline(always)]
 fn add_rows<const M: usize>(sums: &mut [f64], factors: impl Iterator<Item = f64>, rows: &[[f64; M]; M]) {
     for (factor, row) in factors.zip(rows) {
         sums.iter_mut().zip(row).for_each(|(sum, value)| *sum += factor * value);

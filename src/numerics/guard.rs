@@ -18,31 +18,37 @@ pub(crate) trait Guarded: Copy + Div<Output = Self> {
 }
 
 impl Guarded for f64 {
+    #[inline(always)]
     fn at_least(self, least: f64) -> f64 {
         self.max(least)
     }
 
+    #[inline(always)]
     fn sqrt(self) -> f64 {
         f64::sqrt(self)
     }
 }
 
 impl<const L: usize> Guarded for Lanes<L> {
+    #[inline(always)]
     fn at_least(self, least: f64) -> Self {
         self.max(least)
     }
 
+    #[inline(always)]
     fn sqrt(self) -> Self {
         Lanes::sqrt(self)
     }
 }
 
 /// a/b of b >= 0.
+#[inline(always)]
 pub(crate) fn quotient<X: Guarded>(a: X, b: X) -> X {
     a / b.at_least(TINY)
 }
 
 /// √x of x >= 0 but for rounding.
+#[inline(always)]
 pub(crate) fn root<X: Guarded>(x: X) -> X {
     x.at_least(0.0).sqrt()
 }

@@ -13,6 +13,7 @@ pub(crate) struct Lanes<const L: usize>(pub [f64; L]);
 impl<const L: usize> Lanes<L> {
     pub const ZERO: Self = Lanes([0.0; L]);
 
+    #[inline(always)]
     pub fn map(self, function: impl Fn(f64) -> f64) -> Self {
         let mut values = self.0;
         for value in &mut values {
@@ -21,16 +22,19 @@ impl<const L: usize> Lanes<L> {
         Lanes(values)
     }
 
+    #[inline(always)]
     pub fn sqrt(self) -> Self {
         self.map(f64::sqrt)
     }
 
+    #[inline(always)]
     pub fn max(self, least: f64) -> Self {
         self.map(|value| value.max(least))
     }
 }
 
 impl<const L: usize> Default for Lanes<L> {
+    #[inline(always)]
     fn default() -> Self {
         Self::ZERO
     }
@@ -38,12 +42,14 @@ impl<const L: usize> Default for Lanes<L> {
 
 impl<const L: usize> Deref for Lanes<L> {
     type Target = [f64; L];
+    #[inline(always)]
     fn deref(&self) -> &[f64; L] {
         &self.0
     }
 }
 
 impl<const L: usize> DerefMut for Lanes<L> {
+    #[inline(always)]
     fn deref_mut(&mut self) -> &mut [f64; L] {
         &mut self.0
     }
@@ -78,6 +84,7 @@ macro_rules! operator {
 operator! { Add add +=; Sub sub -=; Mul mul *=; Div div /=; }
 
 impl<const L: usize> AddAssign for Lanes<L> {
+    #[inline(always)]
     fn add_assign(&mut self, other: Self) {
         *self = *self + other;
     }
@@ -85,12 +92,14 @@ impl<const L: usize> AddAssign for Lanes<L> {
 
 impl<const L: usize> Neg for Lanes<L> {
     type Output = Self;
+    #[inline(always)]
     fn neg(self) -> Self {
         Self::ZERO - self
     }
 }
 
 impl<const L: usize> SubAssign for Lanes<L> {
+    #[inline(always)]
     fn sub_assign(&mut self, other: Self) {
         *self = *self - other;
     }

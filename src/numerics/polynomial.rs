@@ -27,6 +27,7 @@ pub(crate) fn sum<'a>(rows: impl DoubleEndedIterator<Item = [f64; 4]> + 'a, x: f
 }
 
 /// Value and derivative at x. Each vector is a pair of an even and an odd power.
+#[inline(always)]
 pub(crate) fn value_and_slope<const R: usize>(rows: &Rows<R>, x: f64) -> (f64, f64) {
     let square = x * x;
     let step = f64x2::splat(square * square);
@@ -50,6 +51,7 @@ pub(crate) fn value_and_slope<const R: usize>(rows: &Rows<R>, x: f64) -> (f64, f
 }
 
 /// [`value_and_slope`] at L places, with the same bits. Without slopes these are 0.
+#[inline(always)]
 pub(crate) fn values_and_slopes<const R: usize, const L: usize, const SLOPES: bool>(
     rows: &Rows<R>,
     x: Lanes<L>,
