@@ -41,7 +41,7 @@ static AROUND_MIDDLE: [[f64; 32]; 32] = powers_in(0.0, 1.0);
 static FROM_END: [[f64; 24]; 24] = powers_in(-1.0, 2.0);
 
 /// 1/n, from n = 1. A vectorised division may have an unused lane that divides by 0.
-static RECIPROCALS: [f64; TERMS] = tabulate!(TERMS, |n| 1.0 / (n as f64 + 1.0));
+pub(crate) static RECIPROCALS: [f64; TERMS] = tabulate!(TERMS, |n| 1.0 / (n as f64 + 1.0));
 
 /// Value and slope of a function at a point.
 #[derive(Debug, Clone, Copy, Default)]

@@ -15,6 +15,7 @@
 
 use crate::error::Error;
 use crate::limits::in_range;
+use crate::numerics::chebyshev::RECIPROCALS;
 use crate::numerics::guard::{TINY, quotient};
 use crate::parameters;
 use crate::shape::series::{ORDER, Series};
@@ -132,11 +133,10 @@ impl Layer {
         let mut series = [0.0; ORDER];
         let ratio = self.stiffening * load * self.softness(load);
         let mut power = load * self.softness(load);
-        for (k, term) in series.iter_mut().enumerate() {
-            *term = if k == 0 { self.extent(load) } else { power / k as f64 };
-            if k > 0 {
-                power *= -ratio;
-            }
+        series[0] = self.extent(load);
+        for (term, reciprocal) in series.iter_mut().skip(1).zip(&RECIPROCALS) {
+            *term = power * reciprocal;
+            power *= -ratio;
         }
         series
     }
