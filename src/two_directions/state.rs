@@ -13,7 +13,8 @@
 //! in gross slip of one direction: there all springs are at their limits, which any nodes represent.
 
 use super::nodes::{
-    Both, FLAT_EDGE, N, NEIGHBOUR, Nodes, POINTS, PRESSURE, ROWS, SHIFT, SIZE, Units, both, fill, last_node,
+    Both, FLAT_EDGE, N, NEIGHBOUR, Nodes, POINTS, PRESSURE, ROWS, SHIFT, SIZE, Units, both, fill, first_shell,
+    last_node,
 };
 use super::path::{LONGEST, Path};
 use super::shells::Pressed;
@@ -395,8 +396,9 @@ impl Outgrown {
         let limits = self.contact.limits(&self.nodes);
         for k in 0..2 {
             let (limits, old) = (limits[k], &self.springs.v[k]);
-            for j in first..FLAT_EDGE {
-                new.v[k][j] = ratio * old[j];
+            // A flat that was too small for the old nodes moves with the innermost spring.
+            for j in first_shell(nodes)..FLAT_EDGE {
+                new.v[k][j] = ratio * old[j.max(first)];
             }
             for (place, node) in new.v[k].iter_mut().zip(&nodes[SHIFT + k]).take(last + 1).skip(FLAT_EDGE) {
                 let corners = limits.iter().zip(old.iter()).take(self.contact.shells.range().end).skip(FLAT_EDGE).rev();
