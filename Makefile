@@ -30,7 +30,7 @@ files := lib/libmicroslip.a include/microslip.h include/microslip.f90 $(pcdir)/m
 	$(addprefix $(docdir)/,LICENSE-MIT LICENSE-APACHE THIRD-PARTY.md)
 products := $(addprefix $(tree)/,$(files))
 
-.PHONY: all shared install uninstall demo audit coverage miri test verify bench instructions \
+.PHONY: all shared install uninstall demo audit coverage miri test verify bench \
 	figures identification host fuzz check parallel header python docs dist recipes release clean help always
 .DELETE_ON_ERROR:
 
@@ -117,11 +117,6 @@ verify:
 	@tools/dependencies.sh verify
 	$(CARGO) run --locked --package verify -- \
 		--points $(or $(POINTS),1e7) --replay verification/accuracy.csv --regions verification/accuracy.csv --promises docs/promises.csv
-
-## instructions: count the instructions of each call and check the relations between the counts
-instructions:
-	@tools/dependencies.sh instructions
-	$(CARGO) run --quiet --locked --package instructions
 
 ## bench: run time against error of the library and of what one would use instead; QUICK=1 for fewer cases
 bench: all

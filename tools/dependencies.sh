@@ -9,7 +9,7 @@ set -eu
 # The oldest Rust that compiles the library.
 rust=$(sed -n 's/^rust-version = "\(.*\)"/\1/p' "$(dirname "$0")/../Cargo.toml")
 table='
-cargo           rust demo test check bench figures host fuzz docs verify python parallel instructions : rust
+cargo           rust demo test check bench figures host fuzz docs verify python parallel : rust
 gcc             demo test check bench figures host fuzz docs verify python   : command gcc
 gfortran        demo test check host parallel                         : command gfortran
 liblapack-dev   demo test check host parallel                         : library lapack
@@ -20,7 +20,7 @@ libmpfr-dev     test check bench figures verify                       : header m
 pkg-config      test check                                            : command pkg-config
 g++             test check fuzz                                       : command g++
 shellcheck      check                                                 : command shellcheck
-valgrind        check instructions                                    : command valgrind
+valgrind        check                                                 : command valgrind
 clang           check                                                 : command clang
 flang-19        check                                                 : command flang-new-19
 llvm            check                                                 : command llvm-symbolizer

@@ -75,7 +75,11 @@ def _finite(values: Any, name: str, *shapes: Shape) -> Any:
 def _samples(values: Any, name: str, *shapes: Shape) -> Any:
     """A list of numbers, of which those that are not finite are missing, or a finite number."""
     array = doubles(values, name, *shapes)
-    return np.where(np.isfinite(array), array, None).tolist() if array.ndim else _finite(array, name, ())
+    if not array.ndim:
+        return _finite(array, name, ())
+    numbers = array.astype(object)
+    numbers[~np.isfinite(array)] = None
+    return numbers.tolist()
 
 
 def _mapping(given: Any, name: str) -> dict[Any, Any]:

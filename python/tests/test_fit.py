@@ -88,7 +88,10 @@ def without(name):
         ("young_modulus of contact must be", {"contact": TRUTH | {"young_modulus": (1, 2, 3)}}),
         ("friction_coefficient of fixed must be", {"fixed": {"friction_coefficient": None}}),
         ("160 of 160 samples have no number, the first one is 1;", {"loops": [(LOOP[0], np.full(160, np.nan))]}),
-        ("normal_force of loops.0. must be finite", {"loops": [{"displacement": LOOP[0], "force": LOOP[1], "normal_force": np.nan}]}),
+        (
+            "normal_force of loops.0. must be finite",
+            {"loops": [{"displacement": LOOP[0], "force": LOOP[1], "normal_force": np.nan}]},
+        ),
         ("force of loops.1. must be real numbers", {"loops": [LOOP, ([0.0, 1.0], ["a", "b"])]}),
         ("force of loops.0. must not be masked", {"loops": [(LOOP[0], np.ma.array(LOOP[1]))]}),
         ("loops.0. must be a pair", {"loops": [(*LOOP, LOOP[1])]}),

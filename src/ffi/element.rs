@@ -38,8 +38,9 @@ unsafe fn initialise<P>(
 }
 
 /// Initialises the element of a flat with rounded edges, or of a cylinder. normal_force of the parameters, > 0, is the largest
-/// force for which the element is tabulated. Larger ones are exact, but a step takes up to 10 times as many instructions, with its
-/// energy up to 80 times, and with two directions it is less accurate. directions is the number of tangential directions, 1 or 2: a displacement is \[u, w\] or \[u, v, w\], a force \[T, N\] or \[Tx, Ty, N\].
+/// force for which the element is tabulated. Larger ones are exact, but a step takes several times as long, with its energy tens of times,
+/// and with two directions it is less accurate. directions is the number of tangential directions, 1 or 2: a displacement is \[u, w\] or
+/// \[u, v, w\], a force \[T, N\] or \[Tx, Ty, N\].
 /// normal_input is MSLIP_INPUT_APPROACH, w is the normal approach \[m\], or MSLIP_INPUT_NORMAL_FORCE, w is the normal force \[N\].
 ///
 /// In a step the contact is open if w is at most 2^-150 of its value under normal_force, with two directions 2^-80. With two
