@@ -197,10 +197,10 @@ struct Walk<'a> {
     contact: Contact,
     normal: Normal,
     springs: Displacements,
-    step: Step,
+    step: &'a mut Step,
     /// Derivatives of the contact, and of the one before, by the normal component and by the reference size, if they are known.
     slopes: [Option<[ContactSlopes; 2]>; 2],
-    terms: Terms<4>,
+    terms: &'a mut Terms<4>,
 }
 
 /// What a step gives besides the springs.
@@ -213,20 +213,25 @@ struct Advanced {
 }
 
 impl<'a> Walk<'a> {
-    /// Pressed by a normal component.
-    fn new(element: &'a Element, units: Units, nodes: &'a Nodes, top: f64) -> Walk<'a> {
+    /// Pressed by a normal component. The step and the terms are large: memory of the caller is not copied.
+    fn new(
+        element: &'a Element,
+        (units, nodes): (Units, &'a Nodes),
+        top: f64,
+        (step, terms): (&'a mut Step, &'a mut Terms<4>),
+    ) -> Walk<'a> {
         let mut walk = Walk {
             element,
             units,
             nodes,
             at: [0.0, 0.0, top],
-            from: Contact::default(),
-            contact: Contact::default(),
+            from: Contact::open(),
+            contact: Contact::open(),
             normal: Normal::OPEN,
-            springs: Displacements::default(),
-            step: Step::default(),
+            springs: Displacements::NONE,
+            step,
             slopes: [None; 2],
-            terms: Terms::ZERO,
+            terms,
         };
         walk.press(top);
         walk
@@ -249,7 +254,7 @@ impl<'a> Walk<'a> {
             unbounded = self.step.advance(self.nodes, contacts, &motion, &mut self.springs, derivatives);
             force = bounded(unbounded, self.contact.now.load);
         } else {
-            (self.contact, self.springs, self.normal) = (Contact::default(), Displacements::default(), Normal::OPEN);
+            (self.contact, self.springs, self.normal) = (Contact::open(), Displacements::NONE, Normal::OPEN);
             self.slopes = [None; 2];
         }
         Advanced { force, unbounded, motion, path, closed }
@@ -294,7 +299,7 @@ fn differentiate(
     terms.add(END, contact, (step, motion.constant_load), [None, Some(&by_end[0])], None);
     terms.add(START, contact, (step, motion.constant_load), [Some(&by_start[0]), None], None);
     terms.add(REFERENCE, contact, (step, motion.constant_load), [Some(&by_start[1]), Some(&by_end[1])], Some(nodes));
-    let (contact, step, terms) = (&*contact, &*step, &*terms);
+    let (contact, step, terms) = (&*contact, &**step, &**terms);
     let values = (step, &*springs);
     let (by_parameters, force) = {
         let (by, mut changes) = ([Lanes::ZERO; 2], SpringChanges::<4>::ZERO);
@@ -389,7 +394,8 @@ fn walk(element: &Element, workspace: &mut Workspace, displacement: &[f64], outp
             workspace.changes.fill(0.0);
             workspace.sums.fill(0.0);
         }
-        let mut walk = Walk::new(element, units, &nodes[0], top);
+        let (mut step, mut terms) = (Step::NONE, Terms::ZERO);
+        let mut walk = Walk::new(element, (units, &nodes[0]), top, (&mut step, &mut terms));
         let slopes = slopes_of_nodes([&nodes[1], &nodes[2]]);
         let by_top = if walk.normal.load >= units.load * 0.99 { 0.5 * walk.contact.slopes.size } else { 0.0 };
         let mut before = None;

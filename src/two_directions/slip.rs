@@ -45,7 +45,6 @@ const BACKWARDS: f64 = 1e-14;
 const NEAR: f64 = 0.5;
 
 /// Slip of the points of a contact, and what its derivatives need.
-#[derive(Default)]
 #[repr(align(32))]
 pub(crate) struct Slip {
     pub points: Points,
@@ -60,7 +59,6 @@ pub(crate) struct Slip {
 }
 
 /// The points of a contact after slip.
-#[derive(Default)]
 pub(crate) struct Points {
     /// The points that slip, the innermost one, and a mask of 1 and 0.
     pub set: Set,
@@ -74,6 +72,12 @@ pub(crate) struct Points {
 }
 
 impl Slip {
+    pub const NONE: Slip = {
+        let (rows, matrix) = ([Row::ZERO; 2], [Row::ZERO; N]);
+        let points = Points { set: 0, first: 0, slips: Row::ZERO, e: rows, q: rows, r: rows, v: rows };
+        Slip { points, turned: Row::ZERO, metric: [matrix; 2], inverse: matrix, kept: (0, matrix), known: (0, 0.0) }
+    };
+
     /// Finds the slip from a trial state of springs under a load. The derivatives of slip are prepared if they are requested.
     pub fn find(&mut self, springs: &Springs, trial: &Both<Row>, load: f64, derivatives: bool) {
         let q = springs.tractions(trial);

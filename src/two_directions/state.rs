@@ -221,7 +221,7 @@ impl State<'_> {
         }
         if at.key != element.key {
             // The springs of another element relax where they are.
-            springs = Displacements::default();
+            springs = Displacements::NONE;
             at = Place { displacement: at.displacement, key: element.key, ..Place::default() };
             if element.is_closed(at.displacement[2]) && self.header[0][1] > 0.0 {
                 at.set_nodes(element, self.nodes, element.normal(at.displacement[2]).load);
@@ -233,7 +233,7 @@ impl State<'_> {
             (true, false) => element.normal(to[2]),
             _ => Normal { load: at.normal_force, load_slope: at.load_slope, ..Normal::OPEN },
         };
-        let (mut from, mut outgrown) = (Contact::default(), None);
+        let (mut from, mut outgrown) = (Contact::open(), None);
         if was_closed {
             from = Contact::new(self.nodes, &at.pressed);
         } else {
@@ -266,7 +266,7 @@ impl State<'_> {
         }
         let contact = pressed.as_ref().unwrap_or(&from);
         let motion = Motion { before: from.now.shift, by: path.by, constant_load: same };
-        let mut step = Step::default();
+        let mut step = Step::NONE;
         (step.middle.turned, step.end.turned) = (Lanes(self.turned[0]), Lanes(self.turned[1]));
         let contacts = [&from, contact];
         let force = step.advance(self.nodes, contacts, &motion, &mut springs, requested.tangent);
@@ -298,7 +298,7 @@ impl State<'_> {
         if self.header[0][6] != 0.0 {
             (*self.turned, *self.nodes) = ([[0.0; N]; 2], [[0.0; N]; ROWS]);
         }
-        self.write(&Place { displacement, ..Place::default() }, &Displacements::default());
+        self.write(&Place { displacement, ..Place::default() }, &Displacements::NONE);
     }
 }
 
@@ -392,7 +392,7 @@ impl Outgrown {
     fn springs_at(&self, nodes: &Nodes, now: &Pressed, units: &Units) -> Displacements {
         let (ratio, first) = (self.units.shift / units.shift, self.contact.shells.first.min(FLAT_EDGE));
         let last = last_node(nodes, now.inside_shift[0]);
-        let mut new = Displacements { edge: self.springs.edge.map(|edge| ratio * edge), ..Displacements::default() };
+        let mut new = Displacements { edge: self.springs.edge.map(|edge| ratio * edge), ..Displacements::NONE };
         let limits = self.contact.limits(&self.nodes);
         for k in 0..2 {
             let (limits, old) = (limits[k], &self.springs.v[k]);

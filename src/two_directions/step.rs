@@ -18,7 +18,7 @@ use crate::numerics::guard::{TINY, root};
 use crate::numerics::lanes::Lanes;
 
 /// A contact under a load: its normal state, with derivatives by the normal component over its scale, and its shells.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct Contact {
     pub now: Pressed,
     pub slopes: Pressed,
@@ -26,6 +26,11 @@ pub(crate) struct Contact {
 }
 
 impl Contact {
+    /// A contact that is open.
+    pub fn open() -> Contact {
+        Contact { now: Pressed::default(), slopes: Pressed::default(), shells: Shells::NONE }
+    }
+
     pub fn new(nodes: &Nodes, [now, slopes]: &[Pressed; 2]) -> Contact {
         Contact { now: *now, slopes: *slopes, shells: Shells::new(nodes, now) }
     }
@@ -47,10 +52,14 @@ impl Contact {
 }
 
 /// The springs: displacements, and those of the spring at the edge.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Displacements {
     pub v: Both<Row>,
     pub edge: Both<f64>,
+}
+
+impl Displacements {
+    pub const NONE: Displacements = Displacements { v: [Row::ZERO; 2], edge: [0.0; 2] };
 }
 
 /// A step, straight in S and in the displacement: S at the start, the displacement, and whether the load is that of the start.
@@ -68,7 +77,7 @@ pub(crate) const LEAST: f64 = 1e-40;
 const FAR: [f64; 2] = [2.5, 5.0];
 
 /// How far a step slides: the displacement δ, and that part of the innermost spring which a falling load cuts off, over the innermost limit.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct Far {
     /// The part of the springs that ends in gross slip, 0 to 1, and its derivative by the distance.
     pub part: f64,
@@ -126,7 +135,6 @@ impl Released {
 }
 
 /// A step while it is computed, and what its derivatives and its energy need.
-#[derive(Default)]
 pub(crate) struct Step {
     /// The springs at the start and in the trial state, and the parts of the displacement that they follow.
     pub old: Displacements,
@@ -143,7 +151,7 @@ pub(crate) struct Step {
 
 /// The spring at the edge: the parts of the displacement and of its old one that it follows and keeps, its trial displacement over its limit,
 /// the length of this, and whether it slips.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct EdgeSpring {
     pub part: Both<f64>,
     pub kept: Both<f64>,
@@ -155,6 +163,21 @@ pub(crate) struct EdgeSpring {
 }
 
 impl Step {
+    pub const NONE: Step = {
+        let (none, rows) = ([0.0; 2], [Row::ZERO; 2]);
+        Step {
+            old: Displacements::NONE,
+            trial: rows,
+            parts: rows,
+            springs: Springs::NONE,
+            between: Springs::NONE,
+            middle: Slip::NONE,
+            end: Slip::NONE,
+            far: Far { part: 0.0, slope: 0.0, cut: none, ratio: none, distance: 0.0, e: none, per_length: 0.0 },
+            edge: EdgeSpring { part: none, kept: none, before: none, ratio: none, length: 0.0, slips: false },
+        }
+    };
+
     /// Advances springs; the force, which is not yet bounded.
     #[inline(never)]
     pub fn advance(

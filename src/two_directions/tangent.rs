@@ -35,7 +35,7 @@ pub(crate) const START: usize = 1;
 pub(crate) const REFERENCE: usize = 2;
 
 /// A contact's derivatives by one of its parameters.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct ContactSlopes {
     pub shells: Shells,
     pub shift: Both<f64>,
@@ -45,10 +45,13 @@ pub(crate) struct ContactSlopes {
 }
 
 impl ContactSlopes {
+    const NONE: ContactSlopes =
+        ContactSlopes { shells: Shells::NONE, shift: [0.0; 2], load: 0.0, edge_limit: [0.0; 2] };
+
     /// By the normal component: of the last shell only.
     pub fn by_load(nodes: &Nodes, contact: &Contact) -> ContactSlopes {
         let slopes = &contact.slopes;
-        let mut by = ContactSlopes { shift: slopes.shift, load: slopes.load, ..ContactSlopes::default() };
+        let mut by = ContactSlopes { shift: slopes.shift, load: slopes.load, ..ContactSlopes::NONE };
         if contact.now.load > 0.0 {
             by.edge_limit = both(|k| slopes.shift[k] - slopes.inside_shift[k]);
             (by.shells.first, by.shells.last) = (contact.shells.first, contact.shells.last);
@@ -59,7 +62,7 @@ impl ContactSlopes {
 
     /// By the reference size of the nodes, from derivatives of these.
     pub fn by_reference(nodes: &Nodes, slopes: &Nodes, contact: &Contact) -> ContactSlopes {
-        let mut by = ContactSlopes::default();
+        let mut by = ContactSlopes::NONE;
         if contact.now.load > 0.0 {
             by.shells = Shells::before(slopes, contact.shells.first, contact.shells.last);
             by.shells.set_last_slopes(nodes, &contact.shells, &contact.now, &Pressed::default(), Some(slopes));
@@ -182,7 +185,7 @@ impl<const L: usize> Terms<L> {
         [from, to]: [Option<&ContactSlopes>; 2],
         nodes: Option<&Nodes>,
     ) {
-        let none = Shells::default();
+        let none = Shells::NONE;
         let ends = [from, to].map(|by| by.map_or(&none, |by| &by.shells));
         let between = if constant_load { &step.springs } else { &step.between };
         // By the load, only the last shells have derivatives.
