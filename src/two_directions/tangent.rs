@@ -470,7 +470,7 @@ impl Slip {
             }
             for i in (first..end).rev().map(|i| i.min(N - 1)) {
                 let mut sum = Lanes::ZERO;
-                for j in first..i + 1 {
+                for j in first..=i {
                     sum += springs.inverse[k][j][i] * v[k][j];
                 }
                 v[k][i] = sum;
