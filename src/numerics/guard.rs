@@ -43,7 +43,7 @@ impl<const L: usize> Guarded for Lanes<L> {
 
 /// a/b of b >= 0.
 #[inline(always)]
-pub(crate) fn quotient<X: Guarded>(a: X, b: X) -> X {
+pub(crate) fn quotient<A: Div<X, Output = X>, X: Guarded>(a: A, b: X) -> X {
     a / b.at_least(TINY)
 }
 

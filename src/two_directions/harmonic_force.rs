@@ -23,6 +23,7 @@ use crate::error::Error;
 use crate::fourier::workspace::{Layout, Parts, Size};
 use crate::fourier::{angle, work};
 use crate::limits::check_coefficients;
+use crate::numerics::guard::quotient;
 use crate::numerics::lanes::Lanes;
 use crate::tag::Kind;
 
@@ -273,7 +274,7 @@ impl<'a> Walk<'a> {
             let differences = (self.springs.v[k] - from.v[k]).map(f64::abs);
             dot(&self.step.springs.stiffness[k], &differences)
         });
-        change[0].hypot(change[1]) / self.contact.now.load.max(f64::MIN_POSITIVE)
+        quotient(change[0].hypot(change[1]), self.contact.now.load)
     }
 }
 
@@ -457,7 +458,7 @@ fn walk(element: &Element, workspace: &mut Workspace, displacement: &[f64], outp
 
 /// What a sequence of changes leaves, of which these are the last two: that of a geometric one.
 fn remaining([before, last]: [f64; 2]) -> f64 {
-    let ratio = (last / before.max(f64::MIN_POSITIVE)).min(0.95);
+    let ratio = quotient(last.min(before), before).min(0.95);
     last * (ratio / (1.0 - ratio)).max(1.0)
 }
 

@@ -24,7 +24,7 @@
 //! All is in units of N, of S across the line and of w of the reference size.
 
 use crate::element::Element;
-use crate::numerics::guard::{TINY, root};
+use crate::numerics::guard::{TINY, quotient, root};
 use crate::numerics::lanes::Lanes;
 use core::f64::consts::PI;
 
@@ -175,7 +175,7 @@ pub(crate) fn pressure(nodes: &Nodes, j: usize, to: f64, i: usize) -> f64 {
     let (upper, lower) = (to - nodes[POINTS][i], nodes[SIZE][j] - nodes[POINTS][i]);
     let (height, inner) = (root(upper), root(lower));
     let sum = height + inner;
-    let rise = (to - nodes[SIZE][j]) / if sum > TINY { sum } else { TINY };
+    let rise = quotient(to - nodes[SIZE][j], sum);
     nodes[WEIGHT][j] * if lower > 0.0 { rise } else { height }
 }
 
@@ -186,7 +186,7 @@ pub(crate) fn pressure_slope(nodes: &Nodes, by: Option<&Nodes>, j: usize, [to, b
     let [by_upper, by_lower] = [by_to, slope(SIZE, j)].map(|slope_of| slope_of - slope(POINTS, i));
     let inner = if lower > 0.0 { by_lower / lower.max(TINY).sqrt() } else { 0.0 };
     let own = 0.5 * nodes[WEIGHT][j] * (by_upper / upper.max(TINY).sqrt() - inner);
-    own + slope(WEIGHT, j) / nodes[WEIGHT][j].max(TINY) * pressure(nodes, j, to, i)
+    own + quotient(slope(WEIGHT, j), nodes[WEIGHT][j]) * pressure(nodes, j, to, i)
 }
 
 /// F at the own point of the last shell, which lies at the same part of it as in a whole shell.
@@ -194,7 +194,7 @@ pub(crate) fn pressure_at_edge(nodes: &Nodes, j: usize, to: f64) -> f64 {
     let flat = -nodes[SIZE][0];
     let [outer, inner] = [to, nodes[SIZE][j]].map(|square| root(square + flat));
     let sum = outer + inner;
-    let distance = (to - nodes[SIZE][j]) / if sum > TINY { sum } else { TINY };
+    let distance = quotient(to - nodes[SIZE][j], sum);
     nodes[WEIGHT][j] * root((1.0 - POINT) * distance * (2.0 * inner + (1.0 + POINT) * distance))
 }
 
@@ -204,14 +204,14 @@ pub(crate) fn pressure_at_edge_slope(nodes: &Nodes, by: Option<&Nodes>, j: usize
     let (flat, at) = (-nodes[SIZE][0], pressure_at_edge(nodes, j, to));
     let [outer, inner] = [to, nodes[SIZE][j]].map(|square| root(square + flat));
     let sum = outer + inner;
-    let distance = (to - nodes[SIZE][j]) / if sum > TINY { sum } else { TINY };
-    let [by_outer, by_inner] = [(by_to, outer), (slope(SIZE, j), inner)].map(|(by, s)| 0.5 * by / s.max(TINY));
+    let distance = quotient(to - nodes[SIZE][j], sum);
+    let [by_outer, by_inner] = [(by_to, outer), (slope(SIZE, j), inner)].map(|(by, s)| quotient(0.5 * by, s));
     let by_distance = by_outer - if inner > 0.0 { by_inner } else { 0.0 };
     let weight = nodes[WEIGHT][j].max(TINY);
     let by_square = (1.0 - POINT)
         * (by_distance * (2.0 * inner + 2.0 * (1.0 + POINT) * distance)
             + 2.0 * distance * if inner > 0.0 { by_inner } else { 0.0 });
-    0.5 * weight * weight * by_square / at.max(TINY) + slope(WEIGHT, j) / weight * at
+    quotient(0.5 * weight * weight * by_square, at) + slope(WEIGHT, j) / weight * at
 }
 
 /// F_ij cut so that F_ij/ΔS_j does not exceed that of the shell before, given the ratios of ΔS of both.
@@ -240,7 +240,7 @@ fn places(element: &Element, units: &Units, reference: f64) -> Row {
             if target > next {
                 break;
             }
-            w[j] = at(i - 1) + (at(i) - at(i - 1)) * (target - before) / (next - before).max(TINY);
+            w[j] = at(i - 1) + quotient((at(i) - at(i - 1)) * (target - before), next - before);
             j += 1;
         }
         before = next;

@@ -16,7 +16,7 @@ use super::nodes::{
     first_shell, last_node, pressure, pressure_at_edge, pressure_at_edge_slope, pressure_slope,
 };
 use crate::element::{Element, Normal, SMALLEST_LOAD};
-use crate::numerics::guard::TINY;
+use crate::numerics::guard::{TINY, quotient};
 use crate::numerics::lanes::Lanes;
 use core::ops::Range;
 
@@ -115,11 +115,11 @@ impl Shells {
         for k in 0..2 {
             let (node, shift) = (nodes[SHIFT + k][last], now.shift[k] - nodes[SHIFT + k][last]);
             // The polygon of N(S) has its last corner at the size inside.
-            let secant = (now.inside - nodes[LOAD][last]) / (now.inside_shift[k] - node).max(TINY);
-            let outer = (now.load - now.inside) / (now.shift[k] - now.inside_shift[k]).max(TINY);
+            let secant = quotient(now.inside - nodes[LOAD][last], now.inside_shift[k] - node);
+            let outer = quotient(now.load - now.inside, now.shift[k] - now.inside_shift[k]);
             (self.load[k][last], self.shift[k][last]) = (secant * shift, shift);
             self.edge[k] = outer - secant;
-            steps[k] = shift / nodes[SHIFT_STEP + k][before].max(TINY);
+            steps[k] = quotient(shift, nodes[SHIFT_STEP + k][before]);
         }
         for i in self.first..last {
             let own = pressure(nodes, last, now.size, i);
@@ -257,9 +257,9 @@ impl Springs {
                 pressures += pressure[j];
             }
         }
-        *per_pressure = 1.0 / pressures.max(TINY);
+        *per_pressure = quotient(1.0, pressures);
         for k in 0..2 {
-            per_shift[k] = 1.0 / shells.shift[k].max(TINY);
+            per_shift[k] = quotient(1.0, shells.shift[k]);
             stiffness[k] = shells.stiffness(k, &per_shift[k]);
             let (per_shift, inverse) = (&per_shift[k], &mut inverse[k]);
             inverse.iter_mut().take(shells.range().start).for_each(|row| *row = Row::ZERO);
@@ -267,7 +267,7 @@ impl Springs {
             for i in shells.range().rev().map(|i| i.min(N - 1)) {
                 // v_i = [p_i q_i + Σ_{j>i} (g_i,j-1 - g_ij) v_j]/g_ii, with p_i g_ij in place of g_ij.
                 let (mut row, mut before) = (Row::ZERO, pressure[i][i] * per_shift[i]);
-                let per_map = 1.0 / before.max(TINY);
+                let per_map = quotient(1.0, before);
                 row[i] = pressures[i];
                 for j in i + 1..(shells.last + 1).min(N) {
                     let own = pressure[j][i] * per_shift[j];

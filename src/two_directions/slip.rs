@@ -16,7 +16,7 @@
 use super::matrix::{invert, times};
 use super::nodes::{Both, Matrix, N, Row};
 use super::shells::Springs;
-use crate::numerics::guard::TINY;
+use crate::numerics::guard::{TINY, quotient};
 use crate::numerics::lanes::Lanes;
 
 /// Bits of points.
@@ -149,7 +149,7 @@ impl Slip {
                 }
                 points.turn(&turns);
                 // Quadratic with a new inverse, linear with an old one, of which the first change tells nothing.
-                let linear = turn / before.max(TINY);
+                let linear = quotient(turn, before);
                 let rate = if renewed[1] { turn } else { linear };
                 let is_first = before > LOST && !renewed[1];
                 let stalled = renewed == [true; 2] && before <= SMALL_TURN && turn >= STALLED * before;
@@ -279,7 +279,7 @@ pub(crate) fn within([first, end]: [usize; 2]) -> Set {
 /// Eliminates a point from a symmetric matrix: what is left of it between others, its row times its reciprocal, and minus this reciprocal.
 fn eliminate(matrix: &mut Matrix, i: usize, [first, end]: [usize; 2]) {
     let i = i.min(N - 1);
-    let per_pivot = 1.0 / matrix[i][i].max(TINY);
+    let per_pivot = quotient(1.0, matrix[i][i]);
     let row = per_pivot * matrix[i];
     for m in first..end.min(N) {
         let x = matrix[m][i];
@@ -305,7 +305,7 @@ fn sweep(springs: &Springs, trial: &Both<Row>, q: &mut Both<Row>) -> (Both<Row>,
         set = 0;
         for i in springs.shells.range().rev().map(|i| i.min(N - 1)) {
             // The stiffer direction bounds the curvature in both.
-            let per = 1.0 / metric[0][i][i].max(metric[1][i][i]).max(TINY);
+            let per = quotient(1.0, metric[0][i][i].max(metric[1][i][i]));
             let mut to = [0.0; 2];
             for k in 0..2 {
                 to[k] = q[k][i] + per * dot(&metric[k][i], &(trial[k] - q[k]));

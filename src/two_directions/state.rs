@@ -26,7 +26,7 @@ use crate::error::Error;
 use crate::law::{Law, PathOutput};
 use crate::limits::check_displacement;
 use crate::numerics::fp_class::is_finite;
-use crate::numerics::guard::TINY;
+use crate::numerics::guard::quotient;
 use crate::numerics::lanes::Lanes;
 use crate::tag::Kind;
 
@@ -320,7 +320,7 @@ impl Place {
         if largest <= load {
             return largest;
         }
-        let aligned = 2.0 - (1.0 - force[0].hypot(force[1]) / contact.now.load.max(TINY)) / SAME_DIRECTION;
+        let aligned = 2.0 - (1.0 - quotient(force[0].hypot(force[1]), contact.now.load)) / SAME_DIRECTION;
         if aligned <= 0.0 {
             return largest;
         }
@@ -414,8 +414,7 @@ fn polygon(at: f64, corners: impl Iterator<Item = [f64; 2]>) -> f64 {
     let mut before = [0.0; 2];
     for corner in corners {
         if corner[0] >= at {
-            let width = (corner[0] - before[0]).max(TINY);
-            return before[1] + (at - before[0]) / width * (corner[1] - before[1]);
+            return before[1] + quotient(at - before[0], corner[0] - before[0]) * (corner[1] - before[1]);
         }
         before = corner;
     }

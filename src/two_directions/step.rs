@@ -14,7 +14,7 @@
 use super::nodes::{Both, FLAT_EDGE, N, Nodes, Row, SHIFT, both};
 use super::shells::{Pressed, Shells, Springs};
 use super::slip::{Slip, dot, lanes_of, within};
-use crate::numerics::guard::{TINY, root};
+use crate::numerics::guard::{TINY, quotient, root};
 use crate::numerics::lanes::Lanes;
 
 /// A contact under a load: its normal state, with derivatives by the normal component over its scale, and its shells.
@@ -277,7 +277,7 @@ pub(crate) const ROUNDING: f64 = 1.0 + 1e-12;
 /// A force within Coulomb's bound.
 pub(crate) fn bounded(force: Both<f64>, bound: f64) -> Both<f64> {
     let length = (force[0] * force[0] + force[1] * force[1]).sqrt();
-    let scale = if length > bound { bound / length.max(TINY) } else { 1.0 };
+    let scale = if length > bound { quotient(bound, length) } else { 1.0 };
     force.map(|force| force * scale)
 }
 
@@ -330,7 +330,7 @@ pub(crate) fn separated(nodes: &Nodes, from: &Contact, now: &Pressed, by: Both<f
     let mut energy = 0.0;
     let fall = both(|k| from.now.shift[k] - now.shift[k]);
     let limits = from.limits(nodes);
-    let stiffness = both(|k| from.shells.stiffness(k, &(1.0 / from.shells.shift[k].max(TINY))));
+    let stiffness = both(|k| from.shells.stiffness(k, &quotient(1.0, from.shells.shift[k])));
     for j in from.shells.range() {
         if now.load > 0.0 && nodes[SHIFT][j] < now.shift[0] {
             continue;

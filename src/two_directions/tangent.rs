@@ -11,7 +11,7 @@ use super::nodes::{Both, FLAT_EDGE, Matrix, N, NEIGHBOUR, Nodes, Row, SHIFT, bot
 use super::shells::{Pressed, Shells, Springs, falls};
 use super::slip::{Set, Slip, dot, within};
 use super::step::{Contact, LEAST, Motion, Released, Step};
-use crate::numerics::guard::TINY;
+use crate::numerics::guard::quotient;
 use crate::numerics::lanes::Lanes;
 
 /// Changes of each spring.
@@ -363,7 +363,7 @@ impl<const L: usize> FarChanges<L> {
                     way[k] += (step.old.v[k][first] / before) * ((limit / before) * terms.before[k] - terms.now[k]);
                 }
             }
-            distance += (far.ratio[k] / far.distance.max(TINY) / limit) * (way[k] - far.ratio[k] * by_limit);
+            distance += (quotient(far.ratio[k], far.distance) / limit) * (way[k] - far.ratio[k] * by_limit);
         }
         let turn = far.per_length * (far.e[0] * way[1] - far.e[1] * way[0]);
         FarChanges { part: far.slope * distance, e: [-far.e[1] * turn, far.e[0] * turn] }
@@ -408,7 +408,7 @@ fn move_edge<const L: usize>(
     }
     let (mut end, mut e) = (ratio, edge.ratio);
     if edge.slips {
-        let per = 1.0 / edge.length.max(TINY);
+        let per = quotient(1.0, edge.length);
         e = edge.ratio.map(|ratio| per * ratio);
         let turn = per * (e[0] * ratio[1] - e[1] * ratio[0]);
         end = [-e[1] * turn, e[0] * turn];
@@ -433,7 +433,7 @@ pub(crate) fn bounded<const L: usize>(
     if length <= super::step::ROUNDING * bound {
         return [x, y];
     }
-    let per = 1.0 / length.max(TINY);
+    let per = quotient(1.0, length);
     let e = force.map(|force| force * per);
     let turn = (bound * per) * (e[0] * y - e[1] * x);
     let along = by_bound.unwrap_or(Lanes::ZERO);
