@@ -8,9 +8,9 @@
 
 use crate::numerics::chebyshev::monic_powers;
 use crate::numerics::const_math::tabulate;
+use crate::numerics::lanes::Lanes;
 use crate::shape::series::{ORDER, Series};
 use core::hint::black_box;
-use wide::f64x2;
 
 /// Coefficients of a quarter.
 const TERMS: usize = 12;
@@ -157,16 +157,15 @@ impl Table {
         // By the number of the quarter: beside t, an argument in a vector that is raised to powers would overflow.
         let ([middle, half_length], t) = (middle_and_half_length(self.base + at.index as u64), at.t);
         // Sums of c_k t^k/(k+1) and c_k t^k/(k+2), as two lanes.
-        let powers = f64x2::splat(t);
-        let t2 = powers * powers;
+        let t2 = t * t;
         let t4 = t2 * t2;
-        let mut sums = f64x2::ZERO;
+        let mut sums = Lanes::<2>::ZERO;
         let coefficients = self.quarters.0.get(at.index).unwrap_or(&[0.0; TERMS]).as_chunks::<4>().0;
         for (c, weights) in coefficients.iter().zip(INTEGRAL_WEIGHTS.as_chunks::<4>().0).rev() {
-            let term = |k: usize| f64x2::splat(c[k]) * f64x2::new(weights[k]);
-            sums = sums * t4 + ((term(0) + term(1) * powers) + t2 * (term(2) + term(3) * powers));
+            let term = |k: usize| c[k] * Lanes(weights[k]);
+            sums = sums * t4 + ((term(0) + term(1) * t) + t2 * (term(2) + term(3) * t));
         }
-        let [zeroth, first] = sums.to_array();
+        let [zeroth, first] = *sums;
         half_length * t * (middle * zeroth + half_length * t * first)
     }
 }

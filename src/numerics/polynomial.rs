@@ -1,8 +1,7 @@
-//! Polynomials evaluated by four interleaved Horner schemes, two vectors of two, to shorten the chain of dependent operations.
+//! Polynomials evaluated by four interleaved Horner schemes, two pairs of numbers, to shorten the chain of dependent operations.
 
 use super::const_math::tabulate;
 use super::lanes::Lanes;
-use wide::f64x2;
 
 /// Coefficients of x⁰, x¹, ... in rows of four.
 pub(crate) type Rows<const R: usize> = [[f64; 4]; R];
@@ -17,12 +16,12 @@ pub(crate) const fn rows<const N: usize, const R: usize>(terms: &[f64; N]) -> Ro
 #[inline]
 pub(crate) fn sum<'a>(rows: impl DoubleEndedIterator<Item = [f64; 4]> + 'a, x: f64) -> f64 {
     let square = x * x;
-    let step = f64x2::splat(square * square);
-    let zero = f64x2::splat(0.0);
+    let step = square * square;
+    let zero = Lanes::<2>::ZERO;
     let (low, high) = rows.rev().fold((zero, zero), |(low, high), [zero, one, two, three]| {
-        (low * step + f64x2::new([zero, one]), high * step + f64x2::new([two, three]))
+        (low * step + Lanes([zero, one]), high * step + Lanes([two, three]))
     });
-    let [even, odd] = (low + high * f64x2::splat(square)).to_array();
+    let [even, odd] = *(low + high * square);
     even + odd * x
 }
 
@@ -30,23 +29,22 @@ pub(crate) fn sum<'a>(rows: impl DoubleEndedIterator<Item = [f64; 4]> + 'a, x: f
 #[inline(always)]
 pub(crate) fn value_and_slope<const R: usize>(rows: &Rows<R>, x: f64) -> (f64, f64) {
     let square = x * x;
-    let step = f64x2::splat(square * square);
-    let ([mut low, mut high], [mut low_slope, mut high_slope]) = ([f64x2::splat(0.0); 2], [f64x2::splat(0.0); 2]);
+    let step = square * square;
+    let ([mut low, mut high], [mut low_slope, mut high_slope]) = ([Lanes::<2>::ZERO; 2], [Lanes::<2>::ZERO; 2]);
     for (n, [zero, one, two, three]) in rows.iter().rev().enumerate() {
         if n > 0 {
             (low_slope, high_slope) =
                 if n > 1 { (low_slope * step + low, high_slope * step + high) } else { (low, high) };
             (low, high) = (low * step, high * step);
         }
-        let (first, second) = (f64x2::new([*zero, *one]), f64x2::new([*two, *three]));
+        let (first, second) = (Lanes([*zero, *one]), Lanes([*two, *three]));
         (low, high) = if n > 0 { (low + first, high + second) } else { (first, second) };
     }
-    let square_pair = f64x2::splat(square);
-    let sums = low + high * square_pair;
-    let slopes = low_slope + high_slope * square_pair;
+    let sums = low + high * square;
+    let slopes = low_slope + high_slope * square;
     // Chain rule: the sums are polynomials in x² and x⁴.
-    let rates = high * f64x2::splat(2.0 * x) + slopes * f64x2::splat(4.0 * (square * x));
-    let ([even, odd], [even_rate, odd_rate]) = (sums.to_array(), rates.to_array());
+    let rates = high * (2.0 * x) + slopes * (4.0 * (square * x));
+    let ([even, odd], [even_rate, odd_rate]) = (*sums, *rates);
     (even + odd * x, odd + (even_rate + odd_rate * x))
 }
 
