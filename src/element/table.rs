@@ -10,7 +10,6 @@ use crate::numerics::chebyshev::monic_powers;
 use crate::numerics::const_math::tabulate;
 use crate::numerics::lanes::Lanes;
 use crate::shape::series::{ORDER, Series};
-use core::hint::black_box;
 
 /// Coefficients of a quarter.
 const TERMS: usize = 12;
@@ -102,10 +101,6 @@ impl Table {
                 cubics[k][c] = rows[k][c] + power * high;
                 by_blocks[k][c] = high + last;
             }
-        }
-        if L > 1 && !SLOPES {
-            // In memory, so that the compiler combines the coefficients of a row in vectors, not those of all rows.
-            cubics = black_box(cubics);
         }
         let (mut values, mut slopes) = ([0.0; L], [0.0; L]);
         for k in 0..L {

@@ -10,8 +10,11 @@
 use super::angle;
 use super::workspace::{Blocks, Parts, padded};
 use crate::error::Error;
+use crate::numerics::lanes::Lanes;
 use crate::numerics::total::Total;
-use core::hint::black_box;
+
+/// Values of four orders, or at four positions.
+type Four = Lanes<4>;
 
 /// Length of an array of samples: whole blocks of four, and at least one value beyond the period.
 pub(crate) fn sample_length(samples: usize) -> usize {
@@ -93,34 +96,29 @@ impl<'a> FoldedFourier<'a> {
         let (quads, last) = pairs.as_chunks::<4>();
         let (samples, half) = (self.samples, self.samples / 2);
         for (block, row_quads) in self.quads.chunks_exact((self.orders / 2).max(1)).enumerate() {
-            let (mut odd_cosines, mut odd_sines) = ([0.0; 4], [0.0; 4]);
-            let (mut even_cosines, mut even_sines) = ([constant; 4], [0.0; 4]);
+            let (mut odd_cosines, mut odd_sines) = (Four::ZERO, Four::ZERO);
+            let (mut even_cosines, mut even_sines) = (Lanes([constant; 4]), Four::ZERO);
             for (&[a, b, c, d], rows) in quads.iter().zip(row_quads) {
-                for k in 0..4 {
-                    odd_cosines[k] += a * rows[0][k];
-                    odd_sines[k] += b * rows[1][k];
-                    even_cosines[k] += c * rows[2][k];
-                    even_sines[k] += d * rows[3][k];
-                }
+                odd_cosines += a * Lanes(rows[0]);
+                odd_sines += b * Lanes(rows[1]);
+                even_cosines += c * Lanes(rows[2]);
+                even_sines += d * Lanes(rows[3]);
             }
             if let (&[a, b], Some(rows)) = (last, row_quads.get(quads.len())) {
-                for k in 0..4 {
-                    odd_cosines[k] += a * rows[0][k];
-                    odd_sines[k] += b * rows[1][k];
-                }
+                odd_cosines += a * Lanes(rows[0]);
+                odd_sines += b * Lanes(rows[1]);
             }
             if folds_twice(samples) {
-                let (even, odd) = (add(even_cosines, even_sines), add(odd_cosines, odd_sines));
-                let (even_mirrored, odd_mirrored) =
-                    (subtract(even_cosines, even_sines), subtract(odd_cosines, odd_sines));
-                store(values, 0, block, add(even, odd));
-                store(values, half, block, subtract(even, odd));
-                store_reversed(values, half, block, subtract(even_mirrored, odd_mirrored));
-                store_reversed(values, samples, block, add(even_mirrored, odd_mirrored));
+                let (even, odd) = (even_cosines + even_sines, odd_cosines + odd_sines);
+                let (even_mirrored, odd_mirrored) = (even_cosines - even_sines, odd_cosines - odd_sines);
+                store(values, 0, block, even + odd);
+                store(values, half, block, even - odd);
+                store_reversed(values, half, block, even_mirrored - odd_mirrored);
+                store_reversed(values, samples, block, even_mirrored + odd_mirrored);
             } else {
-                let (cosines, sines) = (add(even_cosines, odd_cosines), add(even_sines, odd_sines));
-                store(values, 0, block, add(cosines, sines));
-                store_reversed(values, samples, block, subtract(cosines, sines));
+                let (cosines, sines) = (even_cosines + odd_cosines, even_sines + odd_sines);
+                store(values, 0, block, cosines + sines);
+                store_reversed(values, samples, block, cosines - sines);
             }
         }
         continue_periodically(values, samples);
@@ -158,29 +156,24 @@ impl<'a> FoldedFourier<'a> {
         self.fold(values);
         let FoldedFourier { quads, folded, totals, .. } = self;
         let stride = (self.orders / 2).max(1);
-        let mut total = [0.0; 4];
+        let mut total = Four::ZERO;
         for [_, _, even_cosines, _] in folded.iter() {
-            for k in 0..4 {
-                total[k] += even_cosines[k];
-            }
+            total += Lanes(*even_cosines);
         }
         let (Some((first, sums)), Some((constant, totals))) = (sums.split_first_mut(), totals.split_first_mut()) else {
             return;
         };
-        *constant = total;
+        *constant = total.0;
         let count = sums.len().div_ceil(4);
         for (quad, totals) in totals.as_chunks_mut::<SYMMETRIES>().0.iter_mut().take(count).enumerate() {
-            let [mut a, mut b, mut c, mut d] = [[0.0; 4]; 4];
+            let mut sums = [Four::ZERO; SYMMETRIES];
             for (block, folded) in folded.iter().enumerate() {
                 let Some(rows) = quads.get(quad + block * stride) else { break };
-                for k in 0..4 {
-                    a[k] += folded[0][k] * rows[0][k];
-                    b[k] += folded[1][k] * rows[1][k];
-                    c[k] += folded[2][k] * rows[2][k];
-                    d[k] += folded[3][k] * rows[3][k];
+                for ((sum, folded), row) in sums.iter_mut().zip(folded).zip(rows) {
+                    *sum += Lanes(*folded) * Lanes(*row);
                 }
             }
-            *totals = [a, b, c, d];
+            *totals = sums.map(|sum| sum.0);
         }
         // Summed from memory, which keeps the loop above vectorised along the positions.
         *first = sum_of(*constant);
@@ -202,18 +195,12 @@ impl<'a> FoldedFourier<'a> {
                 let (Some(c), Some(d)) = (opposite.get(block), mirrored_opposite.iter().nth_back(block)) else {
                     return;
                 };
-                // In memory, so that the compiler combines the values in vectors.
-                let [a, b, c, d] = *black_box(&[*a, reversed(*b), *c, reversed(*d)]);
-                let (e, o, em, om) = (add(a, c), subtract(a, c), add(b, d), subtract(b, d));
-                *folded = [
-                    times(*weights, add(o, om)),
-                    times(*weights, subtract(o, om)),
-                    times(*weights, add(e, em)),
-                    times(*weights, subtract(e, em)),
-                ];
+                let [a, b, c, d] = [*a, reversed(*b), *c, reversed(*d)].map(Lanes);
+                let (e, o, em, om) = (a + c, a - c, b + d, b - d);
+                *folded = [o + om, o - om, e + em, e - em].map(|sum| (Lanes(*weights) * sum).0);
             } else {
-                let (a, b) = (*a, reversed(*b));
-                let (cosines, sines) = (times(*weights, add(a, b)), times(*weights, subtract(a, b)));
+                let [a, b] = [*a, reversed(*b)].map(Lanes);
+                let [cosines, sines] = [a + b, a - b].map(|sum| (Lanes(*weights) * sum).0);
                 *folded = [cosines, sines, cosines, sines];
             }
         }
@@ -230,18 +217,6 @@ pub(crate) fn continue_periodically(values: &mut [f64], samples: usize) {
     }
 }
 
-fn add(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
-    [a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]]
-}
-
-fn subtract(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]]
-}
-
-fn times(a: [f64; 4], b: [f64; 4]) -> [f64; 4] {
-    [a[0] * b[0], a[1] * b[1], a[2] * b[2], a[3] * b[3]]
-}
-
 fn sum_of([a, b, c, d]: [f64; 4]) -> f64 {
     (a + c) + (b + d)
 }
@@ -251,18 +226,18 @@ fn reversed([a, b, c, d]: [f64; 4]) -> [f64; 4] {
 }
 
 /// Stores a block upwards from a value, after the given number of blocks.
-fn store(values: &mut [f64], from: usize, before: usize, block: [f64; 4]) {
+fn store(values: &mut [f64], from: usize, before: usize, block: Four) {
     if let Some(place) = values.get_mut(from..).and_then(|values| values.as_chunks_mut().0.get_mut(before)) {
-        *place = block;
+        *place = block.0;
     }
 }
 
 /// Stores a block downwards from a value, after the given number of blocks.
-fn store_reversed(values: &mut [f64], from: usize, before: usize, block: [f64; 4]) {
+fn store_reversed(values: &mut [f64], from: usize, before: usize, block: Four) {
     if let Some(place) =
         values.get_mut(..=from).and_then(|values| values.as_rchunks_mut().1.iter_mut().nth_back(before))
     {
-        *place = reversed(block);
+        *place = reversed(block.0);
     }
 }
 
