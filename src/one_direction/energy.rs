@@ -11,6 +11,7 @@
 //! because the integral of K_t(c) - K_t(s) over N from c to b is K_t(c) times the remainder in brackets.
 
 use crate::element::{Curvature, Element};
+use crate::numerics::lanes::Lanes;
 use crate::numerics::quadrature::{MAX_GAUSS_BLOCKS, gauss_legendre, gauss_rule};
 use crate::one_direction::diagram::Knot;
 
@@ -186,11 +187,7 @@ impl Slip {
         let inner = if 16.0 * swept < room(element, c1, c0) {
             let [[nodes, weights]] = PATH_RULE;
             let (loads, slopes) = element.loads_at::<true, 4>(&nodes.map(|node| c0 - node * swept));
-            let mut tangents = [0.0; 4];
-            for k in 0..4 {
-                tangents[k] = loads[k] + slopes[k] * self.width(nodes[k]);
-            }
-            dot(&weights, &tangents)
+            dot(&weights, &(Lanes(loads) + Lanes(slopes) * self.width(Lanes(nodes))))
         } else {
             let at = |s: f64, width: f64| element.load_under(s) * width;
             let ends = at(c0, b0 - c0) - at(c1, b1 - c1);
@@ -200,7 +197,7 @@ impl Slip {
     }
 
     /// Width of the slip zone after a fraction of the segment.
-    fn width(&self, fraction: f64) -> f64 {
+    fn width<const L: usize>(&self, fraction: Lanes<L>) -> Lanes<L> {
         let ([c0, c1], [b0, b1]) = (self.inner, self.outer);
         (b0 - c0) + fraction * ((b1 - b0) + (c0 - c1))
     }
@@ -211,24 +208,14 @@ impl Slip {
         let [b0, b1] = self.outer;
         let (mut sum, mut quarter) = (0.0, Curvature::new());
         for [fractions, parts] in path_rule {
-            let (mut edges, mut widths, mut weights) = ([0.0; 4], [0.0; 4], [0.0; 4]);
-            for k in 0..4 {
-                edges[k] = b0 + fractions[k] * (b1 - b0);
-                widths[k] = self.width(fractions[k]);
-                weights[k] = parts[k] * (widths[k] * widths[k]);
-            }
-            let mut remainders = [0.0; 4];
+            let (edges, widths) = (b0 + Lanes(*fractions) * (b1 - b0), self.width(Lanes(*fractions)));
+            let weights = Lanes(*parts) * (widths * widths);
+            let mut remainders = Lanes::ZERO;
             for [places, parts] in zone_rule {
                 for (t, part) in places.iter().zip(parts) {
-                    let mut shifts = [0.0; 4];
-                    for k in 0..4 {
-                        shifts[k] = edges[k] - t * widths[k];
-                    }
-                    let curvatures = element.four_curvatures(&shifts, &mut quarter);
-                    for k in 0..4 {
-                        // Rounding may make N'' of a nearly flat contact negative.
-                        remainders[k] += part * curvatures[k].max(0.0);
-                    }
+                    let curvatures = Lanes(element.four_curvatures(&(edges - *t * widths), &mut quarter));
+                    // Rounding may make N'' of a nearly flat contact negative.
+                    remainders += *part * curvatures.max(0.0);
                 }
             }
             sum += dot(&weights, &remainders);

@@ -322,24 +322,11 @@ fn sweep(springs: &Springs, trial: &Both<Row>, q: &mut Both<Row>) -> (Both<Row>,
 
 /// Σ x_i y_i, in an order of vectors.
 pub(crate) fn dot(x: &Row, y: &Row) -> f64 {
-    let product = *x * *y;
-    let mut sums = Lanes::<4>::ZERO;
-    for b in 0..N / 4 {
-        for lane in 0..4 {
-            sums[lane] += product[4 * b + lane];
-        }
-    }
+    let sums = (*x * *y).as_chunks().0.iter().fold(Lanes::<4>::ZERO, |sums, block| sums + Lanes(*block));
     (sums[0] + sums[1]) + (sums[2] + sums[3])
 }
 
 /// The largest size, in an order of vectors.
 fn largest(x: &Row) -> f64 {
-    let mut sizes = Lanes::<4>::ZERO;
-    for b in 0..N / 4 {
-        for lane in 0..4 {
-            let size = x[4 * b + lane].abs();
-            sizes[lane] = if size > sizes[lane] { size } else { sizes[lane] };
-        }
-    }
-    sizes[0].max(sizes[1]).max(sizes[2].max(sizes[3]))
+    x.map(f64::abs).iter().fold(0.0, |largest, size| if *size > largest { *size } else { largest })
 }

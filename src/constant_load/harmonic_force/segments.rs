@@ -6,6 +6,7 @@
 use super::motion::Motion;
 use crate::error::Error;
 use crate::fourier::workspace::{Parts, Size};
+use crate::numerics::lanes::Lanes;
 use crate::numerics::quadrature::{MAX_GAUSS_BLOCKS, gauss_rule};
 use crate::numerics::total::Total;
 use core::f64::consts::PI;
@@ -53,17 +54,14 @@ impl Segment {
         let (length, fraction) = (to - from, 1.0 / panels as f64);
         let [mut times, mut weights]: [Nodes; 2] = [[[0.0; 4]; _]; _];
         for ((times, weights), [nodes, rule_weights]) in times.iter_mut().zip(weights.iter_mut()).zip(rule) {
-            for k in 0..4 {
-                let s = (panel as f64 + nodes[k]) * fraction;
-                let weight = length * fraction * rule_weights[k];
-                if to_slip {
-                    let root = 1.0 - s;
-                    times[k] = to - length * (root * root * root);
-                    weights[k] = 3.0 * root * root * weight;
-                } else {
-                    times[k] = from + length * s;
-                    weights[k] = weight;
-                }
+            let s = (panel as f64 + Lanes(*nodes)) * fraction;
+            let weight = length * fraction * Lanes(*rule_weights);
+            if to_slip {
+                let root = 1.0 - s;
+                *times = *(to - length * (root * root * root));
+                *weights = *(3.0 * root * root * weight);
+            } else {
+                (*times, *weights) = (*(from + length * s), *weight);
             }
         }
         [times, weights]
@@ -119,25 +117,21 @@ impl<'a> NodalFourier<'a> {
         let total = |[one, two, three, four]: [f64; 4]| (one + two) + (three + four);
         let Some((constant, pairs)) = sums.split_first_mut() else { return };
         let mut products: Nodes = [[0.0; 4]; _];
-        let mut sum = [0.0; 4];
+        let mut sum = Lanes::ZERO;
         for ((product, weight), value) in products.iter_mut().zip(weights).zip(values) {
-            for k in 0..4 {
-                product[k] = weight[k] * value[k];
-                sum[k] += product[k];
-            }
+            *product = *(Lanes(*weight) * Lanes(*value));
+            sum += Lanes(*product);
         }
-        *constant += total(sum);
+        *constant += total(*sum);
         let products = products.part(..weights.len());
         for ([by_cosine, by_sine], [cosines, sines]) in pairs.as_chunks_mut::<2>().0.iter_mut().zip(self.rows.iter()) {
-            let (mut c, mut s) = ([0.0; 4], [0.0; 4]);
+            let (mut c, mut s) = (Lanes::ZERO, Lanes::ZERO);
             for ((product, cosine), sine) in products.iter().zip(cosines).zip(sines) {
-                for k in 0..4 {
-                    c[k] += product[k] * cosine[k];
-                    s[k] += product[k] * sine[k];
-                }
+                c += Lanes(*product) * Lanes(*cosine);
+                s += Lanes(*product) * Lanes(*sine);
             }
-            *by_cosine += total(c);
-            *by_sine += total(s);
+            *by_cosine += total(*c);
+            *by_sine += total(*s);
         }
     }
 }
@@ -145,26 +139,19 @@ impl<'a> NodalFourier<'a> {
 /// Evaluates cos and sin of all orders up to `orders`, and the displacement, at the nodes of a panel.
 fn fill_rows(rows: &mut [[Nodes; 2]], motion: &Motion, orders: usize, times: &[[f64; 4]], displacement: &mut Nodes) {
     for (block, (times, displacement)) in times.iter().zip(displacement.iter_mut()).enumerate() {
-        let (mut cosine, mut sine) = ([0.0; 4], [0.0; 4]);
-        for k in 0..4 {
-            (sine[k], cosine[k]) = times[k].sin_cos();
-        }
+        let (cosine, sine) = (Lanes(*times).map(f64::cos), Lanes(*times).map(f64::sin));
         let (mut c, mut s) = (cosine, sine);
-        let mut u = [motion.mean; 4];
+        let mut u = Lanes([motion.mean; 4]);
         let mut pairs = motion.pairs.iter();
         for [cosines, sines] in rows.iter_mut().take(orders) {
             if let (Some(cosines), Some(sines)) = (cosines.get_mut(block), sines.get_mut(block)) {
-                (*cosines, *sines) = (c, s);
+                (*cosines, *sines) = (*c, *s);
             }
             if let Some(&[a, b]) = pairs.next() {
-                for k in 0..4 {
-                    u[k] += a * c[k] + b * s[k];
-                }
+                u += a * c + b * s;
             }
-            for k in 0..4 {
-                (c[k], s[k]) = (c[k] * cosine[k] - s[k] * sine[k], s[k] * cosine[k] + c[k] * sine[k]);
-            }
+            (c, s) = (c * cosine - s * sine, s * cosine + c * sine);
         }
-        *displacement = u;
+        *displacement = *u;
     }
 }
