@@ -12,6 +12,7 @@ pub(crate) mod workspace;
 
 use crate::error::Error;
 use crate::limits::check_coefficients;
+use crate::numerics::total::Total;
 use core::f64::consts::PI;
 
 /// Outputs: the coefficients of the force, its Jacobian (column-major) and the energy; `None` is not computed.
@@ -43,7 +44,7 @@ impl HarmonicOutput<'_> {
 /// The largest of a function of some values, without those beyond the last block of four.
 pub(crate) fn largest_of(values: &[f64], of: fn(f64) -> f64) -> f64 {
     let mut lanes = [f64::MIN; 4];
-    for block in values.as_chunks::<4>().0 {
+    for block in values.blocks::<4>() {
         for k in 0..4 {
             let value = of(block[k]);
             lanes[k] = if value > lanes[k] { value } else { lanes[k] };
@@ -79,7 +80,7 @@ pub(crate) fn normalise(sums: &mut [f64], weight: f64) {
 pub(crate) fn work(n: usize, displacement: &[f64], force: &[f64]) -> f64 {
     let mut work = 0.0;
     for (displacement, force) in displacement.chunks_exact(n.max(1)).zip(force.chunks_exact(n.max(1))) {
-        let [displacement, force] = [displacement, force].map(|all| all.get(1..).unwrap_or(&[]).as_chunks::<2>().0);
+        let [displacement, force] = [displacement, force].map(|all| all.get(1..).unwrap_or(&[]).blocks::<2>());
         for (order, ([cos, sin], [force_cos, force_sin])) in (1..=n).zip(displacement.iter().zip(force)) {
             work += order as f64 * (force_cos * sin - force_sin * cos);
         }

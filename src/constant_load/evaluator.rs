@@ -7,6 +7,7 @@ use crate::constant_load::contact::Contact;
 use crate::constant_load::interpolant::{END_OF_PIECES, Interval, root_of};
 use crate::numerics::lanes::Lanes;
 use crate::numerics::polynomial::values_and_slopes;
+use crate::numerics::total::Total;
 use crate::shape::Complement;
 
 /// Force \[N\] and tangent stiffness \[N/m\] at a displacement.
@@ -150,7 +151,7 @@ impl Contact {
                 next += leading(x, |x| x * self.inner_scale <= 1.0);
             }
             if let (Some(roots), Some(displacement)) = (roots.get_mut(next..), displacement.get(next..)) {
-                let blocks = roots.as_chunks_mut::<4>().0.iter_mut().zip(displacement.as_chunks::<4>().0);
+                let blocks = roots.blocks_mut::<4>().iter_mut().zip(displacement.blocks::<4>());
                 for (root, &x) in blocks.take((count + BEYOND).saturating_sub(next) / 4) {
                     let mut roots = [0.0; 4];
                     for k in 0..4 {

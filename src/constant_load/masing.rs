@@ -45,7 +45,7 @@ impl Branch {
     ) {
         let (branch, limit) = (*self, contact.slip_force);
         let factor = branch.direction * branch.scale;
-        let blocks = distances.as_chunks_mut::<4>().0.iter_mut().zip(displacement.as_chunks::<4>().0);
+        let blocks = distances.blocks_mut::<4>().iter_mut().zip(displacement.blocks::<4>());
         for (block, &x) in blocks.take(count.div_ceil(4)) {
             // Stored together: otherwise they could overlap the next displacement.
             let mut distances = [0.0; 4];
@@ -59,7 +59,7 @@ impl Branch {
             *beyond = [last; BEYOND];
         }
         contact.along::<STIFFNESS>(count, distances, roots, forces, stiffnesses);
-        for force in forces.as_chunks_mut::<4>().0.iter_mut().take(count.div_ceil(4)) {
+        for force in forces.blocks_mut::<4>().iter_mut().take(count.div_ceil(4)) {
             let mut sums = *force;
             for sum in &mut sums {
                 *sum = branch.start.force + factor * *sum;

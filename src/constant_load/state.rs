@@ -44,7 +44,7 @@ pub(crate) fn memory(state: &[f64]) -> Memory<'_> {
     };
     let used = PER_REVERSAL * count(depth).unwrap_or(0);
     let (initial, now) = (InitialCurve { offset, slip_direction }, Point { displacement, force });
-    Memory { initial, now, reversals: reversals.part(..used).as_chunks().0 }
+    Memory { initial, now, reversals: reversals.part(..used).blocks() }
 }
 
 /// Reads a state.
@@ -72,7 +72,7 @@ pub(crate) fn copy(contact: &Contact, from: &[f64], to: &mut [f64]) {
 
 /// The reversals of a state, used or not.
 pub(crate) fn reversals_mut(state: &mut [f64]) -> &mut [Reversal] {
-    state.part_mut(HEADER..).as_chunks_mut().0
+    state.part_mut(HEADER..).blocks_mut()
 }
 
 /// Writes the header.

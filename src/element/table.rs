@@ -9,6 +9,7 @@
 use crate::numerics::chebyshev::monic_powers;
 use crate::numerics::const_math::tabulate;
 use crate::numerics::lanes::Lanes;
+use crate::numerics::total::Total;
 use crate::shape::series::{ORDER, Series};
 
 /// Coefficients of a quarter.
@@ -155,8 +156,8 @@ impl Table {
         let t2 = t * t;
         let t4 = t2 * t2;
         let mut sums = Lanes::<2>::ZERO;
-        let coefficients = self.quarters.0.get(at.index).unwrap_or(&[0.0; TERMS]).as_chunks::<4>().0;
-        for (c, weights) in coefficients.iter().zip(INTEGRAL_WEIGHTS.as_chunks::<4>().0).rev() {
+        let coefficients = self.quarters.0.get(at.index).unwrap_or(&[0.0; TERMS]).blocks::<4>();
+        for (c, weights) in coefficients.iter().zip(INTEGRAL_WEIGHTS.blocks::<4>()).rev() {
             let term = |k: usize| c[k] * Lanes(weights[k]);
             sums = sums * t4 + ((term(0) + term(1) * t) + t2 * (term(2) + term(3) * t));
         }
@@ -222,7 +223,7 @@ impl Curvature {
     fn at<const N: usize>(&self, x: &[f64; N]) -> [f64; N] {
         let t = x.map(position_in);
         let mut sum = [0.0; N];
-        for &[c0, c1, c2, c3] in self.powers.as_chunks::<4>().0.iter().rev() {
+        for &[c0, c1, c2, c3] in self.powers.blocks::<4>().iter().rev() {
             for k in 0..N {
                 let (t, t2) = (t[k], t[k] * t[k]);
                 sum[k] = sum[k] * (t2 * t2) + ((c0 + c1 * t) + t2 * (c2 + c3 * t));

@@ -5,6 +5,7 @@ use crate::error::Error;
 use crate::ffi::mslip_contact;
 use crate::ffi::pointers::{self, call, each, input, item, output, outputs, place, set, sum};
 use crate::limits::{check_displacement, check_positions};
+use crate::numerics::total::Total;
 use crate::parameters::PARAMETERS;
 use crate::parameters::{EllipticParameters, Parameters};
 use core::ffi::{CStr, c_char};
@@ -228,7 +229,7 @@ pub unsafe extern "C" fn mslip_monotonic_sensitivity(
         let (contact, displacement, force) = (pointers::contact(contact)?, input(displacement, n)?, output(force, n)?);
         displacement.iter().try_for_each(|&displacement| check_displacement(displacement))?;
         contact.responses(displacement, force, None);
-        let columns = sensitivity.map(|sensitivity| sensitivity.as_chunks_mut().0).into_iter().flatten();
+        let columns = sensitivity.map(Total::blocks_mut).into_iter().flatten();
         for (column, &displacement) in columns.zip(displacement) {
             *column = contact.monotonic_sensitivity(displacement)?;
         }

@@ -67,8 +67,8 @@ impl<'a> FoldedFourier<'a> {
     pub fn take(parts: &mut Parts<'a>, samples: usize, orders: usize) -> Result<FoldedFourier<'a>, Error> {
         let blocks = position_blocks(samples);
         let weights = parts.take_blocks(blocks)?;
-        let quads = parts.take_blocks(2 * orders * blocks)?.as_chunks_mut().0;
-        let folded = parts.take_blocks(SYMMETRIES * blocks)?.as_chunks_mut().0;
+        let quads = parts.take_blocks(2 * orders * blocks)?.blocks_mut();
+        let folded = parts.take_blocks(SYMMETRIES * blocks)?.blocks_mut();
         Ok(FoldedFourier { samples, orders, weights, quads, folded, totals: parts.take_blocks(1 + 2 * orders)? })
     }
 
@@ -79,7 +79,7 @@ impl<'a> FoldedFourier<'a> {
         for ((first, weights), rows) in (0..).step_by(4).zip(self.weights.iter_mut()).zip(rows) {
             let positions = [first, first + 1, first + 2, first + 3];
             *weights = positions.map(|n| weight(n, samples));
-            for (order, [cosines, sines]) in (1..).zip(rows.as_chunks_mut::<2>().0) {
+            for (order, [cosines, sines]) in (1..).zip(rows.blocks_mut::<2>()) {
                 *cosines = positions.map(|n| angle(order, n, samples).cos());
                 *sines = positions.map(|n| angle(order, n, samples).sin());
             }
@@ -165,7 +165,7 @@ impl<'a> FoldedFourier<'a> {
         };
         *constant = total.0;
         let count = sums.len().div_ceil(4);
-        for (quad, totals) in totals.as_chunks_mut::<SYMMETRIES>().0.iter_mut().take(count).enumerate() {
+        for (quad, totals) in totals.blocks_mut::<SYMMETRIES>().iter_mut().take(count).enumerate() {
             let mut sums = [Four::ZERO; SYMMETRIES];
             for (block, folded) in folded.iter().enumerate() {
                 let Some(rows) = quads.get(quad + block * stride) else { break };
@@ -185,7 +185,7 @@ impl<'a> FoldedFourier<'a> {
     /// The folded sums of the samples at each position.
     fn fold(&mut self, values: &[f64]) {
         let (samples, half) = (self.samples, self.samples / 2);
-        let upwards = |from: usize| values.part(from..).as_chunks::<4>().0;
+        let upwards = |from: usize| values.part(from..).blocks::<4>();
         let downwards = |from: usize| values.part(..=from).as_rchunks::<4>().1;
         let [here, opposite] = [upwards(0), upwards(half)];
         let [mirrored, mirrored_opposite] = [downwards(samples), downwards(half)];
@@ -227,7 +227,7 @@ fn reversed([a, b, c, d]: [f64; 4]) -> [f64; 4] {
 
 /// Stores a block upwards from a value, after the given number of blocks.
 fn store(values: &mut [f64], from: usize, before: usize, block: Four) {
-    if let Some(place) = values.get_mut(from..).and_then(|values| values.as_chunks_mut().0.get_mut(before)) {
+    if let Some(place) = values.get_mut(from..).and_then(|values| values.blocks_mut().get_mut(before)) {
         *place = block.0;
     }
 }

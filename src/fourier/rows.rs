@@ -89,8 +89,8 @@ impl<'a> Rows<'a> {
         let range = strip * self.samples..(strip + 1) * self.samples;
         RowStrips {
             is_first: strip == 0,
-            phi: self.phi.as_chunks().0.part(range.clone()),
-            antiderivatives: self.antiderivatives.as_chunks().0.part(range),
+            phi: self.phi.blocks().part(range.clone()),
+            antiderivatives: self.antiderivatives.blocks().part(range),
         }
     }
 }
@@ -170,8 +170,8 @@ impl<'a> OuterProducts<'a> {
         self.count = 0;
         Terms {
             count: &mut self.count,
-            y: self.y.as_chunks_mut::<N>().0.as_chunks_mut().0.part_mut(range.clone()),
-            phi: self.phi.as_chunks_mut().0.part_mut(range),
+            y: self.y.blocks_mut::<N>().blocks_mut().part_mut(range.clone()),
+            phi: self.phi.blocks_mut().part_mut(range),
         }
     }
 
@@ -181,10 +181,10 @@ impl<'a> OuterProducts<'a> {
     }
 
     fn sum_of<const N: usize>(&self, index: usize, products: &mut Blocks) {
-        let (y_rows, phi_rows) = (self.y.as_chunks::<N>().0, self.phi.as_chunks::<N>().0);
+        let (y_rows, phi_rows) = (self.y.blocks::<N>(), self.phi.blocks::<N>());
         let (strips, of_each) = (self.strips::<N>(), self.of_each.max(1));
         let terms = |strip: usize| strip * self.capacity..strip * self.capacity + self.count;
-        for (strip, columns) in products.as_chunks_mut::<N>().0.chunks_mut((4 * N * strips).max(1)).enumerate() {
+        for (strip, columns) in products.blocks_mut::<N>().chunks_mut((4 * N * strips).max(1)).enumerate() {
             let phi = phi_rows.part(terms(strip));
             for row_strip in 0..strips {
                 let terms = terms(row_strip);

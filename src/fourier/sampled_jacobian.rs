@@ -31,7 +31,7 @@ pub(crate) struct Assembly<'a> {
 impl<'a> Assembly<'a> {
     pub fn take(parts: &mut Parts<'a>, harmonics: usize, weight: f64) -> Result<Assembly<'a>, Error> {
         let sums = parts.take(4 * harmonics + 1)?;
-        let pairs = parts.take(2 * (3 * harmonics + 1))?.as_chunks_mut().0;
+        let pairs = parts.take(2 * (3 * harmonics + 1))?.blocks_mut();
         let products = parts.take_blocks(row_blocks(harmonics) * (2 * harmonics + 2))?;
         Ok(Assembly { harmonics, weight, sums, pairs, products })
     }
@@ -49,7 +49,7 @@ impl<'a> Assembly<'a> {
         let (negative, pairs) = self.pairs.split_at_mut_checked(harmonics).unwrap_or((&mut [], &mut []));
         let Some((pair_0, positive)) = pairs.split_first_mut() else { return };
         *pair_0 = [weight * constant, 0.0];
-        let sums = sums.as_chunks::<2>().0;
+        let sums = sums.blocks::<2>();
         for (pair, [cosine, sine]) in positive.iter_mut().zip(sums) {
             *pair = [weight * cosine, weight * sine];
         }
@@ -71,7 +71,7 @@ impl<'a> Assembly<'a> {
             let [cosine, sine] = from(order + harmonics).first().copied().unwrap_or_default();
             *constant = if is_sine { sine } else { cosine };
             let (sums, differences) = (from(harmonics + 1 + order), from(harmonics + 1 - order.min(harmonics)));
-            for ((row, [c, s]), [d, t]) in rows.as_chunks_mut::<2>().0.iter_mut().zip(sums).zip(differences) {
+            for ((row, [c, s]), [d, t]) in rows.blocks_mut::<2>().iter_mut().zip(sums).zip(differences) {
                 *row = if is_sine { [s - t, d - c] } else { [c + d, s + t] };
             }
         }

@@ -7,6 +7,7 @@
 //! The tables are filled once and only read afterwards. Each quadrature rule implements [`Layout`].
 
 use crate::error::Error;
+use crate::numerics::total::Total;
 use crate::tag::{Kind, count, stored};
 
 /// Doubles before the tables, which keep the alignment of the workspace.
@@ -168,7 +169,7 @@ impl<'a> Parts<'a> {
     }
 
     pub fn take_blocks(&mut self, blocks: usize) -> Result<&'a mut Blocks, Error> {
-        Ok(self.take(4 * blocks)?.as_chunks_mut().0)
+        Ok(self.take(4 * blocks)?.blocks_mut())
     }
 
     pub fn take_records<T: Record>(&mut self, count: usize) -> Result<&'a mut [T], Error> {

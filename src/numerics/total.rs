@@ -41,6 +41,10 @@ pub(crate) trait Total<T> {
 
     /// Copies the values that both have.
     fn copy_from(&mut self, source: &[T]);
+
+    /// Blocks of K values, without those that do not fill one.
+    fn blocks<const K: usize>(&self) -> &[[T; K]];
+    fn blocks_mut<const K: usize>(&mut self) -> &mut [[T; K]];
 }
 
 impl<T: Zero> Total<T> for [T] {
@@ -71,6 +75,14 @@ impl<T: Zero> Total<T> for [T] {
 
     fn copy_from(&mut self, source: &[T]) {
         self.iter_mut().zip(source).for_each(|(place, value)| *place = *value);
+    }
+
+    fn blocks<const K: usize>(&self) -> &[[T; K]] {
+        self.as_chunks().0
+    }
+
+    fn blocks_mut<const K: usize>(&mut self) -> &mut [[T; K]] {
+        self.as_chunks_mut().0
     }
 }
 

@@ -254,7 +254,7 @@ impl Diagram for Polygon<'_> {
 
 impl Polygon<'_> {
     pub fn new(friction_coefficient: f64, knots: &mut [f64], used: usize) -> Polygon<'_> {
-        let knots = knots.as_chunks_mut().0;
+        let knots = knots.blocks_mut();
         Polygon { friction_coefficient, knots, used, anew: false, change: 0.0, error: 0.0 }
     }
 

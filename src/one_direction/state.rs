@@ -44,7 +44,7 @@ fn used_knots(&[_, pieces, ..]: &[f64; HEADER]) -> usize {
 /// Header and knots in use of a state whose header was checked.
 pub(crate) fn read(state: &[f64]) -> (Header, &[[f64; PER_KNOT]]) {
     let (header, knots) = state.split_first_chunk().unwrap_or((&[0.0; HEADER], &[]));
-    let knots = knots.as_chunks().0;
+    let knots = knots.blocks();
     (Header::read(header), knots.get(..used_knots(header)).unwrap_or(knots))
 }
 

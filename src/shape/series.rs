@@ -36,7 +36,7 @@ impl Reversed {
         let reversed =
             self.0.get((ORDER - 1).wrapping_sub(k)..).and_then(<[f64]>::first_chunk).unwrap_or(&[0.0; ORDER]);
         let mut sums = [0.0; 4];
-        for (one, two) in other.as_chunks::<4>().0.iter().zip(reversed.as_chunks::<4>().0) {
+        for (one, two) in other.blocks::<4>().iter().zip(reversed.blocks::<4>()) {
             for lane in 0..4 {
                 sums[lane] += one[lane] * two[lane];
             }

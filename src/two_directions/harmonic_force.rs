@@ -25,6 +25,7 @@ use crate::fourier::{angle, work};
 use crate::limits::check_coefficients;
 use crate::numerics::guard::quotient;
 use crate::numerics::lanes::Lanes;
+use crate::numerics::total::Total;
 use crate::tag::Kind;
 
 pub use crate::fourier::HarmonicOutput;
@@ -84,7 +85,7 @@ impl<'a> Layout<'a> for Workspace<'a> {
         Ok(Workspace {
             size,
             basis: parts.take(size.coefficients() * size.samples)?,
-            samples: parts.take(SAMPLE * size.samples)?.as_chunks_mut().0,
+            samples: parts.take(SAMPLE * size.samples)?.blocks_mut(),
             changes: parts.take(CHANGES * columns)?,
             forces: parts.take(2 * columns)?,
             sums: parts.take(sums * columns)?,
@@ -288,7 +289,7 @@ fn differentiate(
 ) {
     let n = workspace.coefficients();
     let [start, end, top] = samples.map(|index| index.map_or(&[][..], |index| row(workspace.basis, n, index)));
-    let at = |basis: &[f64], c: usize| basis.get(c).copied().unwrap_or(0.0);
+    let at = |basis: &[f64], c: usize| basis.at(c);
     let (per_scale, own_nodes) = (1.0 / walk.element.input_scale(), walk.nodes);
     let Advanced { motion, path, unbounded, .. } = advanced;
     let Walk { from, contact, step, springs, slopes: [first, second], terms, .. } = walk;
@@ -308,8 +309,8 @@ fn differentiate(
         (changes, tangent::bounded(*unbounded, contact.now.load, force, Some(terms.load)))
     };
     let (forces_x, forces_y) = workspace.forces.split_at_mut(workspace.forces.len() / 2);
-    let blocks = workspace.changes.as_chunks_mut::<COLUMNS>().0.as_chunks_mut::<CHANGES>().0;
-    let [forces_x, forces_y] = [forces_x, forces_y].map(|forces| forces.as_chunks_mut::<COLUMNS>().0);
+    let blocks = workspace.changes.blocks_mut::<COLUMNS>().blocks_mut::<CHANGES>();
+    let [forces_x, forces_y] = [forces_x, forces_y].map(Total::blocks_mut::<COLUMNS>);
     for (block, (columns, (to_x, to_y))) in blocks.iter_mut().zip(forces_x.iter_mut().zip(forces_y)).enumerate() {
         let (mut by, mut parameters) = ([Columns::ZERO; 2], [[0.0; BLOCK]; 3]);
         for lane in 0..BLOCK.min(n - BLOCK * block) {
@@ -327,7 +328,7 @@ fn differentiate(
         let with_parameters = |columns: Columns, slopes: &Lanes<4>| {
             let mut columns = columns.0;
             for p in 0..3 {
-                let [block, ..] = columns.as_chunks_mut::<BLOCK>().0 else { return Lanes(columns) };
+                let [block, ..] = columns.blocks_mut::<BLOCK>() else { return Lanes(columns) };
                 *block = (Lanes(*block) + slopes[p] * Lanes(parameters[p])).0;
             }
             Lanes(columns)
@@ -487,7 +488,7 @@ fn write_jacobian(workspace: &Workspace, unit: Option<f64>, jacobian: &mut [f64]
     };
     for (j, column) in jacobian.chunks_exact_mut(3 * n).enumerate() {
         for (c, place) in column.iter_mut().enumerate().take(2 * n) {
-            let sum = workspace.sums.get(c * columns + lane(j)).copied().unwrap_or(0.0);
+            let sum = workspace.sums.at(c * columns + lane(j));
             *place = unit.map_or(0.0, |unit| unit * weight(c % n) * sum);
         }
         column.iter_mut().skip(2 * n).for_each(|place| *place = 0.0);
@@ -513,7 +514,7 @@ fn accumulate(sums: &mut [f64], basis: &[f64], forces: &[f64]) {
     let of_both = sums.chunks_exact_mut((half * basis.len()).max(1)).zip(forces.chunks_exact(half.max(1)));
     for (sums, forces) in of_both {
         for (sums, value) in sums.chunks_exact_mut(half.max(1)).zip(basis) {
-            for (sums, forces) in sums.as_chunks_mut::<4>().0.iter_mut().zip(forces.as_chunks::<4>().0) {
+            for (sums, forces) in sums.blocks_mut::<4>().iter_mut().zip(forces.blocks::<4>()) {
                 for k in 0..4 {
                     sums[k] += value * forces[k];
                 }

@@ -18,6 +18,7 @@ use super::nodes::{Both, Matrix, N, Row};
 use super::shells::Springs;
 use crate::numerics::guard::{TINY, quotient};
 use crate::numerics::lanes::Lanes;
+use crate::numerics::total::Total;
 
 /// Bits of points.
 pub(crate) type Set = u32;
@@ -322,7 +323,7 @@ fn sweep(springs: &Springs, trial: &Both<Row>, q: &mut Both<Row>) -> (Both<Row>,
 
 /// Σ x_i y_i, in an order of vectors.
 pub(crate) fn dot(x: &Row, y: &Row) -> f64 {
-    let sums = (*x * *y).as_chunks().0.iter().fold(Lanes::<4>::ZERO, |sums, block| sums + Lanes(*block));
+    let sums = (*x * *y).blocks().iter().fold(Lanes::<4>::ZERO, |sums, block| sums + Lanes(*block));
     (sums[0] + sums[1]) + (sums[2] + sums[3])
 }
 

@@ -28,6 +28,7 @@ use crate::limits::check_displacement;
 use crate::numerics::fp_class::is_finite;
 use crate::numerics::guard::quotient;
 use crate::numerics::lanes::Lanes;
+use crate::numerics::total::Total;
 use crate::tag::Kind;
 
 /// The largest load of the nodes over the present one that gross slip does not forget: nodes of such a load are accurate enough.
@@ -148,7 +149,7 @@ struct State<'a> {
 
 impl State<'_> {
     fn of(state: &mut [f64]) -> Option<State<'_>> {
-        let (header, rest) = state.as_chunks_mut::<N>().0.split_first_chunk_mut()?;
+        let (header, rest) = state.blocks_mut::<N>().split_first_chunk_mut()?;
         let (v, rest) = rest.split_first_chunk_mut()?;
         let (turned, rest) = rest.split_first_chunk_mut()?;
         Some(State { header, v, turned, nodes: rest.first_chunk_mut()? })

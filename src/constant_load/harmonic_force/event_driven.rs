@@ -102,7 +102,7 @@ impl<'a> Layout<'a> for Workspace<'a> {
             force: parts.take(size.coefficients())?,
             assembly: Assembly::take(parts, size.harmonics, 0.5 / PI)?,
         };
-        Ok(Workspace { reversals: parts.take(3 * reversals)?.as_chunks_mut().0, buffers })
+        Ok(Workspace { reversals: parts.take(3 * reversals)?.blocks_mut(), buffers })
     }
 }
 

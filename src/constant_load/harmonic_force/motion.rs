@@ -37,7 +37,7 @@ impl<'a> Motion<'a> {
     /// From the coefficients: the mean, then a cosine and a sine of each order.
     pub fn new(coefficients: &'a [f64]) -> Motion<'a> {
         let (mean, pairs) = coefficients.split_first().unwrap_or((&0.0, &[]));
-        Motion { mean: *mean, pairs: pairs.as_chunks().0 }
+        Motion { mean: *mean, pairs: pairs.blocks() }
     }
 
     /// Displacement and its first three derivatives.
@@ -63,7 +63,7 @@ impl<'a> Motion<'a> {
         let Grid { points, fourier, coefficients, rate } = grid;
         let Some((constant, pairs)) = coefficients.split_first_mut() else { return (0, false) };
         *constant = 0.0;
-        for ((pair, [a, b]), k) in pairs.as_chunks_mut::<2>().0.iter_mut().zip(self.pairs).zip((1..).map(f64::from)) {
+        for ((pair, [a, b]), k) in pairs.blocks_mut::<2>().iter_mut().zip(self.pairs).zip((1..).map(f64::from)) {
             *pair = [k * b, -k * a];
         }
         fourier.synthesise(coefficients, rate);
@@ -161,7 +161,7 @@ pub(super) fn fill_phi(row: &mut [f64], t: f64) {
     let (mut c, mut s) = (cosine, sine);
     let Some((constant, pairs)) = row.split_first_mut() else { return };
     *constant = 1.0;
-    for pair in pairs.as_chunks_mut::<2>().0 {
+    for pair in pairs.blocks_mut::<2>() {
         *pair = [c, s];
         (c, s) = (c * cosine - s * sine, s * cosine + c * sine);
     }
@@ -173,7 +173,7 @@ pub(super) fn fill_integrals(row: &mut [f64], from: f64, to: f64) {
     let (mut c0, mut s0, mut c1, mut s1) = (cosine0, sine0, cosine1, sine1);
     let Some((constant, pairs)) = row.split_first_mut() else { return };
     *constant = to - from;
-    for (pair, k) in pairs.as_chunks_mut::<2>().0.iter_mut().zip((1..).map(f64::from)) {
+    for (pair, k) in pairs.blocks_mut::<2>().iter_mut().zip((1..).map(f64::from)) {
         *pair = [(s1 - s0) / k, (c0 - c1) / k];
         (c0, s0) = (c0 * cosine0 - s0 * sine0, s0 * cosine0 + c0 * sine0);
         (c1, s1) = (c1 * cosine1 - s1 * sine1, s1 * cosine1 + c1 * sine1);

@@ -49,7 +49,7 @@ impl ReversalTerms<'_> {
 
     fn gather_strips<const N: usize>(&mut self, branches: &[Branch], stiffness: &[f64]) {
         let ReversalTerms { rows, entries, sums, outer } = self;
-        let sums = sums.as_chunks_mut::<N>().0.as_chunks_mut().0;
+        let sums = sums.blocks_mut::<N>().blocks_mut();
         for strip in 0..outer.strips::<N>() {
             let (rows, terms) = (rows.strips::<N>(strip), outer.terms(strip));
             let mut stack = Stack { rows, entries, sums, depth: 0, terms };

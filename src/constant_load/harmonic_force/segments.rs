@@ -79,7 +79,7 @@ pub(super) struct NodalFourier<'a> {
 impl<'a> NodalFourier<'a> {
     /// For orders up to 2H.
     pub fn take(parts: &mut Parts<'a>, size: Size) -> Result<NodalFourier<'a>, Error> {
-        let rows = parts.take_blocks(4 * size.harmonics * MAX_GAUSS_BLOCKS)?.as_chunks_mut().0.as_chunks_mut().0;
+        let rows = parts.take_blocks(4 * size.harmonics * MAX_GAUSS_BLOCKS)?.blocks_mut().blocks_mut();
         Ok(NodalFourier { nodes_per_period: size.samples, rows })
     }
 
@@ -124,7 +124,7 @@ impl<'a> NodalFourier<'a> {
         }
         *constant += total(*sum);
         let products = products.part(..weights.len());
-        for ([by_cosine, by_sine], [cosines, sines]) in pairs.as_chunks_mut::<2>().0.iter_mut().zip(self.rows.iter()) {
+        for ([by_cosine, by_sine], [cosines, sines]) in pairs.blocks_mut::<2>().iter_mut().zip(self.rows.iter()) {
             let (mut c, mut s) = (Lanes::ZERO, Lanes::ZERO);
             for ((product, cosine), sine) in products.iter().zip(cosines).zip(sines) {
                 c += Lanes(*product) * Lanes(*cosine);

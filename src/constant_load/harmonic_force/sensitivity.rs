@@ -4,6 +4,7 @@
 //! So the derivatives are those of the force along the branches: those at the reversal that a branch leaves, and its own.
 
 use crate::constant_load::steady_state::SteadyState;
+use crate::numerics::total::Total;
 use crate::parameters::Sensitivity;
 
 /// The derivatives at the reversals on the stack; both rules keep them where the Jacobian has its terms of the reversals.
@@ -11,7 +12,7 @@ pub(super) struct ReversalSensitivities<'a>(&'a mut [Sensitivity]);
 
 impl<'a> ReversalSensitivities<'a> {
     pub fn new(memory: &'a mut [f64]) -> ReversalSensitivities<'a> {
-        ReversalSensitivities(memory.as_chunks_mut().0)
+        ReversalSensitivities(memory.blocks_mut())
     }
 
     /// Stores the derivatives at the reversal that the present branch leaves.

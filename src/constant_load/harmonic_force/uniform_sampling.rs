@@ -53,12 +53,12 @@ impl<'a> Layout<'a> for Workspace<'a> {
         let [displacement, force, stiffness] = [array(2 * count)?, array(2 * count)?, array(2 * count)?];
         let scratch = [array(count)?, array(count)?];
         let branches = parts.take_records(capacity)?;
-        let reversals = parts.take(3 * capacity)?.as_chunks_mut().0;
+        let reversals = parts.take(3 * capacity)?.blocks_mut();
         let entries = parts.take_records(capacity)?;
         let sums = parts.take_blocks(2 * row_blocks(harmonics) * capacity)?;
         let outer = OuterProducts::take(parts, harmonics, capacity, 1)?;
         let assembly = Assembly::take(parts, harmonics, 1.0 / count as f64)?;
-        let derivatives = parts.take(PARAMETERS * count)?.as_chunks_mut().0;
+        let derivatives = parts.take(PARAMETERS * count)?.blocks_mut();
         let path = Path { displacement, force, stiffness, scratch, branches };
         let terms = ReversalTerms { rows, entries, sums, outer };
         Ok(Workspace { size, fourier, reversals, path, terms, assembly, derivatives })

@@ -39,8 +39,8 @@ impl Forces<'_> {
         runs: &[Run],
     ) {
         // Whole blocks of four at the boundaries of the slip zones.
-        let loads = self.cut_load.as_chunks_mut::<4>().0;
-        let stiffnesses = self.cut_stiffness.as_chunks_mut::<4>().0;
+        let loads = self.cut_load.blocks_mut::<4>();
+        let stiffnesses = self.cut_stiffness.blocks_mut::<4>();
         for ((shift, load), stiffness) in cut_shift.iter().zip(loads).zip(stiffnesses) {
             let (loads, stiffnesses) = element.loads_at::<SLOPES, 4>(shift);
             *load = loads;

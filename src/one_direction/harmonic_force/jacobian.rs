@@ -160,7 +160,7 @@ impl Sensitivity<'_> {
 
     fn gather_strips<const N: usize>(&mut self, context: &Context, runs: &[Run]) {
         let Sensitivity { rows, pieces, stored, places, outer, .. } = self;
-        let stored = stored.as_chunks_mut::<N>().0.as_chunks_mut().0;
+        let stored = stored.blocks_mut::<N>().blocks_mut();
         for strip in 0..outer.strips::<N>() {
             places.fill(-1.0);
             let (rows, terms) = (rows.strips(strip), outer.terms(strip));

@@ -298,7 +298,7 @@ impl PeriodicPath<'_> {
         // Fills the last block of four.
         let last = cuts.checked_sub(1).map_or(0.0, |last| self.cut_shift.at(last));
         self.cut_shift.iter_mut().skip(cuts).take(3).for_each(|place| *place = last);
-        let cut_shift = self.cut_shift.as_chunks().0.get(..cuts.div_ceil(4));
+        let cut_shift = self.cut_shift.blocks().get(..cuts.div_ceil(4));
         (self.runs.part(..runs), cut_shift.unwrap_or(&[]))
     }
 }

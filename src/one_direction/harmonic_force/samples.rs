@@ -62,14 +62,13 @@ impl Samples<'_> {
     pub fn press<const SLOPES: bool>(&mut self, element: &Element) {
         let blocks = self
             .input
-            .as_chunks::<4>()
-            .0
+            .blocks::<4>()
             .iter()
-            .zip(self.load.as_chunks_mut::<4>().0)
-            .zip(self.shift.as_chunks_mut::<4>().0)
-            .zip(self.load_slope.as_chunks_mut::<4>().0)
-            .zip(self.shift_slope.as_chunks_mut::<4>().0)
-            .zip(self.stiffness.as_chunks_mut::<4>().0);
+            .zip(self.load.blocks_mut::<4>())
+            .zip(self.shift.blocks_mut::<4>())
+            .zip(self.load_slope.blocks_mut::<4>())
+            .zip(self.shift_slope.blocks_mut::<4>())
+            .zip(self.stiffness.blocks_mut::<4>());
         for (((((input, load), shift), load_slope), shift_slope), stiffness) in blocks {
             let [loads, shifts, load_slopes, shift_slopes] = element.four_normals::<SLOPES>(input);
             (*load, *shift) = (loads, shifts);
@@ -99,12 +98,11 @@ impl Samples<'_> {
         let (mut largest, mut smallest) = ([f64::MIN; 4], [f64::MAX; 4]);
         let blocks = self
             .displacement
-            .as_chunks::<4>()
-            .0
+            .blocks::<4>()
             .iter()
-            .zip(self.shift.as_chunks::<4>().0)
-            .zip(self.xi.as_chunks_mut::<4>().0)
-            .zip(self.eta.as_chunks_mut::<4>().0);
+            .zip(self.shift.blocks::<4>())
+            .zip(self.xi.blocks_mut::<4>())
+            .zip(self.eta.blocks_mut::<4>());
         for (((displacement, shift), xi), eta) in blocks {
             let (displacement, shift, [mut x, mut y]) = (*displacement, *shift, [[0.0; 4]; 2]);
             for k in 0..4 {
