@@ -225,8 +225,10 @@ impl Contact {
         }
         if has_imaginary {
             let (energy, slope) = self.energy_of_cycle(amplitude);
-            let imaginary = energy / not_zero / not_zero / PI;
-            parts[1] = (imaginary, (slope / not_zero / PI - 2.0 * imaginary) / not_zero);
+            // In this order for amplitudes whose square overflows. One division: the compiler would pair others with a product, and divide by what is beside its factors.
+            let per = 1.0 / not_zero;
+            let imaginary = energy * per * per / PI;
+            parts[1] = (imaginary, (slope * per / PI - 2.0 * imaginary) * per);
         }
         parts
     }
@@ -242,9 +244,10 @@ impl Contact {
         let per_slip = self.per_slip_displacement;
         let x_0 = amplitude * per_slip;
         let [integral, rate] = self.real_stiffness_integrals(x_0, (self.slip_displacement - amplitude) * per_slip);
-        // In this order for amplitudes whose square overflows.
+        // As above.
+        let per = 1.0 / x_0;
         let [real, slope] =
-            [integral, rate - 2.0 * integral / x_0].map(|value| 8.0 / PI * initial * (value / x_0 / x_0));
+            [integral, rate - 2.0 * integral * per].map(|value| 8.0 / PI * initial * (value * per * per));
         (real, (slope * per_slip).min(0.0))
     }
 
