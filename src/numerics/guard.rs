@@ -2,7 +2,8 @@
 //!
 //! Compilers divide before they compare: `if b > 0 { a / b } else { 0 }` may divide by 0 and set the flag that a program traps. Two
 //! choices by one comparison are joined into one, too. So divisors and radicands are limited by a maximum, which no optimisation
-//! removes.
+//! removes. They also compute quotients of different numbers in one vector, with a product or with nothing beside them, and divide by what is
+//! there: sums of products with one reciprocal are safe, and four quotients at once.
 
 use super::lanes::Lanes;
 use core::ops::Div;
