@@ -632,7 +632,7 @@ fn jacobians_of_random_motions_are_derivatives() {
 }
 
 #[test]
-#[ignore = "takes two minutes: part of make check"]
+#[ignore = "takes minutes: part of make check"]
 fn jacobians_of_many_random_motions_are_derivatives() {
     check_random_jacobians(10_000, 2);
 }
