@@ -24,12 +24,18 @@ case $triple in *-linux-*) ;; *) fail "the archive is for Linux, not for $triple
     fail "Rust has no standard library for $triple: install it by 'rustup target add $triple'"
 mkdir -p "$directory" "$(dirname "$to")"
 
-if [ -z "${CPU:-}" ] && [ "$triple" = "$host" ] && [ "${host%%-*}" = x86_64 ] && grep -qw avx2 /proc/cpuinfo; then
+has() {
+    grep -qw "$1" /proc/cpuinfo
+}
+if [ -z "${CPU:-}" ] && [ "$triple" = "$host" ] && [ "${host%%-*}" = x86_64 ] && has avx2 && has bmi2 && has fma; then
     CPU=x86-64-v3
 fi
-[ -z "${CPU:-}" ] || rustc --print target-cpus --target "$triple" | grep -qw "^ *$CPU" || fail "Rust knows no processor $CPU for $triple: rustc --print target-cpus"
+known() {
+    rustc --print target-cpus --target "$triple" | awk -v cpu="$CPU" '$1 == cpu { found = 1 } END { exit !found }'
+}
+[ -z "${CPU:-}" ] || known || fail "Rust knows no processor $CPU for $triple: rustc --print target-cpus"
 
 # Flags of the user may add code that panics, or make object files that only Rust's linker reads.
-CARGO_ENCODED_RUSTFLAGS="${CPU:+-Ctarget-cpu=$CPU}" CARGO_INCREMENTAL=0 "$CARGO" build --config tools/archive.toml --release --locked --package microslip \
-    --target-dir "$directory" --target "$triple"
+CARGO_ENCODED_RUSTFLAGS="${CPU:+-Ctarget-cpu=$CPU}" CARGO_INCREMENTAL=0 \
+    "$CARGO" build --config tools/archive.toml --release --locked --package microslip --target-dir "$directory" --target "$triple"
 tools/localise.sh "$directory/$triple/release/libmicroslip.a" "$to"

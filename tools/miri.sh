@@ -1,5 +1,6 @@
 #!/bin/sh
-# miri.sh: tests/ffi.rs under Miri, with stacked borrows. Needs the nightly toolchain with Miri, which it installs by rustup; exit status 77 if that is not possible.
+# miri.sh: tests/ffi.rs under Miri, with stacked borrows. Needs the nightly toolchain with Miri, which it installs by rustup; exit
+# status 77 if that is not possible.
 set -eu
 
 cd "$(dirname "$0")/.."

@@ -44,7 +44,7 @@ CARGO_NET_OFFLINE=true CARGO_TERM_VERBOSE=true CARGO_TERM_COLOR=always          
 POSIXLY_CORRECT=1 LC_ALL=tr_TR.UTF-8 CDPATH=/ GREP_OPTIONS=--color=always          :
 CC=clang CFLAGS=-flto LDFLAGS=-flto LD=gcc                                         :
 SOURCE_DATE_EPOCH=0 MAKEFLAGS=-j2                                                  :
-CPU=8086                                                                           : knows no processor
+CPU=x86                                                                            : knows no processor
 CARGO=/nonexistent/cargo                                                           : Rust
 CARGO=$work/old_cargo                                                              : Rust
 CARGO_BUILD_TARGET=wasm32-unknown-unknown                                          : is for Linux
@@ -110,7 +110,8 @@ program() {
     shift
     cc -O1 -I"$prefix/include" "$@" "$work/archive.a" -lm -lpthread -o "$work/$output"
 }
-# For every processor a sum of the bits of what all calls give; and no exceptions, which depend on what the compiler combines in vectors.
+# For every processor a sum of the bits of what all calls give; and no exceptions, which depend on what the compiler combines in
+# vectors.
 processors() {
     for cpu in native x86-64-v3 x86-64; do
         CPU=$cpu tools/archive.sh "$work/archive.a" &&

@@ -88,10 +88,6 @@ impl<'a> FoldedFourier<'a> {
 
     /// Evaluates the series with coefficients c0, a1, b1, a2, b2, ... at all samples.
     pub fn synthesise(&self, coefficients: &[f64], values: &mut [f64]) {
-        self.synthesis_kernel(coefficients, values);
-    }
-
-    pub fn synthesis_kernel(&self, coefficients: &[f64], values: &mut [f64]) {
         let Some((&constant, pairs)) = coefficients.split_first() else { return };
         let (quads, last) = pairs.as_chunks::<4>();
         let (samples, half) = (self.samples, self.samples / 2);

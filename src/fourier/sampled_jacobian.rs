@@ -81,7 +81,7 @@ impl<'a> Assembly<'a> {
     /// those of half a period, and only rows and columns of equal (+1) or opposite (-1) parity remain.
     pub fn write(&mut self, symmetry: Option<f64>, columns: &mut [f64], stride: usize) {
         self.write_sums(columns, stride, 0);
-        self.products_kernel(symmetry, columns, stride);
+        self.write_products(symmetry, columns, stride);
     }
 
     /// Sets the outer products to those with the rows Y of an index.
@@ -98,7 +98,7 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    fn products_kernel(&mut self, symmetry: Option<f64>, columns: &mut [f64], stride: usize) {
+    fn write_products(&mut self, symmetry: Option<f64>, columns: &mut [f64], stride: usize) {
         let rows = 2 * self.harmonics + 1;
         let columns = columns.chunks_exact_mut(stride.max(1)).map(|column| column.part_mut(..rows));
         let weight = self.weight;

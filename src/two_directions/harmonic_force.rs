@@ -289,7 +289,6 @@ fn differentiate(
 ) {
     let n = workspace.coefficients();
     let [start, end, top] = samples.map(|index| index.map_or(&[][..], |index| row(workspace.basis, n, index)));
-    let at = |basis: &[f64], c: usize| basis.at(c);
     let (per_scale, own_nodes) = (1.0 / walk.element.input_scale(), walk.nodes);
     let Advanced { motion, path, unbounded, .. } = advanced;
     let Walk { from, contact, step, springs, slopes: [first, second], terms, .. } = walk;
@@ -317,11 +316,11 @@ fn differentiate(
             let c = BLOCK * block + lane;
             for k in 0..2 {
                 let [per_start, per_end] = path.per_input[k];
-                by[k][lane] = per_start * (per_scale * at(start, c)) + per_end * (per_scale * at(end, c));
-                by[k][BLOCK * (k + 1) + lane] = path.per_distance * (at(end, c) - at(start, c));
+                by[k][lane] = per_start * (per_scale * start.at(c)) + per_end * (per_scale * end.at(c));
+                by[k][BLOCK * (k + 1) + lane] = path.per_distance * (end.at(c) - start.at(c));
             }
             // The load at the start of the first step is that of the largest one.
-            let [from, to, top] = [start, end, top].map(|basis| per_scale * at(basis, c));
+            let [from, to, top] = [start, end, top].map(|basis| per_scale * basis.at(c));
             parameters[START][lane] = if start.is_empty() { top } else { from };
             (parameters[END][lane], parameters[REFERENCE][lane]) = (to, by_top * top);
         }
@@ -515,9 +514,7 @@ fn accumulate(sums: &mut [f64], basis: &[f64], forces: &[f64]) {
     for (sums, forces) in of_both {
         for (sums, value) in sums.chunks_exact_mut(half.max(1)).zip(basis) {
             for (sums, forces) in sums.blocks_mut::<4>().iter_mut().zip(forces.blocks::<4>()) {
-                for k in 0..4 {
-                    sums[k] += value * forces[k];
-                }
+                *sums = (Lanes(*sums) + *value * Lanes(*forces)).0;
             }
         }
     }

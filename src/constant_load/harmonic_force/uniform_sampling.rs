@@ -144,7 +144,7 @@ struct Part {
 
 /// Samples a displacement along two periods.
 fn sample(count: usize, fourier: &FoldedFourier, displacement: &[f64], samples: &mut [f64]) -> Part {
-    fourier.synthesis_kernel(displacement, samples);
+    fourier.synthesise(displacement, samples);
     let even_order = |c: usize| c.div_ceil(2).is_multiple_of(2);
     let only_odd_orders = displacement.iter().enumerate().all(|(c, value)| !even_order(c) || *value == 0.0);
     let half_wave = count.is_multiple_of(2) && only_odd_orders;
