@@ -22,6 +22,14 @@ impl<const L: usize> Lanes<L> {
         Lanes(values)
     }
 
+    /// Adds to the first lanes.
+    #[inline(always)]
+    pub fn add_first<const M: usize>(&mut self, other: Lanes<M>) {
+        for (value, other) in self.0.iter_mut().zip(other.0) {
+            *value += other;
+        }
+    }
+
     #[inline(always)]
     pub fn sqrt(self) -> Self {
         self.map(f64::sqrt)

@@ -8,16 +8,18 @@
 //!
 //! Static shear is shaken out over many periods. Those before the last two are advanced by fewer samples; the drift estimates what is left.
 //!
-//! The Jacobian is the exact derivative of these steps: changes of the springs by all coefficients are propagated. Those by parameters of the
-//! contact, the load at both ends and the reference size of the nodes, are computed once a step; those by the springs at its start are
-//! propagated for a few coefficients at once, and the former are added to them.
+//! The Jacobian is the exact derivative of these steps: changes of the springs by all coefficients are propagated. What the
+//! parameters of the contact add, the load at both ends and the reference size of the nodes, is computed once a step; the changes are
+//! propagated for a few coefficients at once.
 
+use super::matrix::dot;
 use super::nodes::{Both, N, NEIGHBOUR, Nodes, ROWS, Units, both, fill};
 use super::path::Path;
 use super::shells::Pressed;
-use super::slip::dot;
 use super::step::{Contact, Displacements, Motion, Step, bounded};
-use super::tangent::{self, ContactSlopes, END, REFERENCE, START, SpringChanges, Terms, propagate, slopes_of_nodes};
+use super::tangent::{
+    self, ContactSlopes, END, Parameters, REFERENCE, START, SpringChanges, Terms, propagate, slopes_of_nodes,
+};
 use crate::element::{Element, Normal};
 use crate::error::Error;
 use crate::fourier::workspace::{Layout, Parts, Size};
@@ -202,7 +204,7 @@ struct Walk<'a> {
     step: &'a mut Step,
     /// Derivatives of the contact, and of the one before, by the normal component and by the reference size, if they are known.
     slopes: [Option<[ContactSlopes; 2]>; 2],
-    terms: &'a mut Terms<4>,
+    terms: &'a mut [Terms; 3],
 }
 
 /// What a step gives besides the springs.
@@ -220,7 +222,7 @@ impl<'a> Walk<'a> {
         element: &'a Element,
         (units, nodes): (Units, &'a Nodes),
         top: f64,
-        (step, terms): (&'a mut Step, &'a mut Terms<4>),
+        (step, terms): (&'a mut Step, &'a mut [Terms; 3]),
     ) -> Walk<'a> {
         let mut walk = Walk {
             element,
@@ -297,21 +299,18 @@ fn differentiate(
     };
     let by_end = &*second.get_or_insert_with(|| derive(contact));
     let by_start = if motion.constant_load { by_end } else { &*first.get_or_insert_with(|| derive(from)) };
-    terms.add(END, contact, (step, motion.constant_load), [None, Some(&by_end[0])], None);
-    terms.add(START, contact, (step, motion.constant_load), [Some(&by_start[0]), None], None);
-    terms.add(REFERENCE, contact, (step, motion.constant_load), [Some(&by_start[1]), Some(&by_end[1])], Some(nodes));
-    let (contact, step, terms) = (&*contact, &**step, &**terms);
-    let values = (step, &*springs);
-    let (by_parameters, force) = {
-        let (by, mut changes) = ([Lanes::ZERO; 2], SpringChanges::<4>::ZERO);
-        let force = propagate(contact, own_nodes, (motion, &by), values, &mut changes, Some(terms));
-        (changes, tangent::bounded(*unbounded, contact.now.load, force, Some(terms.load)))
-    };
+    let values = (&**step, motion.constant_load);
+    terms[END].set(contact, values, [None, Some(&by_end[0])], None);
+    terms[START].set(contact, values, [Some(&by_start[0]), None], None);
+    terms[REFERENCE].set(contact, values, [Some(&by_start[1]), Some(&by_end[1])], Some(nodes));
+    let (contact, terms) = (&*contact, &**terms);
+    let values = (&**step, &*springs);
     let (forces_x, forces_y) = workspace.forces.split_at_mut(workspace.forces.len() / 2);
     let blocks = workspace.changes.blocks_mut::<COLUMNS>().blocks_mut::<CHANGES>();
     let [forces_x, forces_y] = [forces_x, forces_y].map(Total::blocks_mut::<COLUMNS>);
     for (block, (columns, (to_x, to_y))) in blocks.iter_mut().zip(forces_x.iter_mut().zip(forces_y)).enumerate() {
-        let (mut by, mut parameters) = ([Columns::ZERO; 2], [[0.0; BLOCK]; 3]);
+        let mut by = [Columns::ZERO; 2];
+        let mut parameters = Parameters { terms, changes: [Lanes::ZERO; 3] };
         for lane in 0..BLOCK.min(n - BLOCK * block) {
             let c = BLOCK * block + lane;
             for k in 0..2 {
@@ -321,34 +320,22 @@ fn differentiate(
             }
             // The load at the start of the first step is that of the largest one.
             let [from, to, top] = [start, end, top].map(|basis| per_scale * basis.at(c));
-            parameters[START][lane] = if start.is_empty() { top } else { from };
-            (parameters[END][lane], parameters[REFERENCE][lane]) = (to, by_top * top);
+            parameters.changes[START][lane] = if start.is_empty() { top } else { from };
+            (parameters.changes[END][lane], parameters.changes[REFERENCE][lane]) = (to, by_top * top);
         }
-        let with_parameters = |columns: Columns, slopes: &Lanes<4>| {
-            let mut columns = columns.0;
-            for p in 0..3 {
-                let [block, ..] = columns.blocks_mut::<BLOCK>() else { return Lanes(columns) };
-                *block = (Lanes(*block) + slopes[p] * Lanes(parameters[p])).0;
-            }
-            Lanes(columns)
+        let mut changes = SpringChanges {
+            v: both(|k| core::array::from_fn(|j| Lanes(columns[k * N + j]))),
+            edge: both(|k| Lanes(columns[2 * N + k])),
         };
-        let mut changes = SpringChanges::ZERO;
+        let forces = propagate(contact, own_nodes, (motion, &by), values, &mut changes, &parameters);
+        let forces = tangent::bounded(*unbounded, contact.now.load, forces, &parameters);
         for k in 0..2 {
             for j in 0..N {
-                changes.v[k][j] = Lanes(columns[k * N + j]);
+                columns[k * N + j] = changes.v[k][j].0;
             }
-            changes.edge[k] = Lanes(columns[2 * N + k]);
+            columns[2 * N + k] = changes.edge[k].0;
         }
-        let forces = propagate(contact, own_nodes, (motion, &by), values, &mut changes, None);
-        let forces = tangent::bounded(*unbounded, contact.now.load, forces, None);
-        for k in 0..2 {
-            for j in 0..N {
-                columns[k * N + j] = with_parameters(changes.v[k][j], &by_parameters.v[k][j]).0;
-            }
-            columns[2 * N + k] = with_parameters(changes.edge[k], &by_parameters.edge[k]).0;
-        }
-        *to_x = with_parameters(forces[0], &force[0]).0;
-        *to_y = with_parameters(forces[1], &force[1]).0;
+        (*to_x, *to_y) = (forces[0].0, forces[1].0);
     }
 }
 
@@ -395,7 +382,7 @@ fn walk(element: &Element, workspace: &mut Workspace, displacement: &[f64], outp
             workspace.changes.fill(0.0);
             workspace.sums.fill(0.0);
         }
-        let (mut step, mut terms) = (Step::NONE, Terms::ZERO);
+        let (mut step, mut terms) = (Step::NONE, [Terms::NONE; 3]);
         let mut walk = Walk::new(element, (units, &nodes[0]), top, (&mut step, &mut terms));
         let slopes = slopes_of_nodes([&nodes[1], &nodes[2]]);
         let by_top = if walk.normal.load >= units.load * 0.99 { 0.5 * walk.contact.slopes.size } else { 0.0 };

@@ -1,8 +1,9 @@
-//! Products and inverses of the matrices of a step, in vectors of the processor.
+//! Products and factors of the matrices of a step, in vectors of the processor.
 
 use super::nodes::{Matrix, N, Row};
 use crate::numerics::guard::TINY;
 use crate::numerics::lanes::Lanes;
+use crate::numerics::total::Total;
 
 /// Σ x_m matrix[m], of the rows from one to another.
 pub(super) fn times(matrix: &Matrix, [first, end]: [usize; 2], x: &Row) -> Row {
@@ -13,30 +14,93 @@ pub(super) fn times(matrix: &Matrix, [first, end]: [usize; 2], x: &Row) -> Row {
     y
 }
 
-/// Inverts the sum of a matrix and a diagonal in place, by Gauss-Jordan elimination with pivots of two rows, for the points from one to
-/// another. Single elements are chosen by their place in the lanes: a vector that is loaded right after one of its elements was stored
-/// would wait for it.
-pub(super) fn invert(matrix: &mut Matrix, diagonal: &Row, [first, end]: [usize; 2]) {
-    for h in 0..N / 2 {
-        let (p, q, mut keep) = (2 * h, 2 * h + 1, Lanes([1.0; N]));
-        if q < first || p >= end {
-            continue;
+/// Σ x_i y_i, in an order of vectors.
+pub(crate) fn dot(x: &Row, y: &Row) -> f64 {
+    let sums = (*x * *y).blocks().iter().fold(Lanes::<4>::ZERO, |sums, block| sums + Lanes(*block));
+    (sums[0] + sums[1]) + (sums[2] + sums[3])
+}
+
+/// The unit vectors, and the ones before each.
+const UNITS: Matrix = {
+    let mut units = [Row::ZERO; N];
+    let mut i = 0;
+    while i < N {
+        units[i].0[i] = 1.0;
+        i += 1;
+    }
+    units
+};
+const BEFORE: Matrix = {
+    let mut before = [Row::ZERO; N];
+    let mut i = 0;
+    while i < N * N {
+        before[i / N].0[i % N] = if i % N < i / N { 1.0 } else { 0.0 };
+        i += 1;
+    }
+    before
+};
+
+/// A symmetric matrix J of the points from one to another as `J = L D L'`. With `F = L⁻¹ D`, `J⁻¹ = D⁻¹ F' D⁻¹ F D⁻¹`.
+pub(crate) struct Factors {
+    /// -F, a row for each point.
+    rows: Matrix,
+    /// The same, a row for each column.
+    columns: Matrix,
+    /// 1/D.
+    per_pivot: Row,
+}
+
+impl Factors {
+    pub const NONE: Factors = Factors { rows: [Row::ZERO; N], columns: [Row::ZERO; N], per_pivot: Row::ZERO };
+
+    /// Factorises the sum of a diagonal and of a matrix whose rows are given. What is below a pivot is eliminated, and stays in its place: it
+    /// is F there. Single elements are chosen by their place in the lanes: a vector that is loaded right after one of its elements was stored
+    /// would wait for it.
+    pub fn set(&mut self, [first, end]: [usize; 2], diagonal: &Row, row: impl Fn(usize) -> Row) {
+        let Factors { rows, columns, per_pivot } = self;
+        for i in first..end.min(N) {
+            rows[i] = row(i);
         }
-        let (a, b, c, d) = (matrix[p][p] + diagonal[p], matrix[p][q], matrix[q][p], matrix[q][q] + diagonal[q]);
-        let det = a * d - b * c;
-        let per_det = 1.0 / if det.abs() > TINY { det } else { TINY };
-        let (a, b, c, d) = (a * per_det, b * per_det, c * per_det, d * per_det);
-        let (mut upper, mut lower) = (matrix[p], matrix[q]);
-        for j in 0..N {
-            let (unit_p, unit_q) = (f64::from(j == p), f64::from(j == q));
-            keep[j] = 1.0 - unit_p - unit_q;
-            let (x, y) = (upper[j] * keep[j] + unit_p, lower[j] * keep[j] + unit_q);
-            (upper[j], lower[j]) = (d * x - b * y, a * y - c * x);
+        for p in first..end.min(N) {
+            let pivot = rows[p][p] + diagonal[p];
+            let per = 1.0 / if pivot.abs() > TINY { pivot } else { TINY };
+            let pivot_row = rows[p] * (1.0 - UNITS[p]);
+            rows[p] = BEFORE[p] * rows[p] - pivot * UNITS[p];
+            per_pivot[p] = per;
+            for i in p + 1..end.min(N) {
+                let factor = per * rows[i][p];
+                rows[i] -= factor * pivot_row;
+            }
         }
-        for i in 2 * (first / 2)..end.min(N) {
-            let (x, y) = (matrix[i][p], matrix[i][q]);
-            matrix[i] = matrix[i] * keep - x * upper - y * lower;
+        for j in first..end.min(N) {
+            columns[j] = Lanes(core::array::from_fn(|i| rows[i][j]));
         }
-        (matrix[p], matrix[q]) = (upper, lower);
+    }
+
+    /// J⁻¹ x of x that is 0 at other points.
+    pub fn solve(&self, range: [usize; 2], x: &Row) -> Row {
+        let y = self.per_pivot * times(&self.columns, range, &(self.per_pivot * *x));
+        self.per_pivot * times(&self.rows, range, &y)
+    }
+
+    /// J⁻¹ x in place, of several x at once.
+    pub fn solve_lanes<const L: usize>(&self, [first, end]: [usize; 2], x: &mut [Lanes<L>; N]) {
+        for i in first..end.min(N) {
+            x[i] = self.per_pivot[i] * x[i];
+        }
+        for i in (first..end).rev().map(|i| i.min(N - 1)) {
+            let mut sum = Lanes::ZERO;
+            for m in first..(i + 1).min(end) {
+                sum += self.rows[i][m] * x[m];
+            }
+            x[i] = self.per_pivot[i] * sum;
+        }
+        for i in first..end.min(N) {
+            let mut sum = Lanes::ZERO;
+            for m in i..end.min(N) {
+                sum += self.rows[m][i] * x[m];
+            }
+            x[i] = self.per_pivot[i] * sum;
+        }
     }
 }

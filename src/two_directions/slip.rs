@@ -13,7 +13,7 @@
 //!
 //! Derivatives are one more step of Newton's method from the solution, see [`Slip::differentiate`].
 
-use super::matrix::{invert, times};
+use super::matrix::{Factors, dot, times};
 use super::nodes::{Both, Matrix, N, Row};
 use super::shells::Springs;
 use crate::numerics::guard::{TINY, quotient};
@@ -26,12 +26,12 @@ pub(crate) type Set = u32;
 /// Newton steps, and changes of the set, after which a guess is given up.
 const STEPS: usize = 60;
 const CHANGES: usize = 12;
-/// Changes of angles: the one that would be next, at the end, and that up to which the inverse is kept.
+/// Changes of angles: the one that would be next, at the end, and that up to which the factors are kept.
 const CONVERGED: f64 = 1e-11;
 const KEPT: f64 = 1e-2;
 /// The square of a larger one could overflow.
 const LOST: f64 = 1e100;
-/// Of two changes that are at most the first number, with a new inverse each, the second one is a rounding error from this part on.
+/// Of two changes that are at most the first number, with new factors each, the second one is a rounding error from this part on.
 const SMALL_TURN: f64 = 1e-9;
 const STALLED: f64 = 0.5;
 /// Sweeps of the points before Newton's method is tried again, and attempts, the first one of which is without.
@@ -39,10 +39,10 @@ const SWEEPS: usize = 30;
 const ATTEMPTS: usize = 8;
 /// Newton steps after which points that slip backwards stick: the angle of a point that hardly slips is undetermined.
 const REVIEW: usize = 15;
-/// Excess of |q|² from which on a point slips, and slip against the traction, over its scale, from which on it sticks: rounding errors.
-const EXCESS: f64 = 1e-12;
+/// |q|² from which on a point slips, and slip against the traction, over its scale, from which on it sticks: rounding errors.
+const BEYOND: f64 = 1.0 + 1e-12;
 const BACKWARDS: f64 = 1e-14;
-/// Cosine of the angle up to which a point is expected to turn again.
+/// Cosine of the angle up to which a point is expected to turn again, and the traction over its bound from which on it is expected to slip.
 const NEAR: f64 = 0.5;
 
 /// Slip of the points of a contact, and what its derivatives need.
@@ -51,12 +51,21 @@ pub(crate) struct Slip {
     pub points: Points,
     /// Tangents of half the angles from q* to q of points that slip: the first guess of the next step.
     pub turned: Row,
-    /// K from the innermost point on, without points that stick; and J⁻¹ at the solution, for derivatives.
-    pub metric: Both<Matrix>,
-    pub inverse: Matrix,
-    /// J⁻¹ of the last iteration that needed a new one, with its points; and the points and the load of K.
-    kept: (Set, Matrix),
+    /// J at the solution, for derivatives.
+    pub solution: Factors,
+    /// J of the last iteration that needed a new one, with its points.
+    kept: (Set, Factors),
+}
+
+/// K from the innermost point on, without points that stick, of these points under a load.
+#[repr(align(32))]
+pub(crate) struct Metric {
+    of: Both<Matrix>,
     known: (Set, f64),
+}
+
+impl Metric {
+    pub const NONE: Metric = Metric { of: [[Row::ZERO; N]; 2], known: (0, 0.0) };
 }
 
 /// The points of a contact after slip.
@@ -74,22 +83,24 @@ pub(crate) struct Points {
 
 impl Slip {
     pub const NONE: Slip = {
-        let (rows, matrix) = ([Row::ZERO; 2], [Row::ZERO; N]);
+        let rows = [Row::ZERO; 2];
         let points = Points { set: 0, first: 0, slips: Row::ZERO, e: rows, q: rows, r: rows, v: rows };
-        Slip { points, turned: Row::ZERO, metric: [matrix; 2], inverse: matrix, kept: (0, matrix), known: (0, 0.0) }
+        Slip { points, turned: Row::ZERO, solution: Factors::NONE, kept: (0, Factors::NONE) }
     };
 
     /// Finds the slip from a trial state of springs under a load. The derivatives of slip are prepared if they are requested.
-    pub fn find(&mut self, springs: &Springs, trial: &Both<Row>, load: f64, derivatives: bool) {
+    pub fn find(&mut self, metric: &mut Metric, springs: &Springs, trial: &Both<Row>, load: f64, derivatives: bool) {
         let q = springs.tractions(trial);
-        let ([x, y], mut beyond) = directions(&q);
+        let [x, y] = directions(&q);
+        let mut beyond = members(&square(&q), &Lanes([BEYOND; N]));
         let points = &mut self.points;
         (points.set, points.v, points.q, points.r) = (beyond, *trial, q, [Row::ZERO; 2]);
         if beyond == 0 {
             return;
         }
-        // Points that turned in the step before slip again if the next point outside does.
-        let before = members(&self.turned.map(f64::abs), 0.0);
+        // First guess: if a point slips, so do those outside that are near their bound, and those inside that turned in the step before.
+        beyond |= members(&square(&q), &Lanes([NEAR * NEAR; N])) & within([beyond.trailing_zeros() as usize, N]);
+        let before = members(&self.turned.map(f64::abs), &Row::ZERO);
         for _ in 0..N {
             beyond |= beyond >> 1 & before;
         }
@@ -97,7 +108,7 @@ impl Slip {
         points.turn(&(2.0 * (lanes_of(beyond) * self.turned)));
         let mut swept = q;
         for _ in 0..ATTEMPTS {
-            if self.newton(springs, trial, &q, load, derivatives) {
+            if self.newton(metric, springs, [trial, &q], load, derivatives) {
                 break;
             }
             (self.points.e, self.points.set) = sweep(springs, &q, &mut swept);
@@ -109,8 +120,16 @@ impl Slip {
     }
 
     /// Newton's method from present directions; whether it converged.
-    fn newton(&mut self, springs: &Springs, trial: &Both<Row>, q: &Both<Row>, load: f64, derivatives: bool) -> bool {
-        let Slip { points, metric, inverse, kept, known, .. } = self;
+    fn newton(
+        &mut self,
+        metric: &mut Metric,
+        springs: &Springs,
+        [trial, q]: [&Both<Row>; 2],
+        load: f64,
+        derivatives: bool,
+    ) -> bool {
+        let Slip { points, solution, kept, .. } = self;
+        let Metric { of: metric, known } = metric;
         let mut steps = 0;
         'sets: for _ in 0..CHANGES {
             points.first = (points.set.trailing_zeros() as usize).min(N);
@@ -120,7 +139,7 @@ impl Slip {
                 set_metric(metric, springs, range, points.set);
                 *known = (points.set, load);
             }
-            // The inverse of the step before is kept while changes of angles fall to a tenth.
+            // The factors of the step before are kept while changes of angles fall to a tenth.
             let (mut turn, mut done, mut holds) = (f64::MAX, false, kept.0 == points.set);
             let mut renewed = [false; 2];
             loop {
@@ -133,15 +152,15 @@ impl Slip {
                 if done {
                     // The iteration is the same with derivatives and without.
                     if derivatives {
-                        points.set_inverse(inverse, metric, &along, range);
+                        points.factorise(solution, metric, &along, range);
                     }
                     return true;
                 }
                 if renewed[1] {
-                    points.set_inverse(&mut kept.1, metric, &along, range);
+                    points.factorise(&mut kept.1, metric, &along, range);
                     kept.0 = points.set;
                 }
-                let turns = times(&kept.1, range, &(points.slips * across)) * points.slips;
+                let turns = kept.1.solve(range, &(points.slips * across));
                 let before = turn;
                 turn = largest(&turns);
                 steps += 1;
@@ -149,7 +168,7 @@ impl Slip {
                     return false;
                 }
                 points.turn(&turns);
-                // Quadratic with a new inverse, linear with an old one, of which the first change tells nothing.
+                // Quadratic with new factors, linear with old ones, of which the first change tells nothing.
                 let linear = quotient(turn, before);
                 let rate = if renewed[1] { turn } else { linear };
                 let is_first = before > LOST && !renewed[1];
@@ -175,14 +194,11 @@ impl Points {
         [e_x * r_y - e_y * r_x, e_x * r_x + e_y * r_y]
     }
 
-    /// Sets J⁻¹; the identity at points that stick.
-    fn set_inverse(&self, inverse: &mut Matrix, metric: &Both<Matrix>, along: &Row, [first, end]: [usize; 2]) {
+    /// The factors of J, which is the identity at points that stick.
+    fn factorise(&self, factors: &mut Factors, metric: &Both<Matrix>, along: &Row, range: [usize; 2]) {
         let [x, y] = [self.slips * self.e[0], self.slips * self.e[1]];
         let diagonal = self.slips * *along + (1.0 - self.slips);
-        for m in 2 * (first / 2)..(end + 1).min(N) {
-            inverse[m] = x * (x[m] * metric[1][m]) + y * (y[m] * metric[0][m]);
-        }
-        invert(inverse, &diagonal, [first, end]);
+        factors.set(range, &diagonal, |m| x * (x[m] * metric[1][m]) + y * (y[m] * metric[0][m]));
     }
 
     /// Turns the directions, by Cayley's formula.
@@ -207,34 +223,36 @@ impl Points {
         } else {
             self.q = *q;
         }
-        let (directions, beyond) = directions(&self.q);
+        let (directions, beyond) = (directions(&self.q), members(&square(&self.q), &Lanes([BEYOND; N])));
+        let (mut scale, along) = (Row::ZERO, self.r[0] * self.e[0] + self.r[1] * self.e[1]);
         for i in 0..N {
-            let bit = 1 << i;
-            if before & bit != 0 {
-                let along = self.r[0][i] * self.e[0][i] + self.r[1][i] * self.e[1][i];
-                let scale = metric[0][i][i] + metric[1][i][i];
-                self.set &= !if along < -BACKWARDS * scale { bit } else { 0 };
-            } else if beyond & bit != 0 {
-                self.set |= bit;
-                (self.e[0][i], self.e[1][i]) = (directions[0][i], directions[1][i]);
-            }
+            scale[i] = metric[0][i][i] + metric[1][i][i];
+        }
+        let (backwards, slips) = (members(&(-along), &(BACKWARDS * scale)), beyond & !before);
+        self.set = before & !backwards | slips;
+        for k in 0..2 {
+            self.e[k] += lanes_of(slips) * (directions[k] - self.e[k]);
         }
         self.set != before
     }
 }
 
-/// Directions of tractions, and the points whose tractions exceed Coulomb's bound.
-fn directions([x, y]: &Both<Row>) -> (Both<Row>, Set) {
-    let square = *x * *x + *y * *y;
-    let per_length = 1.0 / square.max(TINY).sqrt();
-    ([*x * per_length, *y * per_length], members(&square, 1.0 + EXCESS))
+/// Squares of the lengths of tractions.
+fn square([x, y]: &Both<Row>) -> Row {
+    *x * *x + *y * *y
 }
 
-/// The points at which values exceed a limit.
-fn members(values: &Row, limit: f64) -> Set {
+/// Directions of tractions; 0 of none.
+fn directions(q: &Both<Row>) -> Both<Row> {
+    let per_length = 1.0 / square(q).max(TINY).sqrt();
+    q.map(|q| q * per_length)
+}
+
+/// The points at which values exceed limits.
+fn members(values: &Row, limits: &Row) -> Set {
     let mut set = 0;
     for i in 0..N {
-        set |= Set::from(values[i] > limit) << i;
+        set |= Set::from(values[i] > limits[i]) << i;
     }
     set
 }
@@ -252,7 +270,7 @@ fn set_full_metric(metric: &mut Matrix, springs: &Springs, k: usize, first: usiz
 }
 
 /// Sets K of a set of points, the innermost of which is the first of a range: the others in it are eliminated.
-fn set_metric(metric: &mut Both<Matrix>, springs: &Springs, [first, end]: [usize; 2], set: Set) {
+pub(crate) fn set_metric(metric: &mut Both<Matrix>, springs: &Springs, [first, end]: [usize; 2], set: Set) {
     for k in 0..2 {
         set_full_metric(&mut metric[k], springs, k, first);
         for i in first..end.min(N) {
@@ -318,16 +336,17 @@ fn sweep(springs: &Springs, trial: &Both<Row>, q: &mut Both<Row>) -> (Both<Row>,
             }
         }
     }
-    (directions(q).0, set)
+    (directions(q), set)
 }
 
-/// Σ x_i y_i, in an order of vectors.
-pub(crate) fn dot(x: &Row, y: &Row) -> f64 {
-    let sums = (*x * *y).blocks().iter().fold(Lanes::<4>::ZERO, |sums, block| sums + Lanes(*block));
-    (sums[0] + sums[1]) + (sums[2] + sums[3])
-}
-
-/// The largest size, in an order of vectors.
+/// The largest size.
 fn largest(x: &Row) -> f64 {
-    x.map(f64::abs).iter().fold(0.0, |largest, size| if *size > largest { *size } else { largest })
+    let larger = |a: f64, b: f64| if a > b { a } else { b };
+    let mut largest = Lanes::<4>::ZERO;
+    for block in x.blocks::<4>() {
+        for k in 0..4 {
+            largest[k] = larger(block[k].abs(), largest[k]);
+        }
+    }
+    larger(larger(largest[0], largest[1]), larger(largest[2], largest[3]))
 }

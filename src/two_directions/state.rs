@@ -19,7 +19,9 @@ use super::nodes::{
 use super::path::{LONGEST, Path};
 use super::shells::Pressed;
 use super::step::{Contact, Displacements, LEAST, Motion, Step, bounded, dissipated, separated};
-use super::tangent::{self, ContactSlopes, END, REFERENCE, SpringChanges, Terms, propagate, slopes_of_nodes};
+use super::tangent::{
+    self, ContactSlopes, END, Parameters, REFERENCE, SpringChanges, Terms, propagate, slopes_of_nodes,
+};
 use super::{Requested, TwoDirections};
 use crate::element::{Directions, Element, Normal};
 use crate::error::Error;
@@ -341,12 +343,14 @@ fn tangent(
     (step, springs, force): (&Step, &Displacements, Both<f64>),
     outgrown: Option<(&Outgrown, &Element, &Units)>,
 ) -> [[f64; 3]; 2] {
-    let (mut by, mut changes, mut terms) = ([Lanes::<4>::ZERO; 2], SpringChanges::ZERO, Terms::ZERO);
+    let (mut by, mut changes) = ([Lanes::<4>::ZERO; 2], SpringChanges::ZERO);
+    let (mut terms, mut by_parameters) = ([Terms::NONE; 3], [Lanes::ZERO; 3]);
+    (by_parameters[END][END], by_parameters[REFERENCE][REFERENCE]) = (1.0, 1.0);
     for k in 0..2 {
         (by[k][END], by[k][ALONG[k]]) = (path.per_input[k][1], 1.0);
     }
     let slopes = ContactSlopes::by_load(nodes, contact);
-    terms.add(END, contact, (step, motion.constant_load), [None, Some(&slopes)], None);
+    terms[END].set(contact, (step, motion.constant_load), [None, Some(&slopes)], None);
     if let Some((outgrown, element, units)) = outgrown {
         let mut neighbours = [[[0.0; N]; ROWS]; 2];
         let springs = [1.0 + NEIGHBOUR, 1.0 - NEIGHBOUR].map(|size| {
@@ -362,8 +366,7 @@ fn tangent(
         let [larger, smaller] = &neighbours;
         let by_nodes = slopes_of_nodes([larger, smaller]);
         let slopes = [from, contact].map(|contact| ContactSlopes::by_reference(nodes, &by_nodes, contact));
-        terms.add(
-            REFERENCE,
+        terms[REFERENCE].set(
             contact,
             (step, motion.constant_load),
             [Some(&slopes[0]), Some(&slopes[1])],
@@ -372,8 +375,9 @@ fn tangent(
     }
     let slopes = {
         let (motion, values) = ((motion, &by), (step, springs));
-        let force_slopes = propagate(contact, nodes, motion, values, &mut changes, Some(&terms));
-        tangent::bounded(force, contact.now.load, force_slopes, Some(terms.load))
+        let parameters = Parameters { terms: &terms, changes: by_parameters };
+        let force_slopes = propagate(contact, nodes, motion, values, &mut changes, &parameters);
+        tangent::bounded(force, contact.now.load, force_slopes, &parameters)
     };
     // The size is the reference size.
     slopes

@@ -11,9 +11,10 @@
 //!
 //! The edge spring is one more spring from a size just inside the edge on, on its own: it makes the stuck stiffness that of the contact.
 
+use super::matrix::dot;
 use super::nodes::{Both, FLAT_EDGE, N, Nodes, Row, SHIFT, both};
 use super::shells::{Pressed, Shells, Springs};
-use super::slip::{Slip, dot, lanes_of, within};
+use super::slip::{Metric, Slip, lanes_of, within};
 use crate::numerics::guard::{TINY, quotient, root};
 use crate::numerics::lanes::Lanes;
 
@@ -145,6 +146,8 @@ pub(crate) struct Step {
     pub between: Springs,
     pub middle: Slip,
     pub end: Slip,
+    /// K of the last slip.
+    metric: Metric,
     pub far: Far,
     pub edge: EdgeSpring,
 }
@@ -173,6 +176,7 @@ impl Step {
             between: Springs::NONE,
             middle: Slip::NONE,
             end: Slip::NONE,
+            metric: Metric::NONE,
             far: Far { part: 0.0, slope: 0.0, cut: none, ratio: none, distance: 0.0, e: none, per_length: 0.0 },
             edge: EdgeSpring { part: none, kept: none, before: none, ratio: none, length: 0.0, slips: false },
         }
@@ -240,14 +244,14 @@ impl Step {
     fn slip(&mut self, nodes: &Nodes, [from, to]: [&Contact; 2], motion: &Motion, derivatives: bool) {
         let half = both(|k| 0.5 * (self.old.v[k] + self.trial[k]));
         if motion.constant_load {
-            self.middle.find(&self.springs, &half, to.now.load, derivatives);
+            self.middle.find(&mut self.metric, &self.springs, &half, to.now.load, derivatives);
         } else {
             self.between.set(nodes, [&from.shells, &to.shells]);
-            self.middle.find(&self.between, &half, f64::NAN, derivatives);
+            self.middle.find(&mut self.metric, &self.between, &half, f64::NAN, derivatives);
         }
         let used = to.used();
         let beyond = both(|k| used * (2.0 * self.middle.points.v[k] - self.old.v[k]));
-        self.end.find(&self.springs, &beyond, to.now.load, derivatives);
+        self.end.find(&mut self.metric, &self.springs, &beyond, to.now.load, derivatives);
     }
 
     /// The spring at the edge is another one under another load: a rising load keeps that part of it which is still at the edge.

@@ -7,9 +7,10 @@
 //! C dv = dq - dC v,   dr = C⁻¹'[k (dv* - dv) + dk (v* - v) - dC' r],   e × dr + de × r = 0,   de = e⊥ dθ
 //! ```
 
+use super::matrix::dot;
 use super::nodes::{Both, FLAT_EDGE, Matrix, N, NEIGHBOUR, Nodes, Row, SHIFT, both};
 use super::shells::{Pressed, Shells, Springs, falls};
-use super::slip::{Set, Slip, dot, within};
+use super::slip::{Set, Slip, set_metric, within};
 use super::step::{Contact, LEAST, Motion, Released, Step};
 use crate::numerics::guard::quotient;
 use crate::numerics::lanes::Lanes;
@@ -28,11 +29,12 @@ impl<const L: usize> SpringChanges<L> {
     pub const ZERO: Self = SpringChanges { v: [[Lanes::ZERO; N]; 2], edge: [Lanes::ZERO; 2] };
 }
 
-/// Parameters of a contact, a lane each: the normal component over its scale at the end and at the start of the step, and the logarithm of
+/// Parameters of a contact: the normal component over its scale at the end and at the start of the step, and the logarithm of
 /// the reference size of the nodes.
 pub(crate) const END: usize = 0;
 pub(crate) const START: usize = 1;
 pub(crate) const REFERENCE: usize = 2;
+const PARAMETERS: usize = 3;
 
 /// A contact's derivatives by one of its parameters.
 #[derive(Debug, Clone, Copy)]
@@ -80,136 +82,148 @@ pub(crate) fn slopes_of_nodes([larger, smaller]: [&Nodes; 2]) -> Nodes {
     slopes
 }
 
-/// What derivatives by parameters of a contact add to the changes of its springs.
-pub(crate) struct Terms<const L: usize> {
+/// What the derivative by one parameter of a contact adds to the changes of its springs.
+pub(crate) struct Terms {
     /// S at the start and at the end, S of the nodes, N; stiffnesses at the end, and the limit of the spring at the edge.
-    pub before: Both<Lanes<L>>,
-    pub now: Both<Lanes<L>>,
-    pub nodes: Both<Changes<L>>,
-    pub load: Lanes<L>,
-    pub stiffness: Both<Changes<L>>,
-    pub edge_stiffness: Both<Lanes<L>>,
-    pub edge_limit: Both<Lanes<L>>,
-    pub edge_before: Both<Lanes<L>>,
-    middle: SlipTerms<L>,
-    end: SlipTerms<L>,
+    before: Both<f64>,
+    now: Both<f64>,
+    nodes: Both<Row>,
+    load: f64,
+    stiffness: Both<Row>,
+    edge_stiffness: Both<f64>,
+    edge_limit: Both<f64>,
+    edge_before: Both<f64>,
+    middle: SlipTerms,
+    end: SlipTerms,
 }
 
 /// Terms of a slip: dC v; dk (v* - v) - dC' r, in which the pressures are constant; and r dp/p, which is what their changes add to the slip.
-struct SlipTerms<const L: usize> {
-    tractions: Both<Changes<L>>,
-    forces: Both<Changes<L>>,
-    slip: Both<Changes<L>>,
+struct SlipTerms {
+    tractions: Both<Row>,
+    forces: Both<Row>,
+    slip: Both<Row>,
 }
 
-impl<const L: usize> SlipTerms<L> {
-    const ZERO: Self = {
-        let zero = [[Lanes::ZERO; N]; 2];
+impl SlipTerms {
+    const NONE: SlipTerms = {
+        let zero = [Row::ZERO; 2];
         SlipTerms { tractions: zero, forces: zero, slip: zero }
     };
 
-    /// Adds a parameter, by which the shells from one on, and the nodes, have derivatives.
-    fn add(
+    /// Of a parameter by which the shells from one on, and the nodes, have derivatives.
+    fn set(
         &mut self,
-        lane: usize,
         springs: &Springs,
         (ends, nodes, from): ([&Shells; 2], Option<&Nodes>, usize),
         trial: &Both<Row>,
         slip: &Slip,
     ) {
-        let (shells, slip, lane) = (&springs.shells, &slip.points, lane % L);
+        let (shells, slip) = (&springs.shells, &slip.points);
         if slip.set == 0 {
             return;
         }
         let (by, mut by_pressure) = (Shells::middle(ends), Row::ZERO);
-        for j in from.max(FLAT_EDGE)..shells.range().end {
-            by_pressure += Shells::middle_pressure(ends, nodes, j);
+        let (mut tractions, mut sums) = ([Row::ZERO; 2], [Row::ZERO; 2]);
+        let falls = both(|k| falls(&slip.v[k]) * springs.per_shift[k]);
+        let slipped = both(|k| slip.r[k] * springs.per_pressure);
+        for j in from.max(shells.range().start)..shells.range().end {
+            let pressure = Shells::middle_pressure(ends, nodes, j);
+            if j >= FLAT_EDGE {
+                by_pressure += pressure;
+            }
+            for k in 0..2 {
+                let per_shift = springs.per_shift[k][j];
+                let row = pressure - by.shift[k][j] * per_shift * springs.pressure[j];
+                tractions[k] += falls[k][j] * row;
+                sums[k][j] = per_shift * dot(&slipped[k], &row);
+            }
         }
         by_pressure = springs.per_pressure * by_pressure;
         for k in 0..2 {
-            let (v, per_shift, slipped) = (&slip.v[k], &springs.per_shift[k], slip.r[k] * springs.per_pressure);
-            let stiffness = stiffness_slopes(springs, k, &by);
-            let (mut tractions, mut before, falls) = (Row::ZERO, 0.0, falls(v) * *per_shift);
-            for j in shells.range() {
-                let mut sum = 0.0;
-                if j >= from {
-                    let row =
-                        Shells::middle_pressure(ends, nodes, j) - by.shift[k][j] * per_shift[j] * springs.pressure[j];
-                    tractions += falls[j] * row;
-                    sum = per_shift[j] * dot(&slipped, &row);
-                }
-                self.forces[k][j][lane] = stiffness[j] * (trial[k][j] - v[j]) - (sum - before);
-                before = sum;
-            }
-            let tractions = springs.per_pressure * tractions - slip.q[k] * by_pressure;
-            let slip = slip.r[k] * by_pressure;
-            for i in 0..N {
-                self.tractions[k][i][lane] = tractions[i];
-                self.slip[k][i][lane] = slip[i];
-            }
+            self.forces[k] = stiffness_slopes(springs, k, &by) * (trial[k] - slip.v[k]) - rises(&sums[k]);
+            self.tractions[k] = springs.per_pressure * tractions[k] - slip.q[k] * by_pressure;
+            self.slip[k] = slip.r[k] * by_pressure;
         }
     }
+}
+
+/// x_j - x_{j-1}.
+fn rises(x: &Row) -> Row {
+    let mut rises = *x;
+    for j in 1..N {
+        rises[j] -= x[j - 1];
+    }
+    rises
 }
 
 /// Derivatives of k_j.
 fn stiffness_slopes(springs: &Springs, k: usize, by: &Shells) -> Row {
     let secants = (by.load[k] - springs.shells.load[k] * springs.per_shift[k] * by.shift[k]) * springs.per_shift[k];
-    let mut stiffness = secants;
-    for j in 1..N {
-        stiffness[j] = secants[j] - secants[j - 1];
-    }
-    stiffness
+    rises(&secants)
 }
 
-impl<const L: usize> Terms<L> {
-    pub const ZERO: Self = Terms {
-        before: [Lanes::ZERO; 2],
-        now: [Lanes::ZERO; 2],
-        nodes: [[Lanes::ZERO; N]; 2],
-        load: Lanes::ZERO,
-        stiffness: [[Lanes::ZERO; N]; 2],
-        edge_stiffness: [Lanes::ZERO; 2],
-        edge_limit: [Lanes::ZERO; 2],
-        edge_before: [Lanes::ZERO; 2],
-        middle: SlipTerms::ZERO,
-        end: SlipTerms::ZERO,
+impl Terms {
+    pub const NONE: Terms = {
+        let (none, rows) = ([0.0; 2], [Row::ZERO; 2]);
+        Terms {
+            before: none,
+            now: none,
+            nodes: rows,
+            load: 0.0,
+            stiffness: rows,
+            edge_stiffness: none,
+            edge_limit: none,
+            edge_before: none,
+            middle: SlipTerms::NONE,
+            end: SlipTerms::NONE,
+        }
     };
 
-    /// Adds a parameter in a lane: by which the contact at the start, that at the end, or both have derivatives, and of S of the nodes.
+    /// Of a parameter by which the contact at the start, that at the end, or both have derivatives, and the nodes.
     #[inline(never)]
-    pub fn add(
+    pub fn set(
         &mut self,
-        lane: usize,
         contact: &Contact,
         (step, constant_load): (&Step, bool),
         [from, to]: [Option<&ContactSlopes>; 2],
         nodes: Option<&Nodes>,
     ) {
-        let none = Shells::NONE;
-        let ends = [from, to].map(|by| by.map_or(&none, |by| &by.shells));
-        let between = if constant_load { &step.springs } else { &step.between };
+        let none = ContactSlopes::NONE;
         // By the load, only the last shells have derivatives.
         let lasts = [from, to].map(|by| by.map_or(N, |by| by.shells.last));
         let first = if nodes.is_some() { 0 } else { lasts[0].min(lasts[1]) };
+        let [from, to] = [from, to].map(|by| by.unwrap_or(&none));
+        let ends = [&from.shells, &to.shells];
+        let between = if constant_load { &step.springs } else { &step.between };
         let half = both(|k| 0.5 * (step.old.v[k] + step.trial[k]));
-        self.middle.add(lane, between, (ends, nodes, first), &half, &step.middle);
+        self.middle.set(between, (ends, nodes, first), &half, &step.middle);
         let used = contact.used();
         let beyond = both(|k| used * (2.0 * step.middle.points.v[k] - step.old.v[k]));
-        self.end.add(lane, &step.springs, ([ends[1]; 2], nodes, first), &beyond, &step.end);
-        let lane = lane % L;
-        for k in 0..2 {
-            let stiffness = stiffness_slopes(&step.springs, k, ends[1]);
-            for j in 0..N {
-                self.stiffness[k][j][lane] = stiffness[j];
-                self.nodes[k][j][lane] = nodes.map_or(0.0, |nodes| nodes[SHIFT + k][j]);
-            }
-            self.before[k][lane] = from.map_or(0.0, |by| by.shift[k]);
-            self.edge_stiffness[k][lane] = ends[1].edge[k];
-            self.now[k][lane] = to.map_or(0.0, |by| by.shift[k]);
-            self.edge_limit[k][lane] = to.map_or(0.0, |by| by.edge_limit[k]);
-            self.edge_before[k][lane] = from.map_or(0.0, |by| by.edge_limit[k]);
-        }
-        self.load[lane] = to.map_or(0.0, |by| by.load);
+        self.end.set(&step.springs, ([ends[1]; 2], nodes, first), &beyond, &step.end);
+        self.stiffness = both(|k| stiffness_slopes(&step.springs, k, ends[1]));
+        self.nodes = both(|k| nodes.map_or(Row::ZERO, |nodes| Lanes(nodes[SHIFT + k])));
+        (self.before, self.now, self.load) = (from.shift, to.shift, to.load);
+        (self.edge_before, self.edge_limit, self.edge_stiffness) = (from.edge_limit, to.edge_limit, to.shells.edge);
+    }
+}
+
+/// Terms of the parameters of a contact, and the changes of these, which are in the first lanes of all changes.
+pub(crate) struct Parameters<'a> {
+    pub terms: &'a [Terms; PARAMETERS],
+    pub changes: [Lanes<4>; PARAMETERS],
+}
+
+impl Parameters<'_> {
+    /// What a term of all parameters adds.
+    fn sum(&self, term: impl Fn(&Terms) -> f64) -> Lanes<4> {
+        let [a, b, c] = self.terms;
+        let [by_a, by_b, by_c] = self.changes;
+        term(a) * by_a + term(b) * by_b + term(c) * by_c
+    }
+
+    /// Changes of the limit of a spring.
+    fn limit(&self, k: usize, j: usize) -> Lanes<4> {
+        self.sum(|terms| terms.now[k] - terms.nodes[k][j])
     }
 }
 
@@ -221,7 +235,7 @@ pub(crate) fn propagate<const L: usize>(
     (motion, by): (&Motion, &Both<Lanes<L>>),
     (step, new): (&Step, &super::step::Displacements),
     springs: &mut SpringChanges<L>,
-    terms: Option<&Terms<L>>,
+    parameters: &Parameters,
 ) -> Both<Lanes<L>> {
     let used = contact.used();
     let old = springs.v;
@@ -230,17 +244,15 @@ pub(crate) fn propagate<const L: usize>(
         let rise = contact.now.shift[k] - motion.before[k];
         for j in 0..N {
             v[k][j] = used[j] * (v[k][j] + step.parts[k][j] * by[k]);
-            if let Some(terms) = terms
-                && step.parts[k][j] < 1.0
-            {
+            if step.parts[k][j] < 1.0 {
                 // The part of springs that are engaged in the step is their limit over the rise.
-                let rises = terms.now[k] - terms.before[k];
-                let part = used[j] * (terms.now[k] - terms.nodes[k][j]) - step.parts[k][j] * rises;
-                v[k][j] += (motion.by[k] / rise.max(LEAST)) * part;
+                let rises = parameters.sum(|terms| terms.now[k] - terms.before[k]);
+                let part = used[j] * parameters.limit(k, j) - step.parts[k][j] * rises;
+                v[k][j].add_first((motion.by[k] / rise.max(LEAST)) * part);
             }
         }
     }
-    release(contact, nodes, motion, step, &mut v, terms);
+    release(contact, nodes, motion, step, &mut v, parameters);
     let far = &step.far;
     if far.part < 1.0 {
         let between = if motion.constant_load { &step.springs } else { &step.between };
@@ -249,28 +261,25 @@ pub(crate) fn propagate<const L: usize>(
                 v[k][j] = 0.5 * (v[k][j] + old[k][j]);
             }
         }
-        step.middle.differentiate(between, &mut v, terms.map(|terms| &terms.middle));
+        step.middle.differentiate(between, &mut v, parameters, |terms| &terms.middle);
         for k in 0..2 {
             for j in 0..N {
                 v[k][j] = used[j] * (2.0 * v[k][j] - old[k][j]);
             }
         }
-        step.end.differentiate(&step.springs, &mut v, terms.map(|terms| &terms.end));
+        step.end.differentiate(&step.springs, &mut v, parameters, |terms| &terms.end);
     }
-    let mut edges = move_edge(contact, (motion, by), step, &springs.edge, terms);
+    let mut edges = move_edge(contact, (motion, by), step, &springs.edge, parameters);
     if far.part > 0.0 {
-        let changes = FarChanges::new(contact, (motion, by), step, &old, terms);
+        let changes = FarChanges::new(contact, (motion, by), step, &old, parameters);
         let (limits, edge_limits) = (contact.limits(nodes), contact.edge_limits());
         for k in 0..2 {
-            let (limits, by_limit) = (limits[k], |j: usize| match terms {
-                Some(terms) => used[j] * (terms.now[k] - terms.nodes[k][j]),
-                None => Lanes::ZERO,
-            });
             for j in 0..N {
-                let value = step.end.points.v[k][j];
-                v[k][j] = changes.blend((far.part, far.e[k], changes.e[k]), (v[k][j], value), (limits[j], by_limit(j)));
+                let (value, by_limit) = (step.end.points.v[k][j], used[j] * parameters.limit(k, j));
+                let limit = (limits[k][j], by_limit);
+                v[k][j] = changes.blend((far.part, far.e[k], changes.e[k]), (v[k][j], value), limit);
             }
-            let by_limit = terms.map_or(Lanes::ZERO, |terms| terms.edge_limit[k]);
+            let by_limit = parameters.sum(|terms| terms.edge_limit[k]);
             let (limit, edge) = (edge_limits[k], &step.edge);
             let value = limit * edge.ratio[k] / if edge.slips { edge.length.max(1.0) } else { 1.0 };
             edges[k] = changes.blend((far.part, far.e[k], changes.e[k]), (edges[k], value), (limit, by_limit));
@@ -280,14 +289,11 @@ pub(crate) fn propagate<const L: usize>(
     for k in 0..2 {
         for j in 0..N {
             force[k] += step.springs.stiffness[k][j] * v[k][j];
-            if let Some(terms) = terms {
-                force[k] += new.v[k][j] * terms.stiffness[k][j];
-            }
         }
         force[k] += contact.shells.edge[k] * edges[k];
-        if let Some(terms) = terms {
-            force[k] += new.edge[k] * terms.edge_stiffness[k];
-        }
+        force[k].add_first(
+            parameters.sum(|terms| dot(&new.v[k], &terms.stiffness[k]) + new.edge[k] * terms.edge_stiffness[k]),
+        );
     }
     *springs = SpringChanges { v, edge: edges };
     force
@@ -300,7 +306,7 @@ fn release<const L: usize>(
     motion: &Motion,
     step: &Step,
     v: &mut Both<Changes<L>>,
-    terms: Option<&Terms<L>>,
+    parameters: &Parameters,
 ) {
     let fall = motion.before[0] - contact.now.shift[0];
     if motion.constant_load || fall <= 0.0 {
@@ -317,21 +323,20 @@ fn release<const L: usize>(
         // Four divisors, not three: the compiler would divide by what is beside them in the vector register.
         let divisors = Lanes([limit[0], limit[1], released.length.max(1.0), limit[0] + fall]);
         let [per_x, per_y, per_length, per_before] = *(1.0 / divisors);
-        let (mut by_limit, mut by_part) = ([Lanes::ZERO; 2], Lanes::ZERO);
-        if let Some(terms) = terms {
-            by_limit = [terms.now[0] - terms.nodes[0][j], terms.now[1] - terms.nodes[1][j]];
-            by_part = (released.part * per_x) * by_limit[0]
-                - (released.part * per_before) * (terms.before[0] - terms.nodes[0][j]);
-        }
-        let mut ratio = [Lanes::ZERO; 2];
+        let by_limit = both(|k| parameters.limit(k, j));
+        let by_before = parameters.sum(|terms| terms.before[0] - terms.nodes[0][j]);
+        let by_part = released.part * (per_x * by_limit[0] - per_before * by_before);
+        let mut ratio = [v[0][j], v[1][j]];
         for k in 0..2 {
-            ratio[k] = [per_x, per_y][k] * (v[k][j] - released.ratio[k] * by_limit[k]);
+            ratio[k].add_first(-released.ratio[k] * by_limit[k]);
+            ratio[k] = [per_x, per_y][k] * ratio[k];
         }
         let length = per_length * (released.ratio[0] * ratio[0] + released.ratio[1] * ratio[1]);
-        let scale = per_length * ((released.part - released.scale) * length + (released.length - 1.0) * by_part);
+        let mut scale = per_length * (released.part - released.scale) * length;
+        scale.add_first((per_length * (released.length - 1.0)) * by_part);
         for k in 0..2 {
-            v[k][j] = limit[k] * (released.scale * ratio[k] + released.ratio[k] * scale)
-                + (released.ratio[k] * released.scale) * by_limit[k];
+            v[k][j] = limit[k] * (released.scale * ratio[k] + released.ratio[k] * scale);
+            v[k][j].add_first((released.ratio[k] * released.scale) * by_limit[k]);
         }
     }
 }
@@ -348,22 +353,21 @@ impl<const L: usize> FarChanges<L> {
         (motion, by): (&Motion, &Both<Lanes<L>>),
         step: &Step,
         old: &Both<Changes<L>>,
-        terms: Option<&Terms<L>>,
+        parameters: &Parameters,
     ) -> Self {
         let (far, first) = (&step.far, contact.shells.first.min(FLAT_EDGE));
         let (mut way, mut distance) = (*by, Lanes::ZERO);
         for k in 0..2 {
             let (limit, before) = (contact.now.shift[k].max(LEAST), motion.before[k].max(LEAST));
             way[k] += far.cut[k] * old[k][first];
-            let mut by_limit = Lanes::ZERO;
-            if let Some(terms) = terms {
-                by_limit = terms.now[k];
-                // A constant load is the limit of falling ones.
-                if contact.now.shift[k] <= motion.before[k] {
-                    way[k] += (step.old.v[k][first] / before) * ((limit / before) * terms.before[k] - terms.now[k]);
-                }
+            // A constant load is the limit of falling ones.
+            if contact.now.shift[k] <= motion.before[k] {
+                let cut = parameters.sum(|terms| (limit / before) * terms.before[k] - terms.now[k]);
+                way[k].add_first((step.old.v[k][first] / before) * cut);
             }
-            distance += (quotient(far.ratio[k], far.distance) / limit) * (way[k] - far.ratio[k] * by_limit);
+            let mut ratio = way[k];
+            ratio.add_first(-far.ratio[k] * parameters.sum(|terms| terms.now[k]));
+            distance += (quotient(far.ratio[k], far.distance) / limit) * ratio;
         }
         let turn = far.per_length * (far.e[0] * way[1] - far.e[1] * way[0]);
         FarChanges { part: far.slope * distance, e: [-far.e[1] * turn, far.e[0] * turn] }
@@ -374,9 +378,11 @@ impl<const L: usize> FarChanges<L> {
         &self,
         (part, e, by_e): (f64, f64, Lanes<L>),
         (v, value): (Lanes<L>, f64),
-        (limit, by_limit): (f64, Lanes<L>),
+        (limit, by_limit): (f64, Lanes<4>),
     ) -> Lanes<L> {
-        (1.0 - part) * v + (limit * e - value) * self.part + part * (limit * by_e + e * by_limit)
+        let mut v = (1.0 - part) * v + (limit * e - value) * self.part + (part * limit) * by_e;
+        v.add_first((part * e) * by_limit);
+        v
     }
 }
 
@@ -386,24 +392,24 @@ fn move_edge<const L: usize>(
     (motion, by): (&Motion, &Both<Lanes<L>>),
     step: &Step,
     old: &Both<Lanes<L>>,
-    terms: Option<&Terms<L>>,
+    parameters: &Parameters,
 ) -> Both<Lanes<L>> {
     let (mut ratio, edge) = ([Lanes::ZERO; 2], &step.edge);
     let limit = contact.edge_limits().map(|limit| limit.max(LEAST));
     for k in 0..2 {
         ratio[k] = edge.part[k] * by[k] + edge.kept[k] * old[k];
-        if let Some(terms) = terms {
+        let rise = (contact.now.shift[k] - motion.before[k]).max(limit[k]);
+        let [per_rise, per_before] = [motion.by[k] / rise, step.old.edge[k] / edge.before[k]];
+        ratio[k].add_first(parameters.sum(|terms| {
+            let (rise, mut sum) = (terms.now[k] - terms.before[k], -edge.ratio[k] * terms.edge_limit[k]);
             if edge.part[k] < 1.0 {
-                let rise = (contact.now.shift[k] - motion.before[k]).max(limit[k]);
-                let part = terms.edge_limit[k] - edge.part[k] * (terms.now[k] - terms.before[k]);
-                ratio[k] += (motion.by[k] / rise) * part;
+                sum += per_rise * (terms.edge_limit[k] - edge.part[k] * rise);
             }
             if edge.kept[k] < 1.0 && edge.kept[k] > 0.0 {
-                let kept = terms.edge_limit[k] - (terms.now[k] - terms.before[k]) - edge.kept[k] * terms.edge_before[k];
-                ratio[k] += (step.old.edge[k] / edge.before[k]) * kept;
+                sum += per_before * (terms.edge_limit[k] - rise - edge.kept[k] * terms.edge_before[k]);
             }
-            ratio[k] -= edge.ratio[k] * terms.edge_limit[k];
-        }
+            sum
+        }));
         ratio[k] = (1.0 / limit[k]) * ratio[k];
     }
     let (mut end, mut e) = (ratio, edge.ratio);
@@ -415,9 +421,7 @@ fn move_edge<const L: usize>(
     }
     for k in 0..2 {
         end[k] = limit[k] * end[k];
-        if let Some(terms) = terms {
-            end[k] += e[k] * terms.edge_limit[k];
-        }
+        end[k].add_first(e[k] * parameters.sum(|terms| terms.edge_limit[k]));
     }
     end
 }
@@ -427,7 +431,7 @@ pub(crate) fn bounded<const L: usize>(
     force: Both<f64>,
     bound: f64,
     [x, y]: Both<Lanes<L>>,
-    by_bound: Option<Lanes<L>>,
+    parameters: &Parameters,
 ) -> Both<Lanes<L>> {
     let length = (force[0] * force[0] + force[1] * force[1]).sqrt();
     if length <= super::step::ROUNDING * bound {
@@ -436,67 +440,76 @@ pub(crate) fn bounded<const L: usize>(
     let per = quotient(1.0, length);
     let e = force.map(|force| force * per);
     let turn = (bound * per) * (e[0] * y - e[1] * x);
-    let along = by_bound.unwrap_or(Lanes::ZERO);
-    [e[0] * along - e[1] * turn, e[1] * along + e[0] * turn]
+    let by_bound = parameters.sum(|terms| terms.load);
+    let mut slopes = [-e[1] * turn, e[0] * turn];
+    for k in 0..2 {
+        slopes[k].add_first(e[k] * by_bound);
+    }
+    slopes
 }
 
 impl Slip {
     /// Changes of springs after slip, in place of those of the trial state.
-    fn differentiate<const L: usize>(&self, springs: &Springs, v: &mut Both<Changes<L>>, terms: Option<&SlipTerms<L>>) {
+    fn differentiate<const L: usize>(
+        &self,
+        springs: &Springs,
+        v: &mut Both<Changes<L>>,
+        parameters: &Parameters,
+        slip_of: impl Fn(&Terms) -> &SlipTerms,
+    ) {
         if self.points.set == 0 {
             return;
         }
         let (first, end) = (self.points.first.min(N), springs.shells.range().end.min(N));
         // The springs at the present tractions, and the slip at them. Both maps are triangular, and applied in place.
-        let mut own = [[Lanes::ZERO; N]; 2];
-        if let Some(terms) = terms {
-            for k in 0..2 {
-                for j in first..end {
-                    let mut sum = Lanes::ZERO;
-                    for i in j..end {
-                        sum -= springs.inverse[k][j][i] * terms.tractions[k][i];
-                    }
-                    own[k][j] = sum;
-                    v[k][j] -= sum;
-                }
-            }
-        }
+        let mut own = [[Lanes::<4>::ZERO; N]; 2];
         for k in 0..2 {
             for j in first..end {
-                v[k][j] = springs.stiffness[k][j] * v[k][j];
-                if let Some(terms) = terms {
-                    v[k][j] += terms.forces[k][j];
+                own[k][j] = -parameters.sum(|terms| slip_of(terms).tractions[k][j]);
+            }
+            for j in first..end {
+                let mut sum = Lanes::ZERO;
+                for i in j..end {
+                    sum += springs.inverse[k][j][i] * own[k][i];
                 }
+                own[k][j] = sum;
+                v[k][j].add_first(-sum);
+                v[k][j] = springs.stiffness[k][j] * v[k][j];
+                v[k][j].add_first(parameters.sum(|terms| slip_of(terms).forces[k][j]));
             }
             for i in (first..end).rev().map(|i| i.min(N - 1)) {
                 let mut sum = Lanes::ZERO;
-                for j in first..=i {
+                for j in first..(i + 1).min(end) {
                     sum += springs.inverse[k][j][i] * v[k][j];
                 }
                 v[k][i] = sum;
-                if let Some(terms) = terms {
-                    v[k][i] += terms.slip[k][i];
-                }
+                v[k][i].add_first(parameters.sum(|terms| slip_of(terms).slip[k][i]));
             }
         }
-        self.turn(v, [first, end]);
+        self.turn(springs, v, [first, end]);
         for k in 0..2 {
             for j in first..end {
-                let mut sum = own[k][j];
+                let mut sum = Lanes::ZERO;
                 for i in j..end {
                     sum += springs.inverse[k][j][i] * v[k][i];
                 }
                 v[k][j] = sum;
+                v[k][j].add_first(own[k][j]);
             }
         }
     }
 
     /// Changes of the tractions, in place of those of slip at the present tractions.
-    fn turn<const L: usize>(&self, slip: &mut Both<Changes<L>>, [first, end]: [usize; 2]) {
-        let Slip { points, metric, inverse, .. } = self;
+    fn turn<const L: usize>(&self, springs: &Springs, slip: &mut Both<Changes<L>>, [first, end]: [usize; 2]) {
+        let Slip { points, solution, .. } = self;
         let (first, end) = (first.min(N), end.min(N));
         let sticks = !points.set & within([first, end]);
-        if sticks != 0 {
+        let metric = (sticks != 0).then(|| {
+            let mut metric = [[Row::ZERO; N]; 2];
+            set_metric(&mut metric, springs, [first, end], points.set);
+            metric
+        });
+        if let Some(metric) = &metric {
             eliminate(metric, slip, [first, end], (points.set, sticks));
         }
         let mut across = [Lanes::ZERO; N];
@@ -505,16 +518,13 @@ impl Slip {
                 across[m] = points.e[0][m] * slip[1][m] - points.e[1][m] * slip[0][m];
             }
         }
+        solution.solve_lanes([first, end], &mut across);
         for i in first..end {
-            let mut turn = Lanes::ZERO;
-            for m in first..end {
-                turn += inverse[m][i] * across[m];
-            }
             if points.set >> i & 1 == 1 {
-                (slip[0][i], slip[1][i]) = (-points.e[1][i] * turn, points.e[0][i] * turn);
+                (slip[0][i], slip[1][i]) = (-points.e[1][i] * across[i], points.e[0][i] * across[i]);
             }
         }
-        if sticks != 0 {
+        if let Some(metric) = &metric {
             // What these take from the tractions of others.
             for k in 0..2 {
                 for i in first..end {
