@@ -6,7 +6,7 @@
 //! displaced to that sample at constant normal force, and advanced along a number of periods and one more from there, which counts. The
 //! nodes are those of the largest normal force.
 //!
-//! Static shear is shaken out over many periods. Those before the last two are advanced by fewer samples; the drift estimates what is left.
+//! Static shear is shaken out over many periods, which are advanced by fewer samples; the drift estimates what is left.
 //!
 //! The Jacobian is the exact derivative of these steps: changes of the springs by all coefficients are propagated. What the
 //! parameters of the contact add, the load at both ends and the reference size of the nodes, is computed once a step; the changes are
@@ -390,7 +390,7 @@ fn walk(element: &Element, workspace: &mut Workspace, displacement: &[f64], outp
         let (mut start, mut changes) = (walk.springs, [0.0; 2]);
         for step in 0..=(periods + 1) * count {
             let counts = step > periods * count;
-            if step < (periods - 1) * count && !step.is_multiple_of(stride) {
+            if step < periods * count && !step.is_multiple_of(stride) {
                 continue;
             }
             let index = (largest + step).checked_rem(count).unwrap_or(0);
