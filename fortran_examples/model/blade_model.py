@@ -1,6 +1,6 @@
 """Two neighbouring titanium blades as finite elements, reduced to the degrees of freedom of contacts and excitation.
 
-    blade_model.py [DIRECTORY]      writes the files of the models `blades` and `wedge`, into the program's own directory by default
+    blade_model.py [DIRECTORY]      writes the matrices of the two blades, into the program's own directory by default
 
 Each blade is a Timoshenko beam that bends in the circumferential direction. Its foot sits in a dovetail slot: the flanks, pressed
 together by the centrifugal force, carry the deflection w in their normal direction (a stiff spring) and part of the rocking of the
@@ -8,11 +8,8 @@ foot (a spring: the pressure moves along the flanks). The rest of the rocking is
 slides the two flanks, a lever r away from the axis of the blade, by +r theta and -r theta. By symmetry both flanks have the same
 loop, so one coordinate, r theta, serves both. The platform is a rigid mass 30 mm above the foot.
 
-blades  The damper is pressed against the undersides of the two platforms and seated in the second one, so that it slides on the
-        first. At the damper an underside moves by w - e theta, with e the distance from the axis of the platform to its underside.
-wedge   The damper is a rigid body that moves in the circumferential and the radial direction, x and r. It lies between two inclined
-        undersides, at a distance s from the axes of the blades, where these also move radially: the rotation theta moves that of
-        the first blade by -s theta and that of the second, on the other side of its axis, by +s theta.
+The damper is pressed against the undersides of the two platforms and seated in the second one, so that it slides on the first. At the
+damper an underside moves by w - e theta, with e the distance from the axis of the platform to its underside.
 """
 
 import sys
@@ -24,10 +21,11 @@ E, NU, DENSITY = 114e9, 0.32, 4430.0  # Ti-6Al-4V: Pa, -, kg/m3
 LENGTH, WIDTH, THICKNESS = 0.120, 0.040, 0.006  # m
 ELEMENTS, PLATFORM = 24, 12  # the deflection of node 6, 30 mm above the foot; followed by the rotation
 FOOT, ROCKING = 5e8, 2e4  # flanks in their normal direction, N/m; rocking not carried by friction, N m/rad
-LEVER, UNDERSIDE, DAMPER_DISTANCE = 0.008, 0.003, 0.014  # r, e, s, m
-PLATFORM_MASS, PLATFORM_INERTIA, DAMPER_MASS = 0.012, 4e-7, 0.020  # kg, kg m2, kg
-DASHPOT = 150.0  # N s/m, normal to the undersides, at 45 degrees to the circumferential direction
+LEVER, UNDERSIDE = 0.008, 0.003  # r, e, m
+PLATFORM_MASS, PLATFORM_INERTIA = 0.012, 4e-7  # kg, kg m2
+DAMPING_RATIO = 1e-3  # of all modes
 MISTUNING = 0.005  # of the stiffness of the second blade
+BOUNDARY = [1, PLATFORM, 2 * ELEMENTS]  # root, platform, tip
 MODES = 8  # of each blade, with its boundary fixed
 
 
@@ -57,8 +55,8 @@ def beam_element(modulus, l):
     return stiffness * modulus * inertia / (l**3 * (1 + f)), mass
 
 
-def blade(modulus, lever, boundary):
-    """Reduced mass and stiffness of a blade; the platform moves radially by `lever` theta."""
+def blade(modulus):
+    """Reduced mass and stiffness of a blade."""
     n = 2 * (ELEMENTS + 1)
     stiffness, mass = np.zeros((n, n)), np.zeros((n, n))
     element = beam_element(modulus, LENGTH / ELEMENTS)
@@ -67,59 +65,42 @@ def blade(modulus, lever, boundary):
         mass[d:d + 4, d:d + 4] += element[1]
     stiffness[[0, 1], [0, 1]] += FOOT, ROCKING
     mass[[PLATFORM, PLATFORM + 1], [PLATFORM, PLATFORM + 1]] += PLATFORM_MASS, PLATFORM_INERTIA
-    change = np.eye(n)  # to the sliding of the flanks, the deflection of the underside, the radial displacement
+    change = np.eye(n)  # to the sliding of the flanks and the deflection of the underside
     change[1, 1] = 1 / LEVER
-    change[PLATFORM, PLATFORM + 1] = UNDERSIDE / lever
-    change[PLATFORM + 1, PLATFORM + 1] = 1 / lever
+    change[PLATFORM, PLATFORM + 1] = UNDERSIDE
     stiffness, mass = change.T @ stiffness @ change, change.T @ mass @ change
 
     # The boundary stays physical, with modes of the fixed boundary (Craig and Bampton, AIAA Journal 6, 1968). Their sign is chosen.
-    inner = np.setdiff1d(np.arange(n), boundary)
+    inner = np.setdiff1d(np.arange(n), BOUNDARY)
     modes = modes_of(stiffness[np.ix_(inner, inner)], mass[np.ix_(inner, inner)])[1][:, :MODES]
-    basis = np.zeros((n, len(boundary) + MODES))
-    basis[boundary, range(len(boundary))] = 1
-    basis[inner, :len(boundary)] = -np.linalg.solve(stiffness[np.ix_(inner, inner)], stiffness[np.ix_(inner, boundary)])
-    basis[inner, len(boundary):] = modes * np.sign(modes.sum(0))
+    basis = np.zeros((n, len(BOUNDARY) + MODES))
+    basis[BOUNDARY, range(len(BOUNDARY))] = 1
+    basis[inner, :len(BOUNDARY)] = -np.linalg.solve(stiffness[np.ix_(inner, inner)], stiffness[np.ix_(inner, BOUNDARY)])
+    basis[inner, len(BOUNDARY):] = modes * np.sign(modes.sum(0))
     return basis.T @ mass @ basis, basis.T @ stiffness @ basis
 
 
-def model(levers, boundary, damping_ratio, damper):
-    """Mass, damping and stiffness of the blades, and after them of the translations of the damper."""
-    size = len(boundary) + MODES
-    matrices = mass, damping, stiffness = np.zeros((3, 2 * size + 2 * damper, 2 * size + 2 * damper))
-    for i, lever in enumerate(levers):
+def model():
+    """Mass, damping and stiffness of both blades."""
+    size = len(BOUNDARY) + MODES
+    matrices = mass, damping, stiffness = np.zeros((3, 2 * size, 2 * size))
+    for i in range(2):
         own = slice(i * size, (i + 1) * size)
-        mass[own, own], stiffness[own, own] = blade(E * (1 + i * MISTUNING), lever, boundary)
+        mass[own, own], stiffness[own, own] = blade(E * (1 + i * MISTUNING))
         # The same damping ratio in all modes with open contacts.
         omega, modes = modes_of(stiffness[own, own], mass[own, own])
         modes = mass[own, own] @ modes
-        damping[own, own] = 2 * damping_ratio * modes * omega @ modes.T
-        if damper:  # a dashpot between the damper and the platform
-            normal = np.zeros(len(mass))
-            normal[-2:] = np.array([2 * i - 1, 1]) * np.sqrt(0.5)
-            normal[i * size + 1:i * size + 3] = -normal[-2:]
-            damping += DASHPOT * np.outer(normal, normal)
-    for i in range(2 * size, len(mass)):  # a free body decays like the first mode of the first blade
-        mass[i, i] = DAMPER_MASS
-        damping[i, i] += 2 * damping_ratio * modes_of(stiffness[:size, :size], mass[:size, :size])[0][0] * DAMPER_MASS
+        damping[own, own] = 2 * DAMPING_RATIO * modes * omega @ modes.T
     return [0.5 * (matrix + matrix.T) for matrix in matrices]
 
 
-MODELS = {
-    "blades": ("two blades", ["root", "platform", "tip"], ([1.0, 1.0], [1, PLATFORM, 2 * ELEMENTS], 1e-3, 0)),
-    "wedge": ("two blades with a wedge damper", ["root", "platform", "platform_radial", "tip"],
-              ([-DAMPER_DISTANCE, DAMPER_DISTANCE], [1, PLATFORM, PLATFORM + 1, 2 * ELEMENTS], 5e-3, 1)),
-}
-
 if __name__ == "__main__":
-    for name, (description, boundary, parameters) in MODELS.items():
-        files = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent)
-        texts = ["mass, kg", "damping, N s/m", "stiffness with open contacts, N/m"]
-        order = f"of each blade {', '.join(boundary)}, {MODES} modes" + (", then damper x and r" if name == "wedge" else "")
-        for kind, text, matrix in zip(["mass", "damping", "stiffness"], texts, model(*parameters)):
-            scale = np.sqrt(np.diag(matrix))
-            rows = [(i, j, matrix[i, j]) for j in range(len(matrix)) for i in range(j, len(matrix))
-                    if abs(matrix[i, j]) > 1e-12 * scale[i] * scale[j]]  # smaller ones are rounding errors of zeros
-            head = f"%%MatrixMarket matrix coordinate real symmetric\n% {description}: {text}\n% {order}\n"
-            text = "".join(f"{i + 1} {j + 1} {value:.16e}\n" for i, j, value in rows)
-            (files / f"{name}_{kind}.mtx").write_text(f"{head}{len(matrix)} {len(matrix)} {len(rows)}\n{text}")
+    files = Path(sys.argv[1] if len(sys.argv) > 1 else Path(__file__).parent)
+    texts = ["mass, kg", "damping, N s/m", "stiffness with open contacts, N/m"]
+    for kind, text, matrix in zip(["mass", "damping", "stiffness"], texts, model()):
+        scale = np.sqrt(np.diag(matrix))
+        rows = [(i, j, matrix[i, j]) for j in range(len(matrix)) for i in range(j, len(matrix))
+                if abs(matrix[i, j]) > 1e-10 * scale[i] * scale[j]]  # smaller ones are rounding errors of zeros
+        head = f"%%MatrixMarket matrix coordinate real symmetric\n% two blades: {text}\n% of each blade root, platform, tip, {MODES} modes\n"
+        text = "".join(f"{i + 1} {j + 1} {value:.16e}\n" for i, j, value in rows)
+        (files / f"blades_{kind}.mtx").write_text(f"{head}{len(matrix)} {len(matrix)} {len(rows)}\n{text}")

@@ -7,10 +7,8 @@ high = 430
 
 same(a, b) = abs(a - b) < 1e-6 * abs(b)
 best(value) = (same(column('load_factor'), 7) ? value : NaN)
-# The balance of the case itself, with 128 samples, is not shown.
-wave(harmonics) = (column('harmonics') == harmonics && column('samples') != 128 \
-  ? best(micro(column('displacement_m'))) : NaN)
-difference(force) = (same(column('load_factor'), force) && column('samples') != 128 ? column('response_difference') : NaN)
+wave(harmonics) = (column('harmonics') == harmonics ? best(micro(column('displacement_m'))) : NaN)
+difference(force) = (same(column('load_factor'), force) ? column('response_difference') : NaN)
 # A mode in which the damper moves.
 mode(dummy) = (column('participation') > 0.12 && column('order') < 37 ? best(column('order')) : NaN)
 

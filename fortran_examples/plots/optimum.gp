@@ -10,7 +10,7 @@ stats peaks('spring_slider') using (column('load')) nooutput
 array slider_peak[STATS_records]
 stats peaks('spring_slider') using (slider_peak[int(column('load'))] = column('peak_m')) nooutput
 relative(dummy) = column('peak_m') / slider_peak[int(column('load'))]
-force = 'damper_max_normal_force_N'
+force = 'load_factor'
 at_load(n) = (int(column('load')) == n ? micro(column('peak_m')) : NaN)
 
 @set_terminal

@@ -6,10 +6,8 @@
 program balance_check
   use basics, only: argument, fail, pi, progress, text, wp
   use case_input, only: case_data, prepare_problem, read_case
-  use continuation, only: solve_within
   use fourier_series, only: get_harmonic, series_basis
-  use friction_contacts, only: contact_history
-  use harmonic_balance, only: balance_point, balance_problem, evaluate, structure_response
+  use harmonic_balance, only: balance_point, balance_problem, evaluate, solve_from_rest, structure_response
   implicit none
 
   ! Rounding of 1e-16/1e-6, more where the residual is a small difference; the curvature of the laws adds about as much.
@@ -28,11 +26,11 @@ program balance_check
 
   call read_case(trim(argument(1, 'balance_check CASE')), data)
   if (size(data%frequencies) == 0) call fail('a group &points is needed')
+  call prepare_problem(data, 1.0_wp, data%harmonics, data%samples, problem)
+  allocate (displacement(2 * data%harmonics + 1, size(data%contacts)))
   do i = 1, size(data%frequencies)
-    call prepare_problem(data, 1.0_wp, data%point_factors(i), data%harmonics, data%samples, problem)
-    if (i == 1) allocate (displacement(2 * data%harmonics + 1, problem%contacts%components))
     omega = 2.0_wp * pi * data%frequencies(i)
-    call solve_within(problem, data%range, omega, displacement, point, converged)
+    call solve_from_rest(problem, omega, displacement, point, converged)
     if (.not. converged) call fail('no harmonic balance found at '//text(data%frequencies(i), '(f12.3)')//' Hz')
     call check('energy', energy_difference(), energy_tolerance)
     call check('derivatives', derivative_difference(), derivative_tolerance)
@@ -53,15 +51,14 @@ contains
   real(wp) function energy_difference() result(difference)
     real(wp) :: response(size(displacement, 1), size(problem%excitation)), supplied, damped
     complex(wp) :: amplitude(size(problem%excitation))
-    integer :: k, j
+    integer :: k
 
     response = structure_response(problem, point)
     damped = 0.0_wp
-    supplied = 0.0_wp
+    supplied = pi * dot_product(response(3, :), problem%excitation)
     do k = 1, data%harmonics
-      amplitude = [(get_harmonic(response(:, j), k), j=1, size(amplitude))]
+      amplitude = get_harmonic(response, k)
       damped = damped + pi * k * omega * k * real(dot_product(amplitude, matmul(problem%model%damping, amplitude)))
-      if (k == 1) supplied = pi * aimag(dot_product(amplitude, problem%excitation))
     end do
     difference = abs(supplied - damped - sum(point%dissipated)) / supplied
   end function energy_difference
@@ -70,7 +67,7 @@ contains
   real(wp) function derivative_difference() result(worst)
     type(balance_point) :: here, ahead, behind
     real(wp) :: moved(size(displacement, 1), size(displacement, 2)), step
-    integer :: coefficient, component, m
+    integer :: coefficient, contact, m
 
     m = size(displacement, 1)
     call evaluate(problem, omega, displacement, here)
@@ -78,15 +75,15 @@ contains
     call evaluate(problem, omega + step, displacement, ahead)
     call evaluate(problem, omega - step, displacement, behind)
     worst = difference(here%by_omega, (ahead%residual - behind%residual) / (2.0_wp * step))
-    do component = 1, size(displacement, 2)
-      step = relative_step * norm2(displacement(2:, component))
+    do contact = 1, size(displacement, 2)
+      step = relative_step * norm2(displacement(2:, contact))
       do coefficient = 1, m
         moved = displacement
-        moved(coefficient, component) = displacement(coefficient, component) + step
+        moved(coefficient, contact) = displacement(coefficient, contact) + step
         call evaluate(problem, omega, moved, ahead)
-        moved(coefficient, component) = displacement(coefficient, component) - step
+        moved(coefficient, contact) = displacement(coefficient, contact) - step
         call evaluate(problem, omega, moved, behind)
-        worst = max(worst, difference(reshape(here%jacobian(:, (component - 1) * m + coefficient), shape(moved)), &
+        worst = max(worst, difference(reshape(here%jacobian(:, (contact - 1) * m + coefficient), shape(moved)), &
                                       (ahead%residual - behind%residual) / (2.0_wp * step)))
       end do
     end do
@@ -94,13 +91,13 @@ contains
 
   !> Largest difference of the force coefficients of a contact from those of the forces of time steps at the samples, relative.
   real(wp) function step_difference() result(worst)
-    type(contact_history) :: history
+    real(wp), allocatable :: states(:,:)
     real(wp) :: basis(data%samples, size(displacement, 1)), force(data%samples, size(displacement, 2))
     real(wp) :: coefficients(size(displacement, 1), size(displacement, 2))
     integer :: j
 
     basis = series_basis(data%harmonics, data%samples)
-    call problem%contacts%steady_cycle(matmul(basis, displacement), history, force)
+    call problem%contacts%steady_cycle(matmul(basis, displacement), states, force)
     coefficients = 2.0_wp / data%samples * matmul(transpose(basis), force)
     coefficients(1, :) = 0.5_wp * coefficients(1, :)
     worst = 0.0_wp

@@ -11,12 +11,12 @@ module continuation
     structure_response
   implicit none
   private
-  public :: follow_response, refine_peak, solve_within
+  public :: follow_response, refine_peak
 
   type, public :: response_path
     integer :: points = 0
     real(wp), allocatable :: omega(:)
-    real(wp), allocatable :: displacement(:,:,:)   !! (coefficient, component, point)
+    real(wp), allocatable :: displacement(:,:,:)   !! (coefficient, contact, point)
   end type response_path
 
   ! Relative change of the displacements in one step; fewest steps over the whole range of frequencies.
@@ -36,18 +36,23 @@ contains
     real(wp), allocatable :: u(:,:), scale(:), tangent(:), previous(:)
     real(wp) :: omega, step, direction
     logical :: converged
-    integer :: m, components, iterations
+    integer :: m, contacts, iterations
 
     m = 2 * problem%harmonics + 1
-    components = size(problem%incidence, 2)
+    contacts = size(problem%contacts%items)
     direction = sign(1.0_wp, omega_to - omega_from)
-    allocate (u(m, components), tangent(m * components + 1), previous(m * components + 1), scale(m * components + 1))
-    allocate (path%omega(max_points), path%displacement(m, components, max_points))
+    allocate (u(m, contacts), tangent(m * contacts + 1), previous(m * contacts + 1), scale(m * contacts + 1))
+    allocate (path%omega(max_points), path%displacement(m, contacts, max_points))
 
     omega = omega_from
     call solve_from_rest(problem, omega, u, point, converged)
     if (.not. converged) call fail('no harmonic balance found at the first frequency, '//hertz(omega))
-    call start_path()
+    call append()
+    call set_scale()
+    previous = 0.0_wp
+    previous(m * contacts + 1) = direction
+    call path_tangent()
+    step = 0.1_wp * max_step
     do while (direction * (omega - omega_to) < 0.0_wp)
       call advance(step, min_tangent_cosine)
       if (converged) then
@@ -57,42 +62,10 @@ contains
       else
         step = 0.4_wp * step
       end if
-      if (step < min_step .or. direction * (omega - omega_from) < 0.0_wp) call jump()
+      if (step < min_step) call fail('the continuation stops at '//hertz(omega)//': no tangent leads on')
     end do
 
   contains
-
-    !> Continues beyond a corner. Where a nearly flat contact reaches gross slip, the path may turn by more than a right angle:
-    !> no tangent leads on, or the one that is found leads back.
-    subroutine jump()
-      real(wp) :: reached, distance, last(m, components)
-
-      last = u
-      reached = direction * maxval(direction * path%omega(:path%points))
-      distance = (omega_to - omega_from) / (10 * steps_over_range)
-      do
-        omega = reached + distance
-        u = last
-        call solve_at(problem, omega, u, point, converged)
-        if (.not. converged) call solve_from_rest(problem, omega, u, point, converged)
-        if (converged) exit
-        distance = 1.5_wp * distance
-        if (abs(distance) > 0.25_wp * abs(omega_to - omega_from)) then
-          call fail('no harmonic balance found at '//hertz(omega))
-        end if
-      end do
-      call start_path()
-    end subroutine jump
-
-    !> The first point of the path, or that after a jump.
-    subroutine start_path()
-      call append()
-      call set_scale()
-      previous = 0.0_wp
-      previous(m * components + 1) = direction
-      call path_tangent()
-      step = 0.1_wp * max_step
-    end subroutine start_path
 
     subroutine append()
       if (path%points == max_points) then
@@ -108,22 +81,22 @@ contains
       real(wp) :: vibration
       integer :: i
 
-      do i = 1, components
+      do i = 1, contacts
         vibration = max(norm2(u(2:, i)), 1.0e-6_wp * norm2(u(2:, :)))
         scale((i - 1) * m + 1) = max(abs(u(1, i)), vibration)
         scale((i - 1) * m + 2:i * m) = vibration
       end do
-      scale(:m * components) = sqrt(real(components, wp)) * scale(:m * components)
-      scale(m * components + 1) = abs(omega_to - omega_from) / (steps_over_range * max_step)
+      scale(:m * contacts) = sqrt(real(contacts, wp)) * scale(:m * contacts)
+      scale(m * contacts + 1) = abs(omega_to - omega_from) / (steps_over_range * max_step)
     end subroutine set_scale
 
     !> Unit tangent of the path at the present point, in the direction of `previous`.
     subroutine path_tangent()
-      real(wp) :: right(m * components + 1, 1)
+      real(wp) :: right(m * contacts + 1, 1)
       logical :: singular
 
       right = 0.0_wp
-      right(m * components + 1, 1) = 1.0_wp
+      right(m * contacts + 1, 1) = 1.0_wp
       call bordered_solve(previous, right, singular)
       if (singular) call fail('the path has no tangent at '//hertz(omega))
       tangent = right(:, 1) / norm2(right)
@@ -135,10 +108,10 @@ contains
       real(wp), intent(in) :: border(:)
       real(wp), intent(inout) :: right(:,:)
       logical, intent(out) :: singular
-      real(wp) :: matrix(m * components + 1, m * components + 1)
+      real(wp) :: matrix(m * contacts + 1, m * contacts + 1)
       integer :: n, i
 
-      n = m * components
+      n = m * contacts
       do i = 1, n
         matrix(:n, i) = point%jacobian(:, i) * scale(i) / scale(:n)
       end do
@@ -151,12 +124,12 @@ contains
     !> path bends too sharply, the start is restored.
     subroutine advance(length, min_cosine)
       real(wp), intent(in) :: length, min_cosine
-      real(wp) :: u_start(m, components), omega_start, distance, right(m * components + 1, 1)
-      real(wp) :: tangent_start(m * components + 1)
+      real(wp) :: u_start(m, contacts), omega_start, distance, right(m * contacts + 1, 1)
+      real(wp) :: tangent_start(m * contacts + 1)
       logical :: singular
       integer :: n
 
-      n = m * components
+      n = m * contacts
       u_start = u
       omega_start = omega
       tangent_start = tangent
@@ -196,121 +169,44 @@ contains
     end subroutine advance
   end subroutine follow_response
 
-  !> At one frequency: from a guess with any number of harmonics, if given; if that fails, from rest; and then along the response
-  !> from another frequency, as near as possible, toward the nearer end of a range.
-  subroutine solve_within(problem, range, omega, displacement, point, converged, guess)
-    type(balance_problem), intent(inout) :: problem
-    real(wp), intent(in) :: range(2), omega
-    real(wp), intent(out), contiguous :: displacement(:,:)
-    type(balance_point), intent(inout) :: point
-    logical, intent(out) :: converged
-    real(wp), intent(in), optional :: guess(:,:)
-    type(response_path) :: path
-    real(wp) :: end_of_range, distance, start
-    integer :: m
-
-    converged = .false.
-    if (present(guess)) then
-      m = min(size(guess, 1), size(displacement, 1))
-      displacement = 0.0_wp
-      displacement(:m, :) = guess(:m, :)
-      call solve_at(problem, omega, displacement, point, converged)
-    end if
-    if (.not. converged) call solve_from_rest(problem, omega, displacement, point, converged)
-    if (converged .or. range(2) <= range(1)) return
-    end_of_range = merge(range(1), range(2), 2.0_wp * omega < sum(range))
-    distance = 0.03_wp * omega
-    do
-      start = merge(end_of_range, omega + sign(distance, end_of_range - omega), distance >= abs(end_of_range - omega))
-      call solve_from_rest(problem, start, displacement, point, converged)
-      if (converged) exit
-      if (distance >= abs(end_of_range - omega)) return
-      distance = 1.5_wp * distance
-    end do
-    call follow_response(problem, start, omega, path)
-    displacement = path%displacement(:, :, path%points)
-    call solve_at(problem, omega, displacement, point, converged)
-  end subroutine solve_within
-
-  real(wp) function peak_of(problem, point, dof)
-    type(balance_problem), intent(in) :: problem
-    type(balance_point), intent(in) :: point
-    integer, intent(in) :: dof
-    real(wp) :: response(2 * problem%harmonics + 1, size(problem%incidence, 1))
-
-    response = structure_response(problem, point)
-    peak_of = series_peak(response(:, dof))
-  end function peak_of
-
-  !> Resonance peak between the points of a path. `amplitude` has the peak over the period of degree of freedom `dof` at every
-  !> point. If the frequency is not monotonic around the largest point, that point is the result.
+  !> Resonance peak between the points of a path, on finer and finer grids of frequencies. `amplitude` has the peak over the period of
+  !> degree of freedom `dof` at every point. If the frequency is not monotonic around the largest point, that point is the result.
   subroutine refine_peak(problem, path, amplitude, dof, omega, displacement)
     type(balance_problem), intent(inout) :: problem
     type(response_path), intent(in) :: path
     real(wp), intent(in) :: amplitude(:)
     integer, intent(in) :: dof
     real(wp), intent(out) :: omega, displacement(:,:)
-    real(wp), parameter :: amplitude_tolerance = 1.0e-9_wp, golden = 0.381966011250105_wp
+    integer, parameter :: grids = 8, intervals = 10
     type(balance_point) :: point
-    real(wp) :: x(3), y(3), trial(size(displacement, 1), size(displacement, 2)), vertex, gain, top, previous_width, width
+    real(wp) :: response(2 * problem%harmonics + 1, size(problem%excitation)), trial(size(displacement, 1), size(displacement, 2))
+    real(wp) :: first, interval, largest
     logical :: converged
-    integer :: largest, step
+    integer :: top, grid, i
 
-    largest = maxloc(amplitude, dim=1)
-    omega = path%omega(largest)
-    displacement = path%displacement(:, :, largest)
-    if (largest == 1 .or. largest == path%points) return
-    x = path%omega(largest - 1:largest + 1)
-    y = amplitude(largest - 1:largest + 1)
-    if (x(1) >= x(2) .or. x(2) >= x(3)) return
-
-    previous_width = huge(previous_width)
-    do step = 1, 40
-      call parabola_vertex(x, y, vertex, gain)
-      width = x(3) - x(1)
-      if (gain <= amplitude_tolerance * y(2)) exit
-      ! Golden section if the parabola does not narrow the bracket.
-      if (width > 0.7_wp * previous_width) vertex = x(2) + golden * merge(x(3) - x(2), x(1) - x(2), &
-                                                                          x(3) - x(2) > x(2) - x(1))
-      previous_width = width
-      trial = displacement
-      call solve_at(problem, vertex, trial, point, converged)
-      if (.not. converged) exit
-      top = peak_of(problem, point, dof)
-      if (top >= y(2)) then
+    top = maxloc(amplitude, dim=1)
+    omega = path%omega(top)
+    displacement = path%displacement(:, :, top)
+    if (top == 1 .or. top == path%points) return
+    if (path%omega(top - 1) >= omega .or. omega >= path%omega(top + 1)) return
+    largest = amplitude(top)
+    first = path%omega(top - 1)
+    interval = (path%omega(top + 1) - first) / intervals
+    do grid = 1, grids
+      do i = 1, intervals - 1
+        trial = displacement
+        call solve_at(problem, first + i * interval, trial, point, converged)
+        if (.not. converged) cycle
+        response = structure_response(problem, point)
+        if (series_peak(response(:, dof)) <= largest) cycle
+        largest = series_peak(response(:, dof))
+        omega = first + i * interval
         displacement = trial
-        omega = vertex
-        ! The former middle is the new end on the other side.
-        x(merge(1, 3, vertex > x(2))) = x(2)
-        y(merge(1, 3, vertex > x(2))) = y(2)
-        x(2) = vertex
-        y(2) = top
-      else
-        y(merge(3, 1, vertex > x(2))) = top
-        x(merge(3, 1, vertex > x(2))) = vertex
-      end if
+      end do
+      first = omega - interval
+      interval = 2.0_wp * interval / intervals
     end do
   end subroutine refine_peak
-
-  !> Vertex of the parabola through three points, the middle one not below the others, and its height above that one.
-  pure subroutine parabola_vertex(x, y, vertex, gain)
-    real(wp), intent(in) :: x(3), y(3)
-    real(wp), intent(out) :: vertex, gain
-    real(wp) :: left, right, slope_left, slope_right, curvature, slope
-
-    left = x(2) - x(1)
-    right = x(3) - x(2)
-    slope_left = (y(2) - y(1)) / left
-    slope_right = (y(3) - y(2)) / right
-    curvature = (slope_right - slope_left) / (left + right)
-    slope = (slope_left * right + slope_right * left) / (left + right)
-    vertex = x(2)
-    gain = 0.0_wp
-    if (curvature < 0.0_wp) then
-      vertex = x(2) - 0.5_wp * slope / curvature
-      gain = -0.25_wp * slope**2 / curvature
-    end if
-  end subroutine parabola_vertex
 
   function hertz(omega) result(string)
     real(wp), intent(in) :: omega

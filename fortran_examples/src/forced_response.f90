@@ -3,7 +3,7 @@
 !>     forced_response CASE DIRECTORY
 !>
 !> CASE is a file of namelist groups (case_input.f90). Written to DIRECTORY, for a case called NAME:
-!> * with a group &sweep, for every load factor and excitation factor,
+!> * with a group &sweep, for every load factor,
 !>   NAME_response.csv  the response along the frequency,
 !>   NAME_peaks.csv     the resonance peaks;
 !> * with a group &points,
@@ -11,14 +11,12 @@
 program forced_response
   use basics, only: argument, csv, fail, open_table, pi, progress, text, wp
   use case_input, only: case_data, prepare_problem, read_case
-  use continuation, only: follow_response, refine_peak, response_path, solve_within
+  use continuation, only: follow_response, refine_peak, response_path
   use fourier_series, only: harmonic_amplitude, series_peak
-  use harmonic_balance, only: balance_point, balance_problem, evaluate, structure_response
+  use harmonic_balance, only: balance_point, balance_problem, evaluate, solve_from_rest, structure_response
   implicit none
 
   character(len=*), parameter :: usage = 'forced_response CASE DIRECTORY'
-  !> The forces of elements change by more than this from period to period: the balance needs more periods.
-  real(wp), parameter :: large_drift = 1.0e-2_wp
   character(len=:), allocatable :: prefix
   type(case_data) :: data
   type(balance_problem) :: problem
@@ -33,9 +31,9 @@ program forced_response
 contains
 
   !> Columns: frequency_hz, dof, then c0, cos1, sin1, ... in metres: x(t) = c0 + sum of cosk cos(k omega t) +
-  !> sink sin(k omega t) under the excitation amplitude * cos(omega t + phase).
+  !> sink sin(k omega t) under the excitation amplitude * cos(omega t).
   subroutine solve_points()
-    real(wp), allocatable :: displacement(:,:)
+    real(wp) :: displacement(2 * data%harmonics + 1, size(data%contacts))
     real(wp) :: response(2 * data%harmonics + 1, size(data%excitation))
     character(len=:), allocatable :: header
     logical :: converged
@@ -46,95 +44,73 @@ contains
       header = header//',cos'//text(k)//',sin'//text(k)
     end do
     table = open_table(prefix//'_coefficients.csv', header)
+    call prepare_problem(data, 1.0_wp, data%harmonics, data%samples, problem)
     do i = 1, size(data%frequencies)
-      call prepare_problem(data, 1.0_wp, data%point_factors(i), data%harmonics, data%samples, problem)
-      if (i == 1) allocate (displacement(2 * data%harmonics + 1, problem%contacts%components))
-      call solve_within(problem, data%range, 2.0_wp * pi * data%frequencies(i), displacement, point, converged)
+      call solve_from_rest(problem, 2.0_wp * pi * data%frequencies(i), displacement, point, converged)
       if (.not. converged) call fail('no harmonic balance found at '//text(data%frequencies(i), '(f12.3)')//' Hz')
       response = structure_response(problem, point)
       do dof = 1, size(response, 2)
         write (table, '(a)') text(data%frequencies(i), '(es24.16e3)')//','//text(dof)//csv(response(:, dof))
       end do
-      call report('point '//text(i), data%frequencies(i), series_peak(response(:, data%response_dof)), problem%contacts%drift)
+      call report('point '//text(i), data%frequencies(i), series_peak(response(:, data%response_dof)))
     end do
     close (table)
   end subroutine solve_points
 
-  subroutine report(what, frequency, peak, drift)
+  subroutine report(what, frequency, peak)
     character(len=*), intent(in) :: what
-    real(wp), intent(in) :: frequency, peak, drift
+    real(wp), intent(in) :: frequency, peak
 
     call progress(trim(data%name)//', '//what//': '//text(1.0e6_wp * peak, '(f10.3)')//' um at '//text(frequency, '(f10.3)')//' Hz')
-    if (drift > large_drift) call progress('  not steady: drift '//text(drift, '(es8.1)')//' of mu N: raise periods')
   end subroutine report
 
   subroutine solve_sweep()
     type(response_path) :: path
-    real(wp) :: omega, drift, peak
-    real(wp), allocatable :: displacement(:,:), amplitude(:)
+    real(wp) :: omega, peak, displacement(2 * data%harmonics + 1, size(data%contacts))
+    real(wp), allocatable :: amplitude(:)
     integer :: responses, peaks, load, i
 
     responses = open_table(prefix//'_response.csv', response_header())
     peaks = open_table(prefix//'_peaks.csv', response_header())
     do load = 1, size(data%load_factors)
-      call prepare_problem(data, data%load_factors(load), data%excitation_factors(load), data%harmonics, data%samples, problem)
-      if (load == 1) allocate (displacement(2 * data%harmonics + 1, problem%contacts%components))
+      call prepare_problem(data, data%load_factors(load), data%harmonics, data%samples, problem)
       call follow_response(problem, data%range(1), data%range(2), path)
-      if (allocated(amplitude)) deallocate (amplitude)
-      allocate (amplitude(path%points))
-      drift = 0.0_wp
+      amplitude = [(0.0_wp, i=1, path%points)]
       do i = 1, path%points
         call write_row(responses, load, path%omega(i), path%displacement(:, :, i), amplitude(i))
-        drift = max(drift, problem%contacts%drift)
       end do
       call refine_peak(problem, path, amplitude, data%response_dof, omega, displacement)
       call write_row(peaks, load, omega, displacement, peak)
-      call report('load factor '//text(data%load_factors(load), '(f10.2)')//', excitation '// &
-                  text(data%excitation_factors(load), '(f10.3)'), omega / (2.0_wp * pi), peak, drift)
+      call report('load factor '//text(data%load_factors(load), '(f10.2)'), omega / (2.0_wp * pi), peak)
     end do
     close (responses)
     close (peaks)
   end subroutine solve_sweep
 
   function response_header() result(header)
-    character(len=:), allocatable :: header, name
+    character(len=:), allocatable :: header
     integer :: i
 
-    header = 'load,load_factor,excitation_factor,frequency_hz,peak_m'
+    header = 'load,load_factor,frequency_hz,peak_m'
     do i = 0, data%harmonics
       header = header//',harmonic_'//text(i)//'_m'
     end do
-    header = header//',friction_damping_ratio'
     do i = 1, size(data%contacts)
-      name = ','//trim(data%contacts(i)%name)
-      header = header//name//'_dissipated_J'//name//'_min_normal_force_N'//name//'_max_normal_force_N'//name//'_open_fraction'
+      header = header//','//trim(data%contacts(i)%name)//'_dissipated_J'
     end do
   end function response_header
 
-  !> `amplitude` is the peak over the period of the response. The damping ratio of friction is the dissipated energy over 4 pi times
-  !> the amplitude of the kinetic energy.
+  !> `amplitude` is the peak over the period of the response.
   subroutine write_row(table, load, omega, displacement, amplitude)
     integer, intent(in) :: table, load
-    real(wp), intent(in) :: omega
-    real(wp), intent(in), contiguous :: displacement(:,:)
+    real(wp), intent(in) :: omega, displacement(:,:)
     real(wp), intent(out) :: amplitude
-    real(wp) :: response(size(displacement, 1), size(data%excitation)), kinetic, extremes(3)
-    real(wp) :: velocity(size(data%excitation), 2)
-    character(len=:), allocatable :: by_contact
-    integer :: i
+    real(wp) :: response(size(displacement, 1), size(data%excitation))
 
     call evaluate(problem, omega, displacement, point)
     response = structure_response(problem, point)
     amplitude = series_peak(response(:, data%response_dof))
-    velocity = omega * transpose(response(2:3, :))
-    kinetic = 0.5_wp * sum(velocity * matmul(problem%model%mass, velocity))
-    by_contact = ''
-    do i = 1, size(data%contacts)
-      call problem%contacts%normal_extremes(i, displacement, extremes)
-      by_contact = by_contact//csv([point%dissipated(i), extremes])
-    end do
-    write (table, '(a)') text(load)//csv([data%load_factors(load), data%excitation_factors(load), omega / (2.0_wp * pi), &
-                                          amplitude, harmonic_amplitude(response(:, data%response_dof)), &
-                                          sum(point%dissipated) / (4.0_wp * pi * kinetic)])//by_contact
+    write (table, '(a)') text(load)//csv([data%load_factors(load), omega / (2.0_wp * pi), amplitude, &
+                                          harmonic_amplitude(response(:, data%response_dof)), point%dissipated])
   end subroutine write_row
 end program forced_response

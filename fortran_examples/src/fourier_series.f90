@@ -49,26 +49,26 @@ contains
   pure function harmonic_amplitude(coefficients) result(amplitude)
     real(wp), intent(in) :: coefficients(:)
     real(wp) :: amplitude(0:size(coefficients) / 2)
-    integer :: k
 
-    amplitude = [(abs(get_harmonic(coefficients, k)), k=0, size(coefficients) / 2)]
+    amplitude = [abs(coefficients(1)), hypot(coefficients(2::2), coefficients(3::2))]
   end function harmonic_amplitude
 
-  !> X in Re(X exp(i k omega t)).
-  pure complex(wp) function get_harmonic(coefficients, k) result(amplitude)
-    real(wp), intent(in) :: coefficients(:)
+  !> X in Re(X exp(i k omega t)), from the coefficients (coefficient, signal) of some signals.
+  pure function get_harmonic(coefficients, k) result(amplitude)
+    real(wp), intent(in) :: coefficients(:,:)
     integer, intent(in) :: k
+    complex(wp) :: amplitude(size(coefficients, 2))
 
-    amplitude = cmplx(coefficients(max(2*k, 1)), 0.0_wp, wp)
-    if (k > 0) amplitude = cmplx(coefficients(2*k), -coefficients(2*k + 1), wp)
+    amplitude = coefficients(1, :)
+    if (k > 0) amplitude = cmplx(coefficients(2*k, :), -coefficients(2*k + 1, :), wp)
   end function get_harmonic
 
   pure subroutine set_harmonic(coefficients, k, amplitude)
-    real(wp), intent(inout) :: coefficients(:)
+    real(wp), intent(inout) :: coefficients(:,:)
     integer, intent(in) :: k
-    complex(wp), intent(in) :: amplitude
+    complex(wp), intent(in) :: amplitude(:)
 
-    coefficients(max(2*k, 1)) = real(amplitude)
-    if (k > 0) coefficients(2*k + 1) = -aimag(amplitude)
+    coefficients(max(2*k, 1), :) = real(amplitude)
+    if (k > 0) coefficients(2*k + 1, :) = -aimag(amplitude)
   end subroutine set_harmonic
 end module fourier_series

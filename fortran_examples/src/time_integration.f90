@@ -2,7 +2,6 @@
 module newmark
   use basics, only: fail, text, wp
   use dense_algebra, only: solve
-  use friction_contacts, only: contact_history
   use harmonic_balance, only: balance_problem
   implicit none
   private
@@ -10,7 +9,7 @@ module newmark
 
   type, public :: motion
     real(wp), allocatable :: displacement(:), velocity(:), acceleration(:)
-    type(contact_history) :: contacts, trial                        !! at the last instant, and of the trial step
+    real(wp), allocatable :: states(:,:)         !! of the contacts at the last instant
     real(wp), allocatable :: contact_displacement(:), contact_force(:)
   end type motion
 
@@ -20,7 +19,7 @@ module newmark
     real(wp), allocatable :: inverse(:,:)        !! of M + step/2 D + step**2/4 K
     real(wp), allocatable :: by_force(:,:)       !! inverse times B
     real(wp), allocatable :: compliance(:,:)     !! step**2/4 B^T inverse B
-    real(wp), allocatable :: contact_scale(:)    !! size of each component
+    real(wp), allocatable :: contact_scale(:)    !! size of the displacement of each contact
   end type newmark_scheme
 
 contains
@@ -36,24 +35,24 @@ contains
     integer, parameter :: newton_steps = 50, halvings = 8
     real(wp), parameter :: newton_tolerance = 1.0e-12_wp
     real(wp), dimension(size(excitation)) :: displacement, velocity, acceleration
-    real(wp), dimension(size(problem%incidence, 2)) :: u, u_free, force, residual, start
-    real(wp), dimension(size(u), size(u)) :: tangent, matrix
-    real(wp) :: correction(size(u), 1), fraction, size_before
+    real(wp), dimension(size(problem%incidence, 2)) :: u, u_free, force, tangent, residual, start
+    real(wp) :: trial(size(state%states, 1), size(state%states, 2)), matrix(size(u), size(u)), correction(size(u), 1)
+    real(wp) :: fraction, size_before
     integer :: iteration, halving, i
 
-    associate (h => scheme%step, model => problem%model, offset => problem%offset)
+    associate (h => scheme%step, model => problem%model)
       displacement = state%displacement + h * state%velocity + 0.25_wp * h**2 * state%acceleration
       velocity = state%velocity + 0.5_wp * h * state%acceleration
       acceleration = matmul(scheme%inverse, excitation - matmul(model%damping, velocity) &
                             - matmul(model%stiffness, displacement))
-      u_free = matmul(displacement + 0.25_wp * h**2 * acceleration, problem%incidence) + offset
+      u_free = matmul(displacement + 0.25_wp * h**2 * acceleration, problem%incidence)
 
-      u = matmul(displacement + 0.25_wp * h**2 * state%acceleration, problem%incidence) + offset
+      u = matmul(displacement + 0.25_wp * h**2 * state%acceleration, problem%incidence)
       call try()
       do iteration = 1, newton_steps
         if (all(abs(residual) <= newton_tolerance * scheme%contact_scale)) exit
-        matrix = matmul(scheme%compliance, tangent)
         do i = 1, size(u)
+          matrix(:, i) = scheme%compliance(:, i) * tangent(i)
           matrix(i, i) = matrix(i, i) + 1.0_wp
         end do
         correction(:, 1) = residual
@@ -76,19 +75,16 @@ contains
       state%velocity = velocity + 0.5_wp * h * acceleration
     end associate
     state%acceleration = acceleration
-    state%contacts = state%trial          ! the step is accepted
+    state%states = trial                  ! the step is accepted
     state%contact_displacement = u
     state%contact_force = force
 
   contains
 
-    !> A trial step of all contacts from the last accepted history, which is not modified.
+    !> A trial step of all contacts from the last accepted states, which are not modified.
     subroutine try()
-      logical :: allowed
-
-      call problem%contacts%try_step(state%contacts, u, force, tangent, state%trial, allowed)
-      residual = huge(u)**0.25_wp
-      if (allowed) residual = u_free - u - matmul(scheme%compliance, force)
+      call problem%contacts%try_step(state%states, u, trial, force, tangent)
+      residual = u_free - u - matmul(scheme%compliance, force)
     end subroutine try
   end subroutine newmark_step
 
@@ -117,122 +113,110 @@ end module newmark
 !>
 !>     time_integration CASE DIRECTORY
 !>
-!> Each group &time_integration of CASE has a frequency and numbers of harmonics. The motion starts from the balance with the most
-!> harmonics, so that the transient is small, and is integrated until it is periodic. Written to DIRECTORY, for a case called NAME:
+!> Each group &time_integration of CASE has a frequency and numbers of harmonics. The motion starts from the last balance,
+!> so that the transient is small, and is integrated until it is periodic. Written to DIRECTORY, for a case called NAME:
 !> * NAME_comparison.csv  the differences, for every group and number of harmonics;
-!> * NAME_waveforms.csv   one period of both: the response, and displacement and force of the first contact, tangential and normal (or
-!>   again tangential);
+!> * NAME_waveforms.csv   displacement of the first contact over one period, by both; 0 harmonics: time integration;
 !> * NAME_modes.csv       natural frequencies with the contacts at their initial stiffness, over that of the excitation, and the
 !>   displacement of the first contact in each mode, relative to the largest: harmonics near such a mode are amplified;
 !> * NAME_spectrum.csv    amplitude of each harmonic of the force of the first contact by time integration, over the first.
 !>
-!> The exit code is 1 if the peak of the balance of the case itself (&harmonic_balance) differs by more than the
-!> allowed_difference of the group.
+!> The exit code is 1 if the peak of the last balance of a group differs by more than its allowed_difference.
 program time_integration
   use basics, only: argument, csv, fail, open_table, pi, progress, text, wp
   use case_input, only: case_data, integration_input, prepare_problem, read_case
-  use continuation, only: solve_within
   use dense_algebra, only: solve, symmetric_modes
   use fourier_series, only: harmonic_amplitude, series_basis, series_peak
-  use friction_contacts, only: contact_history
-  use harmonic_balance, only: balance_point, balance_problem, structure_response
+  use harmonic_balance, only: balance_point, balance_problem, solve_at, solve_from_rest, structure_response
   use newmark, only: motion, newmark_scheme, newmark_step, prepare_newmark
   implicit none
 
   character(len=*), parameter :: usage = 'time_integration CASE DIRECTORY'
-  integer, parameter :: waveform_points = 256
+  integer, parameter :: waveform_points = 256, max_periods = 3000
 
-  !> One period of the response, and of displacements and forces, (instant, component).
+  !> One period of the response, and of displacement and force of the first contact.
   type :: waveform
-    real(wp), allocatable :: response(:), displacement(:,:), force(:,:)
+    real(wp), allocatable :: response(:), displacement(:), force(:)
   end type waveform
 
   character(len=:), allocatable :: prefix
   type(case_data) :: data
-  integer :: table, waveforms, modes, spectrum, k
+  integer :: table, waveforms, modes, spectrum, group
 
   call read_case(trim(argument(1, usage)), data)
   prefix = trim(argument(2, usage))//'/'//trim(data%name)
   if (size(data%integrations) == 0) call fail('a group &time_integration is needed')
-  table = open_table(prefix//'_comparison.csv', 'load_factor,excitation_factor,harmonics,samples,peak_balance_m,'// &
-    'peak_time_integration_m,peak_difference,response_difference,displacement_difference,force_difference')
-  waveforms = open_table(prefix//'_waveforms.csv', 'load_factor,excitation_factor,harmonics,samples,phase_rad,'// &
-    'response_m,displacement_m,normal_displacement_m,force_N,normal_force_N')
-  modes = open_table(prefix//'_modes.csv', 'load_factor,excitation_factor,order,participation')
-  spectrum = open_table(prefix//'_spectrum.csv', 'load_factor,excitation_factor,harmonic,contact_force')
-  do k = 1, size(data%integrations)
-    call compare(data%integrations(k))
+  table = open_table(prefix//'_comparison.csv', 'load_factor,harmonics,peak_balance_m,peak_time_integration_m,'// &
+    'peak_difference,response_difference,displacement_difference')
+  waveforms = open_table(prefix//'_waveforms.csv', 'load_factor,harmonics,phase_rad,displacement_m')
+  modes = open_table(prefix//'_modes.csv', 'load_factor,order,participation')
+  spectrum = open_table(prefix//'_spectrum.csv', 'load_factor,harmonic,contact_force')
+  do group = 1, size(data%integrations)
+    call compare(data%integrations(group))
   end do
 
 contains
 
-  !> The balances of the group, and first that of the case itself.
   subroutine compare(input)
     type(integration_input), intent(in) :: input
     type(balance_problem) :: problem
-    type(waveform) :: balances(1 + size(input%harmonics)), integrated
+    type(waveform) :: balances(size(input%harmonics)), integrated
     real(wp), allocatable :: displacement(:,:), response(:,:)
-    integer, dimension(size(balances)) :: harmonics, samples
-    real(wp) :: peak(size(balances)), integrated_peak, difference(4)
-    integer :: k, most
+    real(wp) :: peak(size(balances)), integrated_peak, difference(3)
+    integer :: k
 
-    harmonics = [data%harmonics, input%harmonics]
-    samples = input%samples
-    samples(1) = data%samples
-    most = maxloc(harmonics, dim=1)
-    do k = 1, size(harmonics)
-      if (k /= most) call solve_balance(input, harmonics(k), samples(k), problem, displacement, response, balances(k), peak(k))
+    do k = 1, size(balances)
+      call solve_balance(input, input%harmonics(k), problem, displacement, response, balances(k), peak(k))
     end do
-    call solve_balance(input, harmonics(most), samples(most), problem, displacement, response, balances(most), peak(most))
     call integrate(input, problem, displacement, response, integrated)
     integrated_peak = maxval(abs(integrated%response - sum(integrated%response) / size(integrated%response)))
-    call write_waveform(input, problem, 0, 0, integrated)
-    call write_harmonics(input, problem, integrated%force(:, 1))
+    call write_waveform(input, 0, integrated)
+    call write_harmonics(input, problem, integrated%force)
     do k = 1, size(balances)
       difference = [abs(peak(k) / integrated_peak - 1.0_wp), &
                     relative_difference(balances(k)%response, integrated%response), &
-                    relative_difference(balances(k)%displacement(:, 1), integrated%displacement(:, 1)), &
-                    relative_difference(balances(k)%force(:, 1), integrated%force(:, 1))]
-      write (table, '(a)') text(input%load_factor, '(es24.16e3)')//csv([input%excitation_factor])//','//text(harmonics(k))//','// &
-        text(samples(k))//csv([peak(k), integrated_peak, difference])
-      call write_waveform(input, problem, harmonics(k), samples(k), balances(k))
-      call progress('  '//text(harmonics(k))//' harmonics, '//text(samples(k))//' samples: peak '// &
-                    text(1.0e6_wp * peak(k), '(f10.4)')//' um, time integration '// &
-                    text(1.0e6_wp * integrated_peak, '(f10.4)')//' um, waveform '//text(difference(2), '(es8.1)')// &
-                    ', contact '//text(difference(3), '(es8.1)'))
+                    relative_difference(balances(k)%displacement, integrated%displacement)]
+      write (table, '(a)') text(input%load_factor, '(es24.16e3)')//','//text(input%harmonics(k))// &
+        csv([peak(k), integrated_peak, difference])
+      call write_waveform(input, input%harmonics(k), balances(k))
+      call progress('  '//text(input%harmonics(k))//' harmonics: peak '//text(1.0e6_wp * peak(k), '(f10.4)')// &
+                    ' um, time integration '//text(1.0e6_wp * integrated_peak, '(f10.4)')//' um, waveform '// &
+                    text(difference(2), '(es8.1)')//', contact '//text(difference(3), '(es8.1)'))
     end do
-    if (.not. abs(peak(1) / integrated_peak - 1.0_wp) <= input%allowed_difference) &
+    if (.not. difference(1) <= input%allowed_difference) &
       call fail('balance and time integration differ by more than '//text(input%allowed_difference, '(es8.1)'))
   end subroutine compare
 
   !> Steady state by harmonic balance: displacements of the contacts, of the structure, and the waveforms. On entry `displacement`
   !> may have those of another number of harmonics.
-  subroutine solve_balance(input, harmonics, samples, problem, displacement, response, waves, peak)
+  subroutine solve_balance(input, harmonics, problem, displacement, response, waves, peak)
     type(integration_input), intent(in) :: input
-    integer, intent(in) :: harmonics, samples
+    integer, intent(in) :: harmonics
     type(balance_problem), intent(out) :: problem
     real(wp), allocatable, intent(inout) :: displacement(:,:)
     real(wp), allocatable, intent(out) :: response(:,:)
     type(waveform), intent(out) :: waves
     real(wp), intent(out) :: peak
-    real(wp), allocatable :: neighbour(:,:)
     type(balance_point) :: point
-    type(contact_history) :: history
-    real(wp) :: basis(input%steps_per_period, 2 * harmonics + 1)
+    real(wp) :: basis(input%steps_per_period, 2 * harmonics + 1), trial(2 * harmonics + 1, size(data%contacts))
     logical :: converged
+    integer :: m
 
-    call prepare_problem(data, input%load_factor, input%excitation_factor, harmonics, samples, problem)
-    if (allocated(displacement)) call move_alloc(displacement, neighbour)
-    allocate (displacement(2 * harmonics + 1, problem%contacts%components))
-    ! An array that is not allocated is an argument that is not present.
-    call solve_within(problem, data%range, 2.0_wp * pi * input%frequency, displacement, point, converged, neighbour)
+    call prepare_problem(data, input%load_factor, harmonics, input%samples, problem)
+    converged = .false.
+    if (allocated(displacement)) then
+      trial = 0.0_wp
+      m = min(size(trial, 1), size(displacement, 1))
+      trial(:m, :) = displacement(:m, :)
+      call solve_at(problem, 2.0_wp * pi * input%frequency, trial, point, converged)
+    end if
+    if (.not. converged) call solve_from_rest(problem, 2.0_wp * pi * input%frequency, trial, point, converged)
     if (.not. converged) call fail('no harmonic balance with '//text(harmonics)//' harmonics found')
+    displacement = trial
     response = structure_response(problem, point)
     peak = series_peak(response(:, data%response_dof))
     basis = series_basis(harmonics, input%steps_per_period)
-    waves%displacement = matmul(basis, displacement)
-    waves%force = waves%displacement
-    call problem%contacts%steady_cycle(waves%displacement, history, waves%force)
+    waves%displacement = matmul(basis, displacement(:, 1))
     waves%response = matmul(basis, response(:, data%response_dof))
   end subroutine solve_balance
 
@@ -244,50 +228,45 @@ contains
     type(waveform), intent(out) :: waves
     type(newmark_scheme) :: scheme
     type(motion) :: state
-    real(wp) :: excitation(size(response, 2), input%steps_per_period), before(input%steps_per_period), decay, remaining
+    real(wp) :: cosine(input%steps_per_period, 3), before(input%steps_per_period), decay, remaining
     integer :: j, k, period
 
-    call prepare_newmark(problem, 1.0_wp / (input%frequency * input%steps_per_period), &
-                         [(norm2(contact_displacement(:, k)), k=1, size(contact_displacement, 2))], scheme)
-    call start_motion(2.0_wp * pi * input%frequency, problem, contact_displacement, response, state, excitation)
-    allocate (waves%response(input%steps_per_period), source=0.0_wp)
-    allocate (waves%displacement(input%steps_per_period, problem%contacts%components))
-    allocate (waves%force, mold=waves%displacement)
+    call prepare_newmark(problem, 1.0_wp / (input%frequency * input%steps_per_period), norm2(contact_displacement, dim=1), scheme)
+    call start_motion(2.0_wp * pi * input%frequency, input%steps_per_period, problem, contact_displacement, response, state)
+    cosine = series_basis(1, input%steps_per_period)
+    waves%response = 0.0_wp * cosine(:, 2)
+    waves%displacement = waves%response
+    waves%force = waves%response
     decay = exp(-slowest_decay(problem) / input%frequency)
-    do period = 1, input%max_periods
+    do period = 1, max_periods
       before = waves%response
       do j = 1, input%steps_per_period
         k = modulo(j, input%steps_per_period) + 1
-        call newmark_step(scheme, problem, excitation(:, k), state)
+        call newmark_step(scheme, problem, problem%excitation * cosine(k, 2), state)
         waves%response(k) = state%displacement(data%response_dof)
-        waves%displacement(k, :) = state%contact_displacement
-        waves%force(k, :) = state%contact_force
+        waves%displacement(k) = state%contact_displacement(1)
+        waves%force(k) = state%contact_force(1)
       end do
       ! The sum of all further changes by a transient that shrinks by the factor `decay` in each period.
       remaining = relative_difference(before, waves%response) * decay / (1.0_wp - decay)
       if (remaining <= input%steady_tolerance) exit
     end do
-    if (period > input%max_periods) call fail('not periodic after '//text(input%max_periods)//' periods')
+    if (period > max_periods) call fail('not periodic after '//text(max_periods)//' periods')
     call progress(trim(data%name)//', '//text(input%frequency, '(f10.2)')//' Hz: periodic after '//text(period)//' periods of '// &
                   text(input%steps_per_period)//' steps, remaining transient '//text(remaining, '(es8.1)'))
   end subroutine integrate
 
-  !> The motion of a balance at t = 0, and the excitation at the instants of the steps: excitation(:, 1) is at t = 0.
-  subroutine start_motion(omega, problem, contact_displacement, response, state, excitation)
+  !> The motion of a balance at t = 0.
+  subroutine start_motion(omega, steps, problem, contact_displacement, response, state)
     real(wp), intent(in) :: omega, contact_displacement(:,:), response(:,:)
+    integer, intent(in) :: steps
     type(balance_problem), intent(in) :: problem
     type(motion), intent(out) :: state
-    real(wp), intent(out) :: excitation(:,:)
-    real(wp) :: basis(size(excitation, 2), size(response, 1)), rate(size(response, 1))
-    real(wp) :: force(size(excitation, 2), size(contact_displacement, 2))
-    real(wp) :: matrix(size(excitation, 1), size(excitation, 1)), right(size(excitation, 1), 1)
+    real(wp) :: basis(steps, size(response, 1)), rate(size(response, 1)), force(steps, size(contact_displacement, 2))
+    real(wp) :: matrix(size(response, 2), size(response, 2)), right(size(response, 2), 1)
     integer :: k
 
-    basis = series_basis(size(response, 1) / 2, size(excitation, 2))
-    do k = 1, size(excitation, 1)
-      excitation(k, :) = problem%static_load(k) + real(problem%excitation(k)) * basis(:, 2) &
-                         - aimag(problem%excitation(k)) * basis(:, 3)
-    end do
+    basis = series_basis(size(response, 1) / 2, steps)
     rate = 0.0_wp
     do k = 1, size(rate) / 2
       rate(2*k + 1) = k * omega       ! d/dt at t = 0: sine terms only
@@ -295,12 +274,11 @@ contains
     state%displacement = matmul(basis(1, :), response)
     state%velocity = matmul(rate, response)
     ! Periods of the contacts that end at t = 0.
-    call problem%contacts%steady_cycle(cshift(matmul(basis, contact_displacement), 1, dim=1), state%contacts, force)
-    state%contact_force = force(size(force, 1), :)
+    call problem%contacts%steady_cycle(cshift(matmul(basis, contact_displacement), 1, dim=1), state%states, force)
     ! Acceleration from the equation of motion.
     matrix = problem%model%mass
-    right(:, 1) = excitation(:, 1) - matmul(problem%model%damping, state%velocity) &
-                  - matmul(problem%model%stiffness, state%displacement) - matmul(problem%incidence, state%contact_force)
+    right(:, 1) = problem%excitation - matmul(problem%model%damping, state%velocity) &
+                  - matmul(problem%model%stiffness, state%displacement) - matmul(problem%incidence, force(steps, :))
     call solve(matrix, right)
     state%acceleration = right(:, 1)
   end subroutine start_motion
@@ -322,49 +300,37 @@ contains
     real(wp), intent(in) :: force(:)
     type(balance_problem), intent(in) :: problem
     integer, parameter :: most = 61
-    real(wp) :: stiffness(size(problem%excitation), size(problem%excitation)), amplitude(0:most), spring
-    real(wp) :: omega(size(problem%excitation)), shown(size(problem%excitation)), shapes(size(omega), size(omega))
-    integer :: i, j
+    real(wp) :: scaled(size(problem%excitation), size(data%contacts)), amplitude(0:most)
+    real(wp) :: omega(size(problem%excitation)), shown(size(omega)), shapes(size(omega), size(omega))
+    integer :: i
 
-    stiffness = problem%model%stiffness
     do i = 1, size(data%contacts)
-      associate (c => problem%contacts%items(i), direction => problem%incidence(:, problem%contacts%items(i)%first))
-        spring = c%count * c%contact%initial_stiffness
-        do j = 1, size(omega)
-          stiffness(:, j) = stiffness(:, j) + spring * direction(j) * direction
-        end do
+      associate (c => problem%contacts%items(i))
+        scaled(:, i) = c%count * c%contact%initial_stiffness * problem%incidence(:, i)
       end associate
     end do
-    call symmetric_modes(stiffness, problem%model%mass, omega, shapes)
+    call symmetric_modes(problem%model%stiffness + matmul(scaled, transpose(problem%incidence)), problem%model%mass, omega, shapes)
     shown = abs(matmul(problem%incidence(:, 1), shapes))
     do i = 1, size(omega)
-      write (modes, '(a)') text(input%load_factor, '(es24.16e3)')//csv([input%excitation_factor, &
-        omega(i) / (2.0_wp * pi * input%frequency), shown(i) / maxval(shown)])
+      write (modes, '(a)') text(input%load_factor, '(es24.16e3)')//csv([omega(i) / (2.0_wp * pi * input%frequency), &
+                                                                        shown(i) / maxval(shown)])
     end do
     amplitude = harmonic_amplitude(matmul(force, series_basis(most, size(force))))
     do i = 1, most
-      write (spectrum, '(a)') text(input%load_factor, '(es24.16e3)')//csv([input%excitation_factor, real(i, wp), &
-                                                                           amplitude(i) / amplitude(1)])
+      write (spectrum, '(a)') text(input%load_factor, '(es24.16e3)')//csv([real(i, wp), amplitude(i) / amplitude(1)])
     end do
   end subroutine write_harmonics
 
-  !> `harmonics` is 0 for time integration.
-  subroutine write_waveform(input, problem, harmonics, samples, waves)
+  subroutine write_waveform(input, harmonics, waves)
     type(integration_input), intent(in) :: input
-    type(balance_problem), intent(in) :: problem
-    integer, intent(in) :: harmonics, samples
+    integer, intent(in) :: harmonics
     type(waveform), intent(in) :: waves
-    integer :: j, k, shown(2)
+    integer :: j
 
-    associate (c => problem%contacts%items(1))
-      shown = [1, c%last]
-      do j = 0, input%steps_per_period, max(1, input%steps_per_period / waveform_points)
-        k = modulo(j, input%steps_per_period) + 1
-        write (waveforms, '(a)') text(input%load_factor, '(es24.16e3)')//csv([input%excitation_factor])//','//text(harmonics)// &
-          ','//text(samples)//csv([2.0_wp * pi * j / input%steps_per_period, waves%response(k), &
-          waves%displacement(k, shown), waves%force(k, shown) / c%count])
-      end do
-    end associate
+    do j = 0, input%steps_per_period, max(1, input%steps_per_period / waveform_points)
+      write (waveforms, '(a)') text(input%load_factor, '(es24.16e3)')//','//text(harmonics)// &
+        csv([2.0_wp * pi * j / input%steps_per_period, waves%displacement(modulo(j, input%steps_per_period) + 1)])
+    end do
   end subroutine write_waveform
 
   !> Largest difference over the period, relative to the largest value.
