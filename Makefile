@@ -56,6 +56,10 @@ $(tree)/$(docdir)/%: %
 	@mkdir -p $(@D)
 	cp $< $@
 
+$(tree)/$(docdir)/%: packaging/%
+	@mkdir -p $(@D)
+	cp $< $@
+
 $(tree)/$(pcdir)/%: packaging/%.in Cargo.toml
 	@mkdir -p $(@D)
 	sed 's/@VERSION@/$(version)/' $< > $@

@@ -60,7 +60,7 @@ installed() {
 packages() {
     step 'packages: source tarball, clients by each tool, shared library' tools/packages.sh
     step 'build: settings of cargo, make and the system' tools/settings.sh "$prefix"
-    step 'packages: recipes of conda-forge and Spack, citation' tools/recipes.sh
+    step 'packages: recipes of conda-forge and Spack' tools/recipes.sh
     step 'packages: fpm' tools/fpm.sh "$prefix"
     step 'audit' tools/audit.sh
     step 'Python: wheel, versions, types, adapters, examples, documents' tools/python.sh all

@@ -1,6 +1,5 @@
 #!/bin/sh
-# fpm.sh PREFIX: a client built by the Fortran package manager, with the module of this repository as its dependency and
-# the installed archive. fpm comes from PyPI into target/tools where there is none; where it cannot, the status is 77.
+# fpm.sh PREFIX: a client built by the Fortran package manager, with the installed module and archive. fpm comes from PyPI into target/tools where there is none; where it cannot, the status is 77.
 set -eu
 
 prefix=$(cd "$1" && pwd)
@@ -16,9 +15,9 @@ fi
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-mkdir -p "$work/client/app"
+mkdir -p "$work/client/app" "$work/client/src"
 cp packaging/clients/fpm/fpm.toml "$work/client"
 cp packaging/clients/client.f90 "$work/client/app/main.f90"
-ln -s "$PWD" "$work/microslip"
+cp "$prefix/include/microslip.f90" "$work/client/src"
 cd "$work/client"
 fpm run --compiler "$FC" --link-flag "-L$prefix/lib"

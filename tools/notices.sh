@@ -1,5 +1,5 @@
 #!/bin/sh
-# notices.sh [check]: write THIRD-PARTY.md, the licences of all code that is linked into the archive, the command and the Python
+# notices.sh [check]: write packaging/THIRD-PARTY.md, the licences of all code that is linked into the archive, the command and the Python
 # package, from the crates of Cargo.lock; or check that it is up to date.
 set -eu
 
@@ -90,7 +90,7 @@ for text, crates in sorted(groups.values(), key=lambda group: -len(group[1])):
     out += ["", "```text", *(line.rstrip() for line in text.splitlines()), "```"]
 text = "\n".join(out) + "\n"
 
-file = Path("THIRD-PARTY.md")
+file = Path("packaging/THIRD-PARTY.md")
 if sys.argv[1] == "check":
     if not file.exists() or file.read_text() != text:
         sys.exit("THIRD-PARTY.md is not that of Cargo.lock: run tools/notices.sh")

@@ -31,7 +31,7 @@ declared() {
 
 pack() {
     mkdir -p "$unpacked" && cp target/$windows/release/microslip.dll target/$windows/release/libmicroslip.dll.a \
-        include/microslip.h include/microslip.f90 LICENSE-MIT LICENSE-APACHE THIRD-PARTY.md "$unpacked" &&
+        include/microslip.h include/microslip.f90 LICENSE-MIT LICENSE-APACHE packaging/THIRD-PARTY.md "$unpacked" &&
         (cd "$work" && python3 -m zipfile -c "$unpacked.zip" "${unpacked##*/}") && cp "$unpacked.zip" target/
 }
 windows_exports() {

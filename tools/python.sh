@@ -42,7 +42,7 @@ glibc() {
 }
 licences() {
     tools/notices.sh check && for file in LICENSE-APACHE LICENSE-MIT THIRD-PARTY.md; do
-        cmp "$file" "$work/wheel/microslip-$version.dist-info/licenses/$file" || return
+        cmp "python/$file" "$work/wheel/microslip-$version.dist-info/licenses/$file" || return
     done
 }
 # Without cargo, pip fetches no Rust but says what is missing.

@@ -1,7 +1,7 @@
 #!/bin/sh
 # recipes.sh [URL]: recipes of conda-forge and Spack into target/recipes, for a source tarball that is or will be published at URL (by
-# default the file itself). They are checked with rattler-build and Python, CITATION.cff with cffconvert, both from PyPI; where these
-# cannot be installed the status is 77. BUILD=1 also builds and tests the conda package, with the compilers of this machine.
+# default the file itself). They are checked with Python and with rattler-build from PyPI; where it cannot be installed the status
+# is 77. BUILD=1 also builds and tests the conda package, with the compilers of this machine.
 set -eu
 
 cd "$(dirname "$0")/.."
@@ -13,9 +13,9 @@ url=${1:-file://$tarball}
 recipes=target/recipes
 tools=target/tools/recipes
 
-[ -x $tools/bin/cffconvert ] || { python3 -m venv $tools &&
-    $tools/bin/pip install --quiet --disable-pip-version-check py-rattler-build==0.73.0 cffconvert==2.0.0; } || {
-    echo 'rattler-build and cffconvert cannot be installed from PyPI'
+$tools/bin/python -c 'import rattler_build, ruamel.yaml' 2> /dev/null || { python3 -m venv $tools &&
+    $tools/bin/pip install --quiet --disable-pip-version-check py-rattler-build==0.73.0 ruamel.yaml; } || {
+    echo 'rattler-build cannot be installed from PyPI'
     exit 77
 }
 
@@ -31,5 +31,4 @@ check 'conda-forge: the recipe is rendered' $tools/bin/python packaging/conda/re
     check 'conda-forge: the package is built and passes its tests' \
         $tools/bin/python packaging/conda/render.py $recipes/conda/recipe.yaml "$work/conda" "$tarball"
 check 'Spack: the package is valid Python' $tools/bin/python -c 'compile(open("target/recipes/spack/package.py").read(), "package.py", "exec")'
-check 'CITATION.cff' $tools/bin/cffconvert --validate
 counts
