@@ -5,7 +5,7 @@
 !
 ! State variables, for m = directions + 1 components of the displacement:
 !   1               energy dissipated so far [J]
-!   2 ... m+1       displacement of the last step: [u, w] or [u, v, w] [m]; the last is N [N] with MSLIP_INPUT_NORMAL_FORCE
+!   2 ... m+1       displacement of the last step: [u, w] or [u, v, w] [m]
 !   m+2 ...         state of the library
 ! `contact_variables(directions)` of them are needed. All are 0 at the start of an analysis: then the state is initialised here.
 module contact_point
@@ -21,7 +21,7 @@ module contact_point
 
   type :: kept_element
     real(mslip_real) :: constants(9) = 0
-    integer(mslip_int) :: choices(3) = -1
+    integer(mslip_int) :: choices(2) = -1
     type(mslip_element) :: element
   end type kept_element
 
@@ -43,11 +43,11 @@ contains
   !> A trial step. `constants` are a, R, L [m], N [N] (the largest force expected), mu, E1 [Pa], nu1, E2 [Pa], nu2. `first` is the
   !> displacement at the start of the increment; it is used for a point without history only, which is brought there without
   !> tangential force. On an error no output is modified.
-  subroutine contact_step(constants, reference, directions, normal_input, first, displacement, start, finish, force, tangent, &
-      dissipated, status)
+  subroutine contact_step(constants, reference, directions, first, displacement, start, finish, force, tangent, dissipated, &
+      status)
     real(mslip_real), intent(in) :: constants(9)
     integer(mslip_int), intent(in) :: reference                 ! MSLIP_CENTRE_POINT or MSLIP_RIGID_STRIP
-    integer(mslip_int), intent(in) :: directions, normal_input
+    integer(mslip_int), intent(in) :: directions
     real(mslip_real), intent(in) :: first(:), displacement(:)   ! m values
     real(mslip_real), intent(in) :: start(:)                    ! state variables before the step
     real(mslip_real), intent(inout) :: finish(:)                ! state variables after the step
@@ -60,7 +60,7 @@ contains
     integer :: m
 
     m = directions + 1
-    call find_element(constants, [reference, directions, normal_input], own, element, status)
+    call find_element(constants, [reference, directions], own, element, status)
     if (status /= MSLIP_OK) return
     state = start(m+2:)
     if (all(abs(state) <= 0)) then
@@ -78,12 +78,12 @@ contains
   pure logical function increment_too_long(status)
     integer(mslip_int), intent(in) :: status
 
-    increment_too_long = any(status == [MSLIP_BAD_DISPLACEMENT, MSLIP_LENGTH_TOO_SHORT, MSLIP_BAD_NORMAL_FORCE])
+    increment_too_long = any(status == [MSLIP_BAD_DISPLACEMENT, MSLIP_LENGTH_TOO_SHORT])
   end function increment_too_long
 
   subroutine find_element(constants, choices, own, element, status)
     real(mslip_real), intent(in) :: constants(9)
-    integer(mslip_int), intent(in) :: choices(3)
+    integer(mslip_int), intent(in) :: choices(2)
     type(mslip_element), intent(out), allocatable, target :: own
     type(mslip_element), intent(out), pointer :: element
     integer(mslip_int), intent(out) :: status
@@ -105,7 +105,7 @@ contains
       mslip_material(constants(8), constants(9))], displacement_reference=choices(1))
     allocate (own)
     element => own
-    call mslip_element_init(p, choices(2), choices(3), own, status)
+    call mslip_element_init(p, choices(2), MSLIP_INPUT_APPROACH, own, status)
     if (status /= MSLIP_OK .or. .not. keep) return
     last = modulo(last, places) + 1
     kept(last) = kept_element(constants, choices, own)

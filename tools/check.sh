@@ -42,7 +42,7 @@ rust() {
 installed() {
     step 'archive in calling applications' verification/embedding/embedding.sh "$prefix"
     step 'fuzzing, bounded' tools/fuzz.sh --check
-    step 'Abaqus and ANSYS: user subroutines, compiled' make -C examples PREFIX="$prefix"
+    step 'Abaqus: user subroutines, compiled' make -C examples PREFIX="$prefix"
     step 'Octave and NLvib: the law in harmonic balance' make -C examples/nlvib test PREFIX="$prefix"
     step 'Fortran on threads' make -C fortran_examples parallel PREFIX="$prefix"
     step 'Miri' tools/miri.sh

@@ -7,7 +7,7 @@ import jax.numpy as jnp
 import microslip
 import numpy as np
 import pytest
-from jax_microslip import NAMES, contact, harmonic_force, history
+from jax_microslip import NAMES, contact, harmonic_force
 from jax_two_masses import CONTACT, amplitudes, responses
 from numpy.testing import assert_allclose
 from tables import REPOSITORY, differences
@@ -60,45 +60,6 @@ def test_parameters_have_exact_derivatives():
     found = jax.vmap(lambda m: force(u, {"friction_coefficient": m}))(mu)
     for one, m in zip(found, mu.tolist()):
         assert (one == contact(CONTACT, {"friction_coefficient": m}).harmonic_force(workspace, u).force).all()
-
-
-def test_history_of_a_contact_has_exact_derivatives():
-    """Random displacements, with loops in loops, gross slip and rests, and so small ones that the monotonic curve is met again."""
-    made = microslip.Contact(**CONTACT)
-    u = SLIP * np.array([[1], [0.1]]) * np.cumsum(random.standard_normal((2, 200)), axis=1)
-    u[:, 50:53] = u[:, 49:50]
-    force = jax.jit(history(CONTACT))
-    for x in u:
-        # Rounding errors of sums of some ten forces.
-        assert_allclose(force(x), made.update(microslip.State(100), x).force, rtol=0, atol=1e-14 * made.slip_force)
-    assert (jax.vmap(force)(u)[1] == force(u[1])).all()
-    x = u[0, :40]
-    expected = differences(lambda at: made.update(microslip.State(100), at).force, x, 1e-6 * SLIP)
-    assert_allclose(jax.jacfwd(force)(x), expected, rtol=0, atol=DIFFERENCE * made.initial_stiffness)
-    assert_allclose(jax.jacrev(force)(x), jax.jacfwd(force)(x), rtol=0, atol=1e-14 * made.initial_stiffness)
-    values = {"friction_coefficient": 0.4, "edge_radius": 5e-3, "layer_compliance": LAYER}
-    found = jax.jacfwd(force, 1)(x, values)
-    for name, value in values.items():
-
-        def at(changed, name=name):
-            return contact(CONTACT, values | {name: float(changed)}).update(microslip.State(100), x).force
-
-        expected = differences(at, np.array(value), 1e-6 * value)
-        assert_allclose(found[name], expected, rtol=0, atol=DIFFERENCE * made.slip_force / value, err_msg=name)
-
-
-@pytest.mark.parametrize("first", [0.5, -0.5])
-def test_history_of_an_element_has_exact_derivatives(first):
-    """It opens and closes, and is pressed or open at first."""
-    element = microslip.Element(**CONTACT)
-    x = random.standard_normal((2, 31, 2)) * [SLIP, 0.5 * element.approach] + [0, 0.6 * element.approach]
-    x[:, 0, 1] = first * element.approach
-    force = history(element)
-    many, found = jax.vmap(force)(x), jax.vmap(jax.jacfwd(force))(x)
-    for i in range(2):
-        assert (many[i] == element.update(microslip.ElementState(1, 64), x[i]).force).all()
-        expected = differences(lambda at: element.update(microslip.ElementState(1, 64), at).force, x[i], 1e-6 * SLIP)
-        assert_allclose(found[i], expected, rtol=0, atol=DIFFERENCE * abs(expected).max())
 
 
 def test_errors():
