@@ -2167,7 +2167,7 @@ contains
     integer(mslip_size), intent(in) :: harmonics  !! Highest harmonic H, >= 1.
     integer(mslip_size), intent(in) :: samples  !! Samples per period, > 2H.
     integer(mslip_size), intent(in) :: periods
-      !! Periods that are applied before the returned one, at most 65536; 0 is the default: 3 with two directions, 1
+      !! Periods that are applied before the returned one, at most 65536; 0 is the default: 6 with two directions, 1
       !! with one.
     real(mslip_real), intent(inout), target, contiguous :: workspace(:)
       !! The workspace, of at least `mslip_element_workspace_length(directions, harmonics, samples, rule)` values.
