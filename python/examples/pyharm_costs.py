@@ -10,8 +10,8 @@ from statistics import median
 
 import microslip
 import numpy as np
+from microslip.pyharm import Microslip
 from pyHarm.Maestro import Maestro
-from pyharm_microslip import Microslip
 from two_masses import CONTACT, DAMPING, MASS, STIFFNESS
 
 CALLS = 20

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import microslip
 import numpy as np
+from microslip.pyharm import Microslip
 from pyHarm.Maestro import Maestro
-from pyharm_microslip import Microslip
 from two_masses import CONTACT, DAMPING, MASS, STIFFNESS
 
 # Units of pyHarm's unknowns: a displacement [m] and an angular frequency [rad/s].

@@ -9,6 +9,7 @@ import numpy as np
 import pyharm_costs
 import pytest
 from numpy.testing import assert_allclose
+from pyHarm import extension
 from pyHarm.Maestro import Maestro
 from pyharm_two_masses import LENGTH, deviation, response_at, two_masses
 from tables import REPOSITORY, differences
@@ -121,3 +122,22 @@ def test_harmonics_may_be_chosen():
     of_second = places[1::2] // 2
     assert (odd.evalResidual(x, 1.0) == full.evalResidual(embedded, 1.0)[of_second]).all()
     assert (odd.evalJacobian(x, 1.0)[0] == full.evalJacobian(embedded, 1.0)[0][np.ix_(of_second, of_second)]).all()
+
+
+@pytest.mark.parametrize("amplitude", [0.02, 200])
+def test_extension_is_pyharms_slider_in_the_limits_of_stick_and_slip(amplitude):
+    extension.load("microslip")
+    laws = [
+        {"type": "microslip", "law": contact},
+        {"type": "Jenkins", "mu": contact.friction_coefficient, "N0": contact.normal_force, "k": contact.initial_stiffness},
+    ]
+    forces = []
+    for law in laws:
+        idata = two_masses({"dirs": [0], **law}, [300.0, 900.0])
+        del idata["plugin"]
+        element = next(e for e in Maestro(idata).system.LE if e.name == "contact")
+        x = np.zeros(22)
+        x[3] = amplitude * SLIP / LENGTH  # cosine of the second mass
+        forces.append(element.evalResidual(x, 1.0)[1:3])
+    # Microslip at a fiftieth of gross slip changes the force by 1.3e-4, the way to gross slip at 200 times by 8e-5.
+    assert_allclose(forces[0], forces[1], rtol=0, atol=3e-4 * abs(forces[1]).max())

@@ -1,7 +1,7 @@
-"""The law as an element of pyHarm (pyHarm-os 1.2).
+"""The law as an element of pyHarm (pyHarm-os 1.2), which is its extension "microslip".
 
-    from pyharm_microslip import Microslip
-    Maestro({"plugin": [Microslip], "connectors": {"contact": {"type": "microslip", "law": microslip.Contact(...), ...}}, ...})
+    pyHarm.extension.load("microslip")
+    Maestro({"connectors": {"contact": {"type": "microslip", "law": microslip.Contact(...), ...}}, ...})
 
 An entry of `connectors` has, beside pyHarm's `connect` (first node against the second one, or against the ground) and
 `coordinatesystem`:
@@ -15,10 +15,19 @@ Conventions. Coefficients are those of the library, [c0, cos1, sin1, ...], and t
 pyHarm's own Jenkins element starts unloaded at displacement 0, as the library does: so a mean displacement loads the contact.
 """
 
+from __future__ import annotations
+
+from typing import Any
+
 import microslip
 import numpy as np
 from pyHarm.DynamicOperator import get_array_nh
 from pyHarm.Elements.NodeToNodeElements.NodeToNodeElement import NodeToNodeElement
+
+
+def register() -> list[type]:
+    """The elements of the extension."""
+    return [Microslip]
 
 
 class Microslip(NodeToNodeElement):
@@ -26,14 +35,15 @@ class Microslip(NodeToNodeElement):
 
     factory_keyword = "microslip"
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         self.law = self.data["law"]
         self.length = 1.0
-        self.evaluated = None
+        self.evaluated: Any = None
         harmonics, *_ = get_array_nh(self.nh)
         highest = int(harmonics.max())
         # The places of pyHarm's coefficients among all from 0 to the highest harmonic.
         places = np.concatenate([[2 * k - 1, 2 * k] if k else [0] for k in harmonics])
+        self.workspace: Any
         if isinstance(self.law, microslip.Element):
             if self.law.normal_input != microslip.INPUT_APPROACH:
                 raise ValueError(f"{self.name}: the normal input of the element must be INPUT_APPROACH")
@@ -48,22 +58,22 @@ class Microslip(NodeToNodeElement):
         if isinstance(self.law, microslip.Element):
             self.rest[-1, 0] = self.data.get("interference", 0.0)
 
-    def __flag_update__(self):
+    def __flag_update__(self) -> None:
         self.flag_nonlinear = True
         self.flag_AFT = True
 
-    def generateIndices(self, expl_dofs):
+    def generateIndices(self, expl_dofs: Any) -> None:
         super().generateIndices(expl_dofs)
         if len(self.Pdir) != self.components:
             raise ValueError(f"{self.name}: {self.components} dirs are required, not {len(self.Pdir)}")
         relative = self.Pslave - self.Pmaster
         self.local = np.vstack([direction @ relative for direction in self.Pdir])
 
-    def adim(self, lc, wc):
+    def adim(self, lc: float, wc: float) -> None:
         self.length = lc
         self.flag_adim = True
 
-    def evaluate(self, xg):
+    def evaluate(self, xg: Any) -> Any:
         """Force and Jacobian; the residual and the Jacobian of one point are one evaluation."""
         x = xg[self.indices]
         if self.evaluated is None or not np.array_equal(self.evaluated[0], x):
@@ -76,11 +86,11 @@ class Microslip(NodeToNodeElement):
             self.evaluated = x, self.local.T @ force, self.local.T @ jacobian @ self.local
         return self.evaluated
 
-    def evalResidual(self, xg, om):
+    def evalResidual(self, xg: Any, om: float) -> Any:
         self.R = self.evaluate(xg)[1]
         return self.R
 
-    def evalJacobian(self, xg, om):
+    def evalJacobian(self, xg: Any, om: float) -> Any:
         self.J = self.evaluate(xg)[2]
         self.dJdom = np.zeros(len(self.indices))
         return self.J, self.dJdom
