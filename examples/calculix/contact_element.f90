@@ -1,25 +1,24 @@
-! The contact law as user element U1 of CalculiX 2.20: two nodes that slide on each other in one direction and, with a tenth
-! constant, press on each other and separate; with an eleventh, they slide in one or two directions. The routines below have the
-! names and arguments that CalculiX calls for this element, and replace those of its own U1, a beam.
+! The contact law as user element U1 of CalculiX 2.20: two nodes that slide on each other in one or two directions, press on each
+! other and separate. The routines below have the names and arguments that CalculiX calls for this element, and replace those of its
+! own U1, a beam.
 !
 !   *USER ELEMENT, TYPE=U1, NODES=2, INTEGRATION POINTS=1, MAXDOF=3
 !   *ELEMENT, TYPE=U1, ELSET=rubbing
 !   number, first node, second node
 !   *MATERIAL, NAME=law
-!   *USER MATERIAL, CONSTANTS=9               or CONSTANTS=10        or CONSTANTS=11
+!   *USER MATERIAL, CONSTANTS=11
 !   a, R, L, N, mu, E1, nu1, E2,
-!   nu2                                       or nu2, interference   or nu2, interference, directions of sliding (1 or 2)
+!   nu2, interference, directions of sliding (1 or 2)
 !   *DEPVAR
-!   3 + the length of a state                 or 5, with two directions of sliding 7, + the length of the state of an element
-!   *USER SECTION, ELSET=rubbing, MATERIAL=law, CONSTANTS=3     or CONSTANTS=6
-!   direction of sliding                      or direction of sliding, direction in which the second node approaches the first
+!   5, with two directions of sliding 7, + the length of the state of an element
+!   *USER SECTION, ELSET=rubbing, MATERIAL=law, CONSTANTS=6
+!   direction of sliding, direction in which the second node approaches the first
 !
 ! The displacement is that of the second node relative to the first in these directions, which do not rotate with the structure:
 ! u along the part of the direction of sliding that is normal to the approach, w along the approach and, with two directions of
 ! sliding, v along w x u. A line contact has u across the line and v along it. The interference, negative if there is a gap, is
-! added to the approach. With ten or eleven constants N is the largest normal force expected, not a load. State variables: force,
-! displacement (positive together), energy dissipated so far, the state of the law; force and displacement have one component, or
-! T, N and u, w, or Tx, Ty, N and u, v, w.
+! added to the approach. N is the largest normal force expected, not a load. State variables: T, N and u, w, or Tx, Ty, N and u, v, w;
+! the energy dissipated so far; the state of the law.
 module contact_element
   use, intrinsic :: iso_fortran_env, only: error_unit
   use microslip
@@ -30,8 +29,7 @@ module contact_element
   integer, parameter, public :: wp = mslip_real
 
   type, public :: contact_law
-    integer :: components = 1                !! of the displacement: 1 at constant normal force, else tangential ones and normal
-    type(mslip_contact) :: contact
+    integer :: components                    !! of the displacement: tangential ones and the normal one
     type(mslip_element) :: element
     real(wp) :: offset(3) = 0                !! added to the displacement
     real(wp) :: initial_stiffness(3) = 0     !! sticking, at N
@@ -39,26 +37,26 @@ module contact_element
 
 contains
 
-  !> Components of the displacement, from the number of constants (CalculiX passes -100 less that number) and the eleventh.
+  !> Components of the displacement, from the number of constants (CalculiX passes -100 less that number) and the last one.
   function count_components(element, kind_and_count, constants) result(components)
     integer, intent(in) :: element, kind_and_count
     real(wp), intent(in) :: constants(*)
     integer :: components
 
-    components = -kind_and_count - 108
-    if (components == 3) components = 1 + nint(constants(11))
-    if (kind_and_count > -109 .or. kind_and_count < -111 .or. components < 1 .or. components > 3) &
-      call fail(element, 'its material must be a *USER MATERIAL with 9 to 11 constants, the last of 11 being 1 or 2')
+    components = 0
+    if (kind_and_count == -111) components = 1 + nint(constants(11))
+    if (components < 2 .or. components > 3) &
+      call fail(element, 'its material must be a *USER MATERIAL with 11 constants, the last being 1 or 2')
   end function count_components
 
-  !> The contact of the element's material. It is initialised in every call, in 20 us, or 0.25 ms with a normal direction: CalculiX
-  !> calls from several threads, and nothing is kept between calls.
+  !> The element's material. It is initialised in every call: CalculiX calls from several threads, and nothing is kept between calls.
   subroutine prepare(element, kind_and_count, constants, law)
     integer, intent(in) :: element, kind_and_count
     real(wp), intent(in) :: constants(*)
     type(contact_law), intent(out) :: law
     type(mslip_parameters) :: p
-    integer(mslip_int) :: status
+    real(wp) :: compliance
+    integer(mslip_int) :: status, i
 
     law%components = count_components(element, kind_and_count, constants)
     call mslip_parameters_default(p)
@@ -69,33 +67,15 @@ contains
     p%normal_force = constants(4)
     p%friction_coefficient = constants(5)
     p%material = [mslip_material(constants(6), constants(7)), mslip_material(constants(8), constants(9))]
-    if (law%components == 1) then
-      call mslip_contact_init(p, law%contact, status)
-      law%initial_stiffness(1) = law%contact%initial_stiffness
-    else
-      call mslip_element_init(p, int(law%components - 1, mslip_int), MSLIP_INPUT_APPROACH, law%element, status)
-      law%offset(law%components) = constants(10)
-      if (status == MSLIP_OK) call stick(law, status)
-    end if
+    call mslip_element_init(p, int(law%components - 1, mslip_int), MSLIP_INPUT_APPROACH, law%element, status)
     if (status /= MSLIP_OK) call fail(element, mslip_status_text(status))
+    law%offset(law%components) = constants(10)
+    law%initial_stiffness(law%components) = law%element%normal_stiffness
+    do i = 1, law%components - 1
+      call mslip_element_displacement(law%element, i - 1, 0.0_wp, p%normal_force, status, compliance=compliance)
+      law%initial_stiffness(i) = 1/compliance
+    end do
   end subroutine prepare
-
-  !> The initial stiffness of an element: that of a step without motion after it was pressed by N.
-  subroutine stick(law, status)
-    type(contact_law), intent(inout) :: law
-    integer(mslip_int), intent(out) :: status
-    real(wp) :: state(mslip_element_state_length(int(law%components - 1, mslip_int), 4_mslip_size))
-    real(wp) :: displacement(law%components), tangent(law%components, law%components)
-    integer :: i
-
-    tangent = 0
-    displacement = 0
-    displacement(law%components) = law%element%approach
-    call mslip_element_state_init(int(law%components - 1, mslip_int), state, status)
-    if (status == MSLIP_OK) call mslip_element_advance(law%element, state, displacement, status)
-    if (status == MSLIP_OK) call mslip_element_advance(law%element, state, displacement, status, tangent=tangent)
-    law%initial_stiffness(:law%components) = [(tangent(i, i), i=1, law%components)]
-  end subroutine stick
 
   !> Unit vectors of the components: sliding, the second direction of sliding, approach.
   function directions(element, components, property, properties) result(d)
@@ -103,14 +83,10 @@ contains
     real(wp), intent(in) :: properties(*)
     real(wp) :: d(3, components), second(3)
 
-    d(:, 1) = properties(property + 1:property + 3)
-    if (components > 1) then
-      d(:, components) = unit_vector(element, properties(property + 4:property + 6))
-      second = cross(d(:, components), d(:, 1))
-      if (components == 3) d(:, 2) = unit_vector(element, second)
-      d(:, 1) = cross(second, d(:, components))
-    end if
-    d(:, 1) = unit_vector(element, d(:, 1))
+    d(:, components) = unit_vector(element, properties(property + 4:property + 6))
+    second = unit_vector(element, cross(d(:, components), properties(property + 1:property + 3)))
+    d(:, 1) = cross(second, d(:, components))
+    if (components == 3) d(:, 2) = second
   end function directions
 
   function unit_vector(element, a)
@@ -139,34 +115,25 @@ contains
     real(wp), intent(out) :: stiffness(:, :)
     logical, intent(out) :: accepted
     real(wp), dimension(size(before) - 2*law%components - 1) :: state, trial
-    real(wp) :: force(law%components), dissipated
+    real(wp) :: force(law%components), moved(law%components), dissipated
     integer(mslip_int) :: status
     integer :: printed
 
     printed = 2*law%components + 1
     status = MSLIP_OK
+    moved = displacement + law%offset(:law%components)
     state = before(printed + 1:)
     if (all(abs(state) <= 0)) then  ! initial state variables of CalculiX
       if (any(abs(start) > 0)) call fail(element, 'it is displaced and has no load history (restart files of CalculiX ' // &
         'have state variables only if the model has a *CONTACT PAIR)')
-      if (law%components == 1) then
-        call mslip_state_init(state, status)
-      else
-        call mslip_element_state_init(int(law%components - 1, mslip_int), state, status)
-      end if
+      call mslip_element_state_init(int(law%components - 1, mslip_int), state, status)
     end if
-    if (status == MSLIP_OK) then
-      if (law%components == 1) then
-        call mslip_masing_update(law%contact, state, displacement(1), trial, status, force(1), stiffness(1, 1), dissipated)
-      else
-        call mslip_element_update(law%element, state, displacement + law%offset(:law%components), trial, status, force, stiffness, &
-          dissipated)
-      end if
-    end if
+    if (status == MSLIP_OK) &
+      call mslip_element_update(law%element, state, moved, trial, status, force, stiffness, dissipated)
     accepted = all(status /= [MSLIP_BAD_DISPLACEMENT, MSLIP_LENGTH_TOO_SHORT])
     if (.not. accepted) return
     if (status /= MSLIP_OK) call fail(element, mslip_status_text(status))
-    after(1:printed) = [force, displacement + law%offset(:law%components), before(printed) + dissipated]
+    after(1:printed) = [force, moved, before(printed) + dissipated]
     after(printed + 1:) = trial
   end subroutine update
 

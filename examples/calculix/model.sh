@@ -1,21 +1,20 @@
 #!/bin/sh
 # model.sh: writes the input of CalculiX into the working directory. Millimetres, newtons, tonnes, seconds.
 #
-# A blade of 120 x 40 x 6, clamped at x = 0, is bent by a force in z at its tip. At x = 20, in the middle of its lower
-# face, a contact in z connects it to a fixed node. 12 x 2 x 1 elements with incompatible modes.
+# A blade of 120 x 40 x 6, clamped at x = 0, is loaded by forces at its tip. At x = 20, in the middle of its lower face, a contact
+# connects it to a fixed node: it slides in y and closes in -z. 12 x 2 x 1 elements with incompatible modes.
 #
-#   blade.inp      mesh, contact, supports: included by the others
-#   law.inp        constants of the contact: a, R, L, N, mu, E1, nu1, E2, nu2
-#   static.inp     cyclic loads, a step each, in increments that CalculiX chooses
-#   resumed.inp    the last three of these steps, from a restart file of the fourth
-#   dynamic.inp    a force of constant frequency between the first resonances of the sliding and of the sticking blade
+#   element.inp    constants of the contact: a, R, L, N, mu, E1, nu1, E2, nu2, interference, directions
+#   lifting.inp    forces in y and z, a step each, in increments that CalculiX chooses
+#   resumed.inp    the last four of these steps, from a restart file of the fifth
+#   rejected.inp   all of these steps, with rejected increments
+#   lifting_dynamic.inp
+#                  the same blade bounces
+#   orbit.inp, orbit_dynamic.inp
+#                  the contact slides in y and x
 #   frequency.inp  natural frequencies of the sticking blade
 #   matrices.inp   stiffness and mass of the blade alone, for compare.py
-#   *_load.csv     force at the tip over time, linear in between
-#   lifting.inp, lifting_dynamic.inp
-#                  the same blade on the element with a normal direction: forces in y and z; the loads are time, y, z
-#   orbit.inp, orbit_dynamic.inp
-#                  the same on the element that slides in y and x; the loads are time, x, y, z
+#   *_load.csv     time, and forces at the tip in y and z, or x, y and z, linear in between
 set -eu
 
 # Columns: x, then y, then z.
@@ -33,12 +32,6 @@ awk 'BEGIN {
     for (k = 0; k <= 1; k++) for (j = 0; j <= 2; j++) print 1000*k + 100*j + 1
 }' > mesh.inp
 
-cat > law.inp << 'END'
-*USER MATERIAL, CONSTANTS=9
-0., 50., 3., 800., 0.5, 114.e3, 0.33, 114.e3,
-0.33
-END
-
 cat > blade_alone.inp << 'END'
 *INCLUDE, INPUT=mesh.inp
 *MATERIAL, NAME=titanium
@@ -50,21 +43,6 @@ cat > blade_alone.inp << 'END'
 *BOUNDARY
 root, 1, 3
 5000, 1, 3
-END
-
-# 44 state variables: 3 results, and a state that holds 12 reversals exactly.
-cat > blade.inp << 'END'
-*INCLUDE, INPUT=blade_alone.inp
-*USER ELEMENT, TYPE=U1, NODES=2, INTEGRATION POINTS=1, MAXDOF=3
-*ELEMENT, TYPE=U1, ELSET=rubbing
-5000, 5000, 103
-*MATERIAL, NAME=law
-*INCLUDE, INPUT=law.inp
-*DEPVAR
-44
-*USER SECTION, ELSET=rubbing, MATERIAL=law, CONSTANTS=3
-0., 0., 1.
-*INCLUDE, INPUT=for_restart.inp
 END
 
 # An open contact pair: without one, CalculiX 2.20 writes no state variables to a restart file.
@@ -90,44 +68,15 @@ SDV'
 tip='*NSET, NSET=tip
 113'
 
-# step LOAD: a static step to this load.
-step() {
-    printf '%s\n' '*STEP, INC=500' '*STATIC' '0.3, 1., 1.e-5, 0.3' "$controls" '*RESTART, WRITE' \
-        '*CLOAD' "113, 3, $1." "$output" '*END STEP'
-}
-
-# Gross slip in both directions and small loops; and again from the end of the fourth step.
-{
-    printf '%s\n' '*INCLUDE, INPUT=blade.inp' "$tip"
-    for load in 75 -75 50 -35 45 -75 75; do step "$load"; done
-} > static.inp
-{
-    echo '*RESTART, READ, STEP=4'
-    for load in 45 -75 75; do step "$load"; done
-} > resumed.inp
-
-# Five periods of 380 Hz, 200 increments each; the trapezoidal rule.
-awk 'BEGIN {
-    for (n = 0; n <= 1000; n++) printf "%.12g, %.12g\n", n/76000, 8*sin(2*atan2(0, -1)*n/200)
-}' > dynamic_load.csv
-{
-    printf '%s\n' '*INCLUDE, INPUT=blade.inp' "$tip" '*AMPLITUDE, NAME=force' '*INCLUDE, INPUT=dynamic_load.csv' \
-        '*STEP, INC=2000' '*DYNAMIC, DIRECT, ALPHA=0.' '1.31578947368e-5, 1.31578947368e-2' "$controls" \
-        '*CLOAD, AMPLITUDE=force' '113, 3, 1.' "$output" '*END STEP'
-} > dynamic.inp
-
-printf '%s\n' '*INCLUDE, INPUT=blade.inp' '*STEP' '*FREQUENCY' '4' '*END STEP' > frequency.inp
 printf '%s\n' '*INCLUDE, INPUT=blade_alone.inp' '*STEP' '*FREQUENCY, SOLVER=MATRIXSTORAGE' '4' '*END STEP' > matrices.inp
 
-# The element with a normal direction: the contact slides in y and closes in -z. 273 state variables: 5 results, and a state that
-# holds 64 pieces exactly: a normal force that rises in as many increments leaves as many.
 cat > element.inp << 'END'
-*USER MATERIAL, CONSTANTS=10
+*USER MATERIAL, CONSTANTS=11
 0., 50., 3., 800., 0.5, 114.e3, 0.33, 114.e3,
-0.33, 0.
+0.33, 0., 1.
 END
 
-# blade_on STATE_VARIABLES DIRECTION FILE: the blade on the element with the constants in this file, which slides in this direction.
+# blade_on STATE_VARIABLES FILE: the blade on the element with the constants in this file.
 blade_on() {
     cat << END
 *INCLUDE, INPUT=blade_alone.inp
@@ -135,26 +84,44 @@ blade_on() {
 *ELEMENT, TYPE=U1, ELSET=rubbing
 5000, 5000, 103
 *MATERIAL, NAME=law
-*INCLUDE, INPUT=$3
+*INCLUDE, INPUT=$2
 *DEPVAR
 $1
 *USER SECTION, ELSET=rubbing, MATERIAL=law, CONSTANTS=6
-$2, 0., 0., -1.
+0., 1., 0., 0., 0., -1.
 END
 }
-blade_on 273 '0., 1., 0.' element.inp > lifting_blade.inp
+# 5 results, and a state that holds 64 pieces exactly: a normal force that rises in as many increments leaves as many.
+{
+    blade_on 273 element.inp
+    echo '*INCLUDE, INPUT=for_restart.inp'
+} > lifting_blade.inp
+printf '%s\n' '*INCLUDE, INPUT=lifting_blade.inp' '*STEP' '*FREQUENCY' '4' '*END STEP' > frequency.inp
 
-# Pressed, loaded sideways beyond gross slip, unloaded, lifted, pressed again while displaced, and slid back.
+# Pressed, loaded sideways beyond gross slip, unloaded, lifted, pressed again while displaced, and slid back; and again from the fifth.
 lifting='0,0 0,-40 400,-40 400,-15 100,20 -300,20 -300,-40 -450,-40 300,-25 0,-40'
 n=0
 for load in $lifting; do printf '%d., %s.\n' "$n" "$(echo "$load" | sed 's/,/., /')"; n=$((n + 1)); done > lifting_load.csv
-{
-    printf '%s\n' '*INCLUDE, INPUT=lifting_blade.inp' "$tip"
-    for load in ${lifting#* }; do
-        printf '%s\n' '*STEP, INC=500' '*STATIC' '0.1, 1., 1.e-5, 0.1' "$controls" \
+# steps LOAD...: a static step to each load.
+steps() {
+    for load; do
+        printf '%s\n' '*STEP, INC=500' '*STATIC' '0.1, 1., 1.e-5, 0.1' "$controls" '*RESTART, WRITE' \
             '*CLOAD' "113, 2, ${load%,*}." "113, 3, ${load#*,}." "$output" '*END STEP'
     done
+}
+# shellcheck disable=SC2086  # a list
+{
+    printf '%s\n' '*INCLUDE, INPUT=lifting_blade.inp' "$tip"
+    steps ${lifting#* }
 } > lifting.inp
+# shellcheck disable=SC2086
+{
+    echo '*RESTART, READ, STEP=5'
+    steps ${lifting#*-300,20 }
+} > resumed.inp
+
+# With at most three iterations in an increment, of which CalculiX rejects some.
+sed 's/^1.e-9, 1.e-9$/&\n*CONTROLS, PARAMETERS=TIME INCREMENTATION\n2, 8, 9, 3, 10, 4, , 5/' lifting.inp > rejected.inp
 
 # Four periods of 300 Hz across, of 200 Hz sideways: the blade bounces.
 awk 'BEGIN {
@@ -181,8 +148,8 @@ driven lifting_dynamic "$trapezoidal" '1.33333333333e-5, 1.33333333333e-2' 2 3 >
 
 # Two directions of sliding: y as before, and x. 1715 state variables: 7 results, and room for a state. Pressed, then a force that
 # rotates twice in the plane of x and y while the normal force varies, two periods in each rotation.
-sed 's/=10/=11/; $s/$/, 2./' element.inp > two_directions.inp
-blade_on 1715 '0., 1., 0.' two_directions.inp > orbit_blade.inp
+sed '$s/1[.]$/2./' element.inp > two_directions.inp
+blade_on 1715 two_directions.inp > orbit_blade.inp
 awk 'BEGIN {
     pi = atan2(0, -1)
     print "0., 0., 0., 0."

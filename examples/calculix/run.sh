@@ -53,16 +53,8 @@ job() {
     ../ccx "$1" > "$1.log" 2>&1 || { tail -n 20 "$1.log"; exit 1; }
 }
 
-# table NAME: time, displacement of the tip, displacement and force of the contact, energy.
+# table HEADER NAME: tip, displacement and force of the contact, m components by the header, energy; rounding errors as 0.
 table() {
-    awk 'BEGIN { print "time,tip,displacement,force,dissipated" }
-         / and time /               { time = $NF }
-         NF == 4 && $1 == 113       { tip = $4 }
-         NF == 46 && $1 == 5000     { print time "," tip "," $4 "," $3 "," $5 }' "$1.dat"
-}
-
-# table_element HEADER NAME: the same of the element with a normal direction, m components by the header; rounding errors as 0.
-table_element() {
     echo "$1"
     awk -v m=$(($(echo "$1" | tr -cd , | wc -c) / 3)) '
          function append(first) { for (i = first; i < first + m; i++) line = line "," ($i^2 < 1e-20 ? 0 : $i) }
@@ -71,25 +63,24 @@ table_element() {
          NF > 46 && $1 == 5000      { append(3 + m); append(3); print line "," $(3 + 2*m) }' "$2.dat"
 }
 
-for name in static dynamic frequency matrices lifting lifting_dynamic orbit orbit_dynamic; do job "$name"; done
-cp static.rout resumed.rin
+for name in frequency matrices lifting rejected lifting_dynamic orbit orbit_dynamic; do job "$name"; done
+cp lifting.rout resumed.rin
 job resumed
-table static > ../../results/static.csv
-table dynamic > dynamic.csv
-table resumed > resumed.csv
 awk '$1 == 1 && NF == 5 { print $2; exit }' frequency.dat > ../../results/frequency.csv
 header='time,tip_y,tip_z,displacement,approach,force,normal_force,dissipated'
-table_element "$header" lifting > ../../results/lifting.csv
-table_element "$header" lifting_dynamic > lifting_dynamic.csv
+table "$header" lifting > ../../results/lifting.csv
+table "$header" resumed > resumed.csv
+table "$header" rejected > rejected.csv
+table "$header" lifting_dynamic > lifting_dynamic.csv
 header='time,tip_x,tip_y,tip_z,displacement_u,displacement_v,approach,force_x,force_y,normal_force,dissipated'
-table_element "$header" orbit > ../../results/orbit.csv
-table_element "$header" orbit_dynamic > orbit_dynamic.csv
-cp law.inp element.inp ../../results/
+table "$header" orbit > ../../results/orbit.csv
+table "$header" orbit_dynamic > orbit_dynamic.csv
+cp element.inp ../../results/
 
 tail -n +2 resumed.csv > resumed.tail
-tail -n "$(wc -l < resumed.tail)" ../../results/static.csv | cmp - resumed.tail ||
+tail -n "$(wc -l < resumed.tail)" ../../results/lifting.csv | cmp - resumed.tail ||
     { echo 'The results after a restart differ.'; exit 1; }
-rejected=$(awk '$3 ~ /U$/' static.sta | wc -l)
+rejected=$(awk '$3 ~ /U$/' rejected.sta | wc -l)
 [ "$rejected" -gt 0 ] || { echo 'No increment was rejected: that case is not tested.'; exit 1; }
 echo "rejected increments: $rejected; the results after a restart are equal"
 

@@ -87,9 +87,9 @@ contains
       do j = 1, contacts
         row = get_harmonic(contact_jacobian(:, :, j), k)
         do i = 1, contacts
-          associate (block => point%jacobian((i - 1) * m + first:(i - 1) * m + last, (j - 1) * m + 1:j * m))
-            block(1, :) = real(seen(i, j) * row)
-            if (k > 0) block(2, :) = -aimag(seen(i, j) * row)
+          associate (part => point%jacobian((i - 1) * m + first:(i - 1) * m + last, (j - 1) * m + 1:j * m))
+            part(1, :) = real(seen(i, j) * row)
+            if (k > 0) part(2, :) = -aimag(seen(i, j) * row)
           end associate
         end do
       end do
