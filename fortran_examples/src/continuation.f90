@@ -27,20 +27,19 @@ module continuation
 
 contains
 
-  !> From `omega_from` to `omega_to`, in either direction.
+  !> From `omega_from` to `omega_to`.
   subroutine follow_response(problem, omega_from, omega_to, path)
     type(balance_problem), intent(inout) :: problem
     real(wp), intent(in) :: omega_from, omega_to
     type(response_path), intent(out) :: path
     type(balance_point) :: point
     real(wp), allocatable :: u(:,:), scale(:), tangent(:), previous(:)
-    real(wp) :: omega, step, direction
+    real(wp) :: omega, step
     logical :: converged
     integer :: m, contacts, iterations
 
     m = 2 * problem%harmonics + 1
     contacts = size(problem%contacts%items)
-    direction = sign(1.0_wp, omega_to - omega_from)
     allocate (u(m, contacts), tangent(m * contacts + 1), previous(m * contacts + 1), scale(m * contacts + 1))
     allocate (path%omega(max_points), path%displacement(m, contacts, max_points))
 
@@ -50,11 +49,11 @@ contains
     call append()
     call set_scale()
     previous = 0.0_wp
-    previous(m * contacts + 1) = direction
+    previous(m * contacts + 1) = 1.0_wp
     call path_tangent()
     step = 0.1_wp * max_step
-    do while (direction * (omega - omega_to) < 0.0_wp)
-      call advance(step, min_tangent_cosine)
+    do while (omega < omega_to)
+      call advance(step)
       if (converged) then
         call append()
         if (iterations <= few_steps) step = min(1.5_wp * step, max_step)
@@ -87,7 +86,7 @@ contains
         scale((i - 1) * m + 2:i * m) = vibration
       end do
       scale(:m * contacts) = sqrt(real(contacts, wp)) * scale(:m * contacts)
-      scale(m * contacts + 1) = abs(omega_to - omega_from) / (steps_over_range * max_step)
+      scale(m * contacts + 1) = (omega_to - omega_from) / (steps_over_range * max_step)
     end subroutine set_scale
 
     !> Unit tangent of the path at the present point, in the direction of `previous`.
@@ -122,8 +121,8 @@ contains
 
     !> One step of this length: predictor along the tangent, corrector in the plane normal to it. If it does not converge, or the
     !> path bends too sharply, the start is restored.
-    subroutine advance(length, min_cosine)
-      real(wp), intent(in) :: length, min_cosine
+    subroutine advance(length)
+      real(wp), intent(in) :: length
       real(wp) :: u_start(m, contacts), omega_start, distance, right(m * contacts + 1, 1)
       real(wp) :: tangent_start(m * contacts + 1)
       logical :: singular
@@ -152,7 +151,7 @@ contains
       if (converged) then
         previous = tangent
         call path_tangent()
-        converged = dot_product(tangent, previous) >= min_cosine .or. length <= 10.0_wp * min_step
+        converged = dot_product(tangent, previous) >= min_tangent_cosine .or. length <= 10.0_wp * min_step
       end if
       if (converged) then
         ! The same direction in the scale of the new point.
