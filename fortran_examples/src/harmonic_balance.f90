@@ -151,8 +151,7 @@ contains
       do halving = 0, halvings
         displacement = start + fraction * reshape(step, shape(start))
         call evaluate(problem, omega, displacement, point)
-        ! From rest, where nothing slips, the first step is taken whole.
-        if (iteration == 0 .or. norm2(point%residual) < size_before) exit
+        if (norm2(point%residual) < size_before) exit
         fraction = 0.5_wp * fraction
       end do
     end do
