@@ -1,5 +1,6 @@
 #!/bin/sh
-# fpm.sh PREFIX: a client built by the Fortran package manager, with the installed module and archive. fpm comes from PyPI into target/tools where there is none; where it cannot, the status is 77.
+# fpm.sh PREFIX: a client built by the Fortran package manager, with the installed module and archive. fpm
+# comes from PyPI into target/tools where there is none; where it cannot, the status is 77.
 set -eu
 
 prefix=$(cd "$1" && pwd)

@@ -1,8 +1,8 @@
 """compare.py RESULTS [JOBS]: the results of CalculiX against the library and, if the directory of its jobs is given, against a
 solution of the same equations by other means.
 
-RESULTS has element.inp, the tables of the static jobs, and frequency.csv, the square of the lowest angular frequency. JOBS has the tables
-of the dynamic jobs, matrices.sti, .mas and .dof and the loads over time.
+RESULTS has element.inp, the tables of the static jobs, and frequency.csv, the square of the lowest angular frequency. JOBS has the
+tables of the dynamic jobs, matrices.sti, .mas and .dof and the loads over time.
 """
 
 import sys

@@ -17,8 +17,8 @@
 ! The displacement is that of the second node relative to the first in these directions, which do not rotate with the structure:
 ! u along the part of the direction of sliding that is normal to the approach, w along the approach and, with two directions of
 ! sliding, v along w x u. A line contact has u across the line and v along it. The interference, negative if there is a gap, is
-! added to the approach. N is the largest normal force expected, not a load. State variables: T, N and u, w, or Tx, Ty, N and u, v, w;
-! the energy dissipated so far; the state of the law.
+! added to the approach. N is the largest normal force expected, not a load. State variables: T, N and u, w, or Tx, Ty, N and u, v,
+! w; the energy dissipated so far; the state of the law.
 module contact_element
   use, intrinsic :: iso_fortran_env, only: error_unit
   use microslip
@@ -49,7 +49,7 @@ contains
       call fail(element, 'its material must be a *USER MATERIAL with 11 constants, the last being 1 or 2')
   end function count_components
 
-  !> The element's material. It is initialised in every call: CalculiX calls from several threads, and nothing is kept between calls.
+  !> The law of the element's material. It is initialised in every call: CalculiX calls from several threads.
   subroutine prepare(element, kind_and_count, constants, law)
     integer, intent(in) :: element, kind_and_count
     real(wp), intent(in) :: constants(*)

@@ -8,8 +8,8 @@ foot (a spring: the pressure moves along the flanks). The rest of the rocking is
 slides the two flanks, a lever r away from the axis of the blade, by +r theta and -r theta. By symmetry both flanks have the same
 loop, so one coordinate, r theta, serves both. The platform is a rigid mass 30 mm above the foot.
 
-The damper is pressed against the undersides of the two platforms and seated in the second one, so that it slides on the first. At the
-damper an underside moves by w - e theta, with e the distance from the axis of the platform to its underside.
+The damper is pressed against the undersides of the two platforms and seated in the second one, so that it slides on the first. At
+the damper an underside moves by w - e theta, with e the distance from the axis of the platform to its underside.
 """
 
 import sys
@@ -101,6 +101,7 @@ if __name__ == "__main__":
         scale = np.sqrt(np.diag(matrix))
         rows = [(i, j, matrix[i, j]) for j in range(len(matrix)) for i in range(j, len(matrix))
                 if abs(matrix[i, j]) > 1e-10 * scale[i] * scale[j]]  # smaller ones are rounding errors of zeros
-        head = f"%%MatrixMarket matrix coordinate real symmetric\n% two blades: {text}\n% of each blade root, platform, tip, {MODES} modes\n"
+        order = f"of each blade root, platform, tip, {MODES} modes"
+        head = f"%%MatrixMarket matrix coordinate real symmetric\n% two blades: {text}\n% {order}\n"
         text = "".join(f"{i + 1} {j + 1} {value:.16e}\n" for i, j, value in rows)
         (files / f"blades_{kind}.mtx").write_text(f"{head}{len(matrix)} {len(matrix)} {len(rows)}\n{text}")

@@ -14,7 +14,7 @@
 !>     dof(2): relative displacement: first minus second; 0 is the ground
 !>     count: number of identical contacts that share the displacement [1]
 !>     load_varied: whether the load factor multiplies the normal force [.true.]
-!>     flat_half_width, edge_radius, length, normal_force, friction_coefficient, young_modulus(2), poisson_ratio(2): as in the library
+!>     flat_half_width, edge_radius, length, normal_force, friction_coefficient, young_modulus(2), poisson_ratio(2)
 !>   &harmonic_balance
 !>     harmonics, samples: highest harmonic, and samples of a period [5, 128]
 !>     tolerance: of the residual, relative to the displacement of each contact [1e-9]

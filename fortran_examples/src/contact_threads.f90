@@ -1,7 +1,7 @@
 !> Many contacts on OpenMP threads, with results that are bitwise equal for any number of threads.
 !>
-!> `work` is the pattern: each thread has a workspace of its own and evaluates chunks of the contacts, with one batch call for each. The
-!> amplitudes grow from the first contact, in microslip, to the last, far in gross slip.
+!> `work` is the pattern: each thread has a workspace of its own and evaluates chunks of the contacts, with one batch call for each.
+!> The amplitudes grow from the first contact, in microslip, to the last, far in gross slip.
 program contact_threads
   use, intrinsic :: iso_fortran_env, only: int64
   use basics, only: fail, progress, text, wp

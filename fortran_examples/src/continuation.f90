@@ -168,8 +168,8 @@ contains
     end subroutine advance
   end subroutine follow_response
 
-  !> Resonance peak between the points of a path, on finer and finer grids of frequencies. `amplitude` has the peak over the period of
-  !> degree of freedom `dof` at every point. If the frequency is not monotonic around the largest point, that point is the result.
+  !> Resonance peak between the points of a path, on finer and finer grids of frequencies. `amplitude` has the peak over the period
+  !> of degree of freedom `dof` at every point. If the frequency is not monotonic around the largest point, that point is the result.
   subroutine refine_peak(problem, path, amplitude, dof, omega, displacement)
     type(balance_problem), intent(inout) :: problem
     type(response_path), intent(in) :: path

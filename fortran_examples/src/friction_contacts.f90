@@ -1,4 +1,4 @@
-!> The friction contacts of a model. All calls of the library that a harmonic balance or a time integration needs are in this module:
+!> The friction contacts of a model. All calls of the library that a harmonic balance or a time integration needs are here:
 !>
 !>     once            mslip_contact_init, mslip_harmonic_workspace_init      in prepare
 !>     balance         mslip_harmonic_force                                   in harmonic_force
