@@ -1,15 +1,13 @@
 /* The library in Octave and MATLAB:
  *
  *   contact = microslip('contact', p)                             a contact under a constant normal force
- *   contact = microslip('contact_elliptic', p)
  *   element = microslip('element', p, directions, normal_input)   a friction contact element: varying normal force, separation
- *   element = microslip('element_elliptic', p, directions, normal_input)
  *   fields = microslip('fields', object)                          the named fields of a contact or an element
  *   approach = microslip('approach', element, force)              normal approach under normal forces
  *   [force, jacobian, dissipated, drift] = microslip('harmonic_force', object, samples, displacement, rule, periods)
  *
- * p is a struct with the fields of mslip_parameters or mslip_elliptic_parameters; in place of material it has young_modulus and
- * poisson_ratio, one value or one for each body. A contact and an element are uint8 arrays, which may be saved. directions, 1, and
+ * p is a struct with the fields of mslip_parameters; in place of material it has young_modulus and poisson_ratio, one value or one
+ * for each body. A contact and an element are uint8 arrays, which may be saved. directions, 1, and
  * normal_input, MSLIP_INPUT_APPROACH, may be left out, so may rule, MSLIP_UNIFORM_SAMPLING, and periods, 0, the default.
  *
  * displacement has a column for each component, with 2H+1 rows [c0; cos1; sin1; cos2; ...], and so has the force; jacobian is
@@ -56,19 +54,12 @@ typedef struct field {
     size_t offset;
 } field;
 
-#define FIELD(type, name) { #name, offsetof(type, name) }
-#define OF_LAYER(type, name) { #name, offsetof(type, layer.name) }
-#define LAYER(type) OF_LAYER(type, normal_compliance), OF_LAYER(type, tangential_compliance), \
-    OF_LAYER(type, stiffening_load), OF_LAYER(type, reference_load)
+#define FIELD(name) { #name, offsetof(mslip_parameters, name) }
+#define LAYER(name) { #name, offsetof(mslip_parameters, layer.name) }
 
-static const field line_fields[] = {
-    FIELD(mslip_parameters, flat_half_width), FIELD(mslip_parameters, edge_radius), FIELD(mslip_parameters, length),
-    FIELD(mslip_parameters, normal_force), FIELD(mslip_parameters, friction_coefficient), LAYER(mslip_parameters), { NULL, 0 }
-};
-static const field elliptic_fields[] = {
-    FIELD(mslip_elliptic_parameters, semi_axis_x), FIELD(mslip_elliptic_parameters, semi_axis_y),
-    FIELD(mslip_elliptic_parameters, normal_force), FIELD(mslip_elliptic_parameters, friction_coefficient),
-    LAYER(mslip_elliptic_parameters), { NULL, 0 }
+static const field known_fields[] = {
+    FIELD(flat_half_width), FIELD(edge_radius), FIELD(length), FIELD(normal_force), FIELD(friction_coefficient),
+    LAYER(normal_compliance), LAYER(tangential_compliance), LAYER(stiffening_load), LAYER(reference_load), { NULL, 0 }
 };
 
 static void read_material(const mxArray *values, double *first, double *second)
@@ -80,42 +71,29 @@ static void read_material(const mxArray *values, double *first, double *second)
 }
 
 /* Fields that the struct does not have stay NaN; the library rejects them by name. */
-static void read_parameters(const mxArray *p, const field *fields, void *parameters, mslip_material *material, int32_t *reference)
+static mslip_parameters read_parameters(const mxArray *p)
 {
+    mslip_parameters parameters;
+    mslip_parameters_default(&parameters);
     require(mxIsStruct(p) && mxGetNumberOfElements(p) == 1, "the parameters are a struct");
     for (int i = 0; i < mxGetNumberOfFields(p); i++) {
         const char *name = mxGetFieldNameByNumber(p, i);
         const mxArray *value = mxGetFieldByNumber(p, 0, i);
-        const field *known = fields;
+        const field *known = known_fields;
         while (known->name && strcmp(known->name, name) != 0) known++;
         if (known->name) {
             double number = scalar(value, name);
-            memcpy((char *)parameters + known->offset, &number, sizeof number);
+            memcpy((char *)&parameters + known->offset, &number, sizeof number);
         } else if (strcmp(name, "young_modulus") == 0) {
-            read_material(value, &material[0].young_modulus, &material[1].young_modulus);
+            read_material(value, &parameters.material[0].young_modulus, &parameters.material[1].young_modulus);
         } else if (strcmp(name, "poisson_ratio") == 0) {
-            read_material(value, &material[0].poisson_ratio, &material[1].poisson_ratio);
-        } else if (reference && strcmp(name, "displacement_reference") == 0) {
-            *reference = constant(value, name);
+            read_material(value, &parameters.material[0].poisson_ratio, &parameters.material[1].poisson_ratio);
+        } else if (strcmp(name, "displacement_reference") == 0) {
+            parameters.displacement_reference = constant(value, name);
         } else {
             mexErrMsgIdAndTxt("microslip:argument", "unknown parameter %s", name);
         }
     }
-}
-
-static mslip_parameters line_parameters(const mxArray *p)
-{
-    mslip_parameters parameters;
-    mslip_parameters_default(&parameters);
-    read_parameters(p, line_fields, &parameters, parameters.material, &parameters.displacement_reference);
-    return parameters;
-}
-
-static mslip_elliptic_parameters elliptic_parameters(const mxArray *p)
-{
-    mslip_elliptic_parameters parameters;
-    mslip_elliptic_parameters_default(&parameters);
-    read_parameters(p, elliptic_fields, &parameters, parameters.material, NULL);
     return parameters;
 }
 
@@ -132,20 +110,13 @@ static const void *object(const mxArray *array, size_t size)
     return mxIsUint8(array) && mxGetNumberOfElements(array) == size ? mxGetData(array) : NULL;
 }
 
-static void init(int elliptic, int is_element, mxArray **result, int n, const mxArray *const *arguments)
+static void init(int is_element, mxArray **result, int n, const mxArray *const *arguments)
 {
     int32_t directions = n > 1 ? constant(arguments[1], "directions is a number") : 1;
     int32_t normal_input = n > 2 ? constant(arguments[2], "normal_input is a number") : MSLIP_INPUT_APPROACH;
     void *memory = bytes(result, is_element ? sizeof(mslip_element) : sizeof(mslip_contact));
-    if (elliptic) {
-        mslip_elliptic_parameters p = elliptic_parameters(arguments[0]);
-        check(is_element ? mslip_element_init_elliptic(&p, directions, normal_input, memory)
-                         : mslip_contact_init_elliptic(&p, memory));
-    } else {
-        mslip_parameters p = line_parameters(arguments[0]);
-        check(is_element ? mslip_element_init(&p, directions, normal_input, memory)
-                         : mslip_contact_init(&p, memory));
-    }
+    mslip_parameters p = read_parameters(arguments[0]);
+    check(is_element ? mslip_element_init(&p, directions, normal_input, memory) : mslip_contact_init(&p, memory));
 }
 
 static void set(mxArray *structure, const char *name, double value)
@@ -269,13 +240,9 @@ void mexFunction(int outputs, mxArray *result[], int n, const mxArray *arguments
     mexAtExit(free_workspace);
     n--, arguments++;
     if (strcmp(command, "contact") == 0 && n == 1) {
-        init(0, 0, result, n, arguments);
-    } else if (strcmp(command, "contact_elliptic") == 0 && n == 1) {
-        init(1, 0, result, n, arguments);
+        init(0, result, n, arguments);
     } else if (strcmp(command, "element") == 0 && n >= 1 && n <= 3) {
-        init(0, 1, result, n, arguments);
-    } else if (strcmp(command, "element_elliptic") == 0 && n >= 1 && n <= 3) {
-        init(1, 1, result, n, arguments);
+        init(1, result, n, arguments);
     } else if (strcmp(command, "fields") == 0 && n == 1) {
         result[0] = fields(arguments[0]);
     } else if (strcmp(command, "approach") == 0 && n == 2) {
