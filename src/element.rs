@@ -10,7 +10,7 @@ use crate::numerics::guard::quotient;
 use crate::numerics::quadrature::gauss_nodes;
 use crate::numerics::total::Total;
 use crate::parameters::{Common, EllipticParameters, Parameters};
-use crate::shape::{Geometry, Layer, Quantity, Shape};
+use crate::shape::{Geometry, LayerCompliance, Quantity, Shape};
 use crate::tag::LAYOUT;
 use core::array::from_fn;
 pub(crate) use table::Curvature;
@@ -164,7 +164,7 @@ impl Element {
             return Err(Error::BadNormalForce);
         }
         let mut shape = geometry.shape()?;
-        (shape.layer, _) = Layer::new(&parameters.layer, parameters.normal_force)?;
+        (shape.layer, _) = LayerCompliance::new(&parameters.layer, parameters.normal_force)?;
         geometry.check_element(composite_modulus)?;
         shape.largest = shape.largest_in_plane();
         self.init_of(&shape, &parameters, components)
@@ -313,7 +313,7 @@ impl Element {
 
     /// N, U or S of the smallest size that is distinguished.
     fn smallest(&self, quantity: Quantity) -> f64 {
-        self.smallest.at(quantity as usize)
+        self.smallest.or_zero(quantity as usize)
     }
 
     /// The normal force at an approach \[m\] that [`Element::check_approach`] accepts; 0 for an approach <= 0, an open contact.
@@ -491,18 +491,18 @@ impl Element {
         let (of_input, shift) = (Some(&self.of_input), Some(&self.shift));
         let outside = |table, quantities| self.one_by_one(table, quantities, *input);
         if !is_sum && !self.by_approach() {
-            let tabulated = self.shift.at::<SLOPES, L>(input);
+            let tabulated = self.shift.values::<SLOPES, L>(input);
             let (shift, slope) = tabulated.unwrap_or_else(|| outside(shift, [Quantity::Shift, Quantity::Load]));
             return [*input, shift, [1.0; L], slope];
         }
-        let tabulated = self.of_input.at::<SLOPES, L>(input);
+        let tabulated = self.of_input.values::<SLOPES, L>(input);
         let (load, slope) = tabulated.unwrap_or_else(|| outside(of_input, [Quantity::Load, Quantity::Approach]));
         if is_sum {
             // Faster than a second table.
             let shift = from_fn(|k| per_approach * input[k] + per_load * load[k]);
             return [load, shift, slope, slope.map(|slope| per_approach + per_load * slope)];
         }
-        let tabulated = self.shift.at::<SLOPES, L>(input);
+        let tabulated = self.shift.values::<SLOPES, L>(input);
         let (shift, shift_slope) = tabulated.unwrap_or_else(|| outside(shift, [Quantity::Shift, Quantity::Approach]));
         [load, shift, slope, shift_slope]
     }
@@ -511,7 +511,7 @@ impl Element {
     #[inline(always)]
     pub(crate) fn loads_at<const SLOPES: bool, const L: usize>(&self, shift: &[f64; L]) -> ([f64; L], [f64; L]) {
         let (table, quantities) = (&self.load_of_shift, [Quantity::Load, Quantity::Shift]);
-        table.at::<SLOPES, L>(shift).unwrap_or_else(|| self.one_by_one(Some(table), quantities, *shift))
+        table.values::<SLOPES, L>(shift).unwrap_or_else(|| self.one_by_one(Some(table), quantities, *shift))
     }
 
     /// N'' at four monotone shifts S > 0. The quarter of the table from an earlier call is kept.
@@ -537,7 +537,7 @@ impl Element {
     pub(crate) fn potential_at_shift(&self, shift: f64) -> f64 {
         match self.load_of_shift.position(shift) {
             Some(at) => {
-                let middle = self.potential.0.at(at.index);
+                let middle = self.potential.0.or_zero(at.index);
                 middle + self.load_of_shift.integral_from_middle(at)
             }
             None => self.potential_outside(shift),
@@ -560,7 +560,7 @@ const fn tag_of(directions: Directions) -> u64 {
 
 /// The size under a normal force and the largest one for which the laws hold.
 ///
-/// Errors: those of [`Layer::check_share`]; `LengthTooShort` if the first one is not smaller.
+/// Errors: those of [`LayerCompliance::check_share`]; `LengthTooShort` if the first one is not smaller.
 fn sizes(shape: &Shape, normal_force: f64, directions: Directions) -> Result<[f64; 2], Error> {
     let mut largest = if directions == Directions::Two { shape.largest } else { shape.largest_size() };
     let size = shape.at_load(normal_force);

@@ -1,6 +1,7 @@
 //! What all laws have in common: states, steps, and load histories.
 
 use crate::error::Error;
+use crate::fourier::HarmonicOutput;
 use crate::tag::Kind;
 
 /// Result of a step, with vectors `[T, N]` or `[Tx, Ty, N]`, and tangents of 2 x 2 or 3 x 3 entries.
@@ -48,6 +49,8 @@ pub trait Law: Sized {
     type Vector: Copy;
     /// Derivative of the force by the displacement, column-major.
     type Tangent: Copy;
+    /// An opened workspace of harmonic forces.
+    type Workspace<'a>;
 
     /// The least length of a state.
     const STATE_LENGTH: usize;
@@ -99,6 +102,18 @@ pub trait Law: Sized {
     }
     /// Steps along a path, both checked, in a copy of the state.
     fn path_in_copy(item: &Self::Item, state: &[f64], path: &[Self::Vector], output: PathOutput<Self>);
+
+    /// Checks the coefficients of a motion.
+    /// Errors: those of [`Law::harmonic_force`].
+    fn check_motion(item: &Self::Item, workspace: &mut Self::Workspace<'_>, motion: &[f64]) -> Result<(), Error>;
+    /// Harmonic force of a motion that is given by its coefficients.
+    /// Errors: those of the function of each law.
+    fn harmonic_force(
+        item: &Self::Item,
+        workspace: &mut Self::Workspace<'_>,
+        motion: &[f64],
+        output: HarmonicOutput,
+    ) -> Result<(), Error>;
 
     /// A step in place.
     /// Errors: `StateTooShort`, `BadState`, and those of [`Law::check_step`].

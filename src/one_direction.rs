@@ -20,13 +20,8 @@ mod energy;
 pub(crate) mod state;
 mod step;
 
-use crate::law::StepResult;
-
 pub use crate::law::Law;
 pub use state::state_length;
-
-/// Result of a step: forces `[T, N]`, tangent `[∂T/∂u, ∂N/∂u, ∂T/∂w, ∂N/∂w]` (column-major) and dissipated energy.
-pub type Step = StepResult<[f64; 2], [f64; 4]>;
 
 /// The law of elements with one tangential direction.
 pub struct OneDirection;

@@ -7,16 +7,20 @@ use core::ffi::CStr;
 use core::ops::RangeInclusive;
 
 /// The plausible range in SI units, and the warning.
-type Rule = (RangeInclusive<f64>, &'static CStr);
+type Plausible = (RangeInclusive<f64>, &'static CStr);
 
-const FLAT: Rule = (0.0..=0.1, c"flat_half_width is implausible: a flank is at most 0.2 m wide; check the units");
-const RADIUS: Rule = (1e-5..=1.0, c"edge_radius is implausible: roundings have 10 um to 1 m; check the units");
-const LENGTH: Rule = (1e-4..=1.0, c"length is implausible: flanks and dampers are 0.1 mm to 1 m long; check the units");
-const SEMI_AXIS_X: Rule = (1e-6..=0.1, c"semi_axis_x is implausible: contacts have 1 um to 0.1 m; check the units");
-const SEMI_AXIS_Y: Rule = (1e-6..=0.1, c"semi_axis_y is implausible: contacts have 1 um to 0.1 m; check the units");
-const MODULUS: Rule =
+const FLAT: Plausible = (0.0..=0.1, c"flat_half_width is implausible: a flank is at most 0.2 m wide; check the units");
+const RADIUS: Plausible = (1e-5..=1.0, c"edge_radius is implausible: roundings have 10 um to 1 m; check the units");
+const LENGTH: Plausible =
+    (1e-4..=1.0, c"length is implausible: flanks and dampers are 0.1 mm to 1 m long; check the units");
+const SEMI_AXIS_X: Plausible =
+    (1e-6..=0.1, c"semi_axis_x is implausible: contacts have 1 um to 0.1 m; check the units");
+const SEMI_AXIS_Y: Plausible =
+    (1e-6..=0.1, c"semi_axis_y is implausible: contacts have 1 um to 0.1 m; check the units");
+const MODULUS: Plausible =
     (1e7..=1.3e12, c"young_modulus is implausible: plastics have 10 MPa, diamond 1.2 TPa; check the units");
-const FRICTION: Rule = (0.0..=2.0, c"friction_coefficient is implausible: metals and ceramics in air have 0.1 to 1.5");
+const FRICTION: Plausible =
+    (0.0..=2.0, c"friction_coefficient is implausible: metals and ceramics in air have 0.1 to 1.5");
 const EXCHANGED: &CStr =
     c"edge_radius is below flat_half_width: exchanged? If not, do the bodies reach far beyond the contact, as half-planes?";
 const WIDE_EDGES: &CStr =
@@ -31,7 +35,7 @@ const SMALL_RADIUS: &CStr =
 const EDGE: f64 = 0.25;
 
 /// The warning if a valid number is outside the range. Invalid numbers have errors.
-fn check(value: f64, unit: f64, (range, text): &Rule) -> Option<&'static CStr> {
+fn check(value: f64, unit: f64, (range, text): &Plausible) -> Option<&'static CStr> {
     let plausible = (unit * range.start()).to_bits()..=(unit * range.end()).to_bits();
     let is_outside = in_0_to(f64::MAX, value) && !plausible.contains(&value.abs().to_bits());
     is_outside.then_some(text)
@@ -41,7 +45,7 @@ fn check(value: f64, unit: f64, (range, text): &Rule) -> Option<&'static CStr> {
 /// MPa); if None, it follows from Young's moduli. An implausible dimension or modulus suppresses the warnings of relations.
 fn warnings<P, const K: usize, const M: usize>(
     parameters: &P,
-    dimensions: [(f64, &Rule); K],
+    dimensions: [(f64, &Plausible); K],
     material: &[Material; 2],
     friction_coefficient: f64,
     related: fn(&P) -> [Option<&'static CStr>; M],

@@ -35,7 +35,7 @@ pub(crate) use crate::numerics::guard::TINY;
 use crate::numerics::guard::quotient;
 use crate::numerics::roots::logarithmic_newton;
 use crate::parameters::Common;
-pub(crate) use layer::Layer;
+pub(crate) use layer::LayerCompliance;
 pub(crate) use rounded_flat::size_under_load;
 pub(crate) use rounded_punch::RoundedPunch;
 use tractions::{SurfacePoint, difference_of_heights};
@@ -111,7 +111,7 @@ pub(crate) struct Shape {
     pub reference: (f64, RoundedPunch),
     /// E* \[Pa\].
     pub composite_modulus: f64,
-    pub layer: Layer,
+    pub layer: LayerCompliance,
 }
 
 /// Smallest Λ for which the laws are inverted: the approach is largest at Λ = 0.

@@ -24,12 +24,7 @@ mod state;
 mod step;
 mod tangent;
 
-use crate::law::{Requested, StepResult};
-
 pub use crate::law::Law;
-
-/// Result of a step: forces `[Tx, Ty, N]`, tangent 3 x 3 (column-major), 0 unless requested, and dissipated energy.
-pub type Step = StepResult<[f64; 3], [f64; 9]>;
 
 /// The law of elements with two tangential directions.
 pub struct TwoDirections;

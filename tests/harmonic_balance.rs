@@ -7,7 +7,7 @@ use common::two_directions::{element_of, layer_of, parameters};
 use microslip::element::Element;
 use microslip::parameters::Parameters;
 use microslip::two_directions::harmonic_force::{
-    HarmonicOutput, Workspace, harmonic_force, workspace_init, workspace_length,
+    HarmonicOutput, TwoDirectionsWorkspace, harmonic_force, workspace_init, workspace_length,
 };
 
 const HARMONICS: usize = 3;
@@ -55,7 +55,7 @@ fn solved(mut a: [[f64; UNKNOWNS]; UNKNOWNS], mut b: [f64; UNKNOWNS]) -> [f64; U
 /// The residual over mu N of u and v in units of the displacement of gross slip, and its derivatives.
 fn residual(
     element: &Element,
-    workspace: &mut Workspace,
+    workspace: &mut TwoDirectionsWorkspace,
     frequency: f64,
     motion: &[f64; UNKNOWNS],
 ) -> ([f64; UNKNOWNS], [[f64; UNKNOWNS]; UNKNOWNS]) {
@@ -108,7 +108,7 @@ fn harmonic_balance_with_a_rough_layer_converges_at_every_frequency() {
         for periods in [1, 3, 10] {
             let mut memory = vec![0.0; workspace_length(HARMONICS, SAMPLES)];
             workspace_init(HARMONICS, SAMPLES, periods, &mut memory).unwrap();
-            let mut workspace = Workspace::new(&mut memory).unwrap();
+            let mut workspace = TwoDirectionsWorkspace::new(&mut memory).unwrap();
             let (mut motion, mut most, mut largest) = ([0.0; UNKNOWNS], 0, 0.0f64);
             for step in 0..STEPS {
                 let frequency = FREQUENCIES[0] + FREQUENCIES[1] * step as f64;

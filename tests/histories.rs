@@ -10,10 +10,10 @@ use common::{Random, advance, as_text, harmonic, outputs, seed, unloaded};
 use microslip::constant_load::harmonic_force::Rule;
 use microslip::constant_load::{ConstantLoad, Law};
 use microslip::element::{Directions, Element, NormalInput};
-use microslip::law::StepOf;
+use microslip::law::{StepOf, StepResult};
 use microslip::one_direction::harmonic_force as line;
 use microslip::one_direction::tractions::tractions;
-use microslip::one_direction::{self as varying, OneDirection, Step};
+use microslip::one_direction::{self as varying, OneDirection};
 use microslip::parameters::CENTRE_POINT;
 use microslip::two_directions::TwoDirections;
 use microslip::{Contact, EllipticParameters, Error, Layer, Material, Parameters};
@@ -281,7 +281,7 @@ impl History<'_> {
         History { element, state }
     }
 
-    fn step(&mut self, u: f64, w: f64) -> Step {
+    fn step(&mut self, u: f64, w: f64) -> StepOf<OneDirection> {
         OneDirection::step(self.element, &mut self.state, [u, w]).unwrap()
     }
 }
@@ -291,7 +291,7 @@ fn element_harmonic(element: &Element, samples: usize, motion: &[f64]) -> Result
     outputs(motion.len(), |output| {
         let mut memory = vec![f64::NAN; line::workspace_length(motion.len() / 4, samples)];
         line::workspace_init(motion.len() / 4, samples, &mut memory)?;
-        line::harmonic_force(element, &mut line::Workspace::new(&mut memory)?, motion, output)
+        line::harmonic_force(element, &mut line::OneDirectionWorkspace::new(&mut memory)?, motion, output)
     })
 }
 
@@ -306,7 +306,7 @@ fn second_period(element: &Element, u: &[f64], w: &[f64]) -> (Vec<f64>, Vec<f64>
     let (mut force, mut load, mut energy) = (vec![0.0; samples], vec![0.0; samples], 0.0);
     for step in 1..=2 * samples {
         let n = (start + step) % samples;
-        let Step { force: [tangential, normal], dissipated, .. } = history.step(u[n], w[n]);
+        let StepResult { force: [tangential, normal], dissipated, .. } = history.step(u[n], w[n]);
         (force[n], load[n]) = (tangential, normal);
         energy += if step > samples { dissipated } else { 0.0 };
     }

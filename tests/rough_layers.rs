@@ -5,8 +5,9 @@ mod common;
 use common::Random;
 use common::two_directions::*;
 use microslip::element::{Directions, Element, NormalInput};
+use microslip::law::StepOf;
 use microslip::parameters::{EllipticParameters, Layer, Material, Parameters};
-use microslip::two_directions::Step;
+use microslip::two_directions::TwoDirections;
 use std::f64::consts::TAU;
 
 /// A value between two positive ones, uniform in its logarithm.
@@ -70,8 +71,9 @@ fn long_slides_carry_the_friction_force_and_dissipate_their_work() {
             let to = [from[0] + length * cos, from[1] + length * sin, load];
             let (mut fine, mut short) = (contact.clone(), contact.clone());
             let step = contact.to(to);
-            let missing =
-                |step: &Step| 1.0 - step.force[0].hypot(step.force[1]) / (element.friction_coefficient * load);
+            let missing = |step: &StepOf<TwoDirections>| {
+                1.0 - step.force[0].hypot(step.force[1]) / (element.friction_coefficient * load)
+            };
             let error = missing(&step).abs();
             let of_energy = (step.dissipated / fine.along(from, to, 64) - 1.0).abs();
             assert!(error < 1e-12 && of_energy < 0.07, "{start} {length:e}: {error:e} {of_energy:e}, {element:?}");

@@ -6,9 +6,10 @@ mod common;
 use common::Random;
 use common::two_directions::*;
 use microslip::element::{Directions, Element, NormalInput};
+use microslip::law::StepOf;
 use microslip::one_direction::{self, OneDirection};
 use microslip::parameters::{EllipticParameters, Layer, Material, Parameters, RIGID_STRIP};
-use microslip::two_directions::{Law, Step, TwoDirections};
+use microslip::two_directions::{Law, TwoDirections};
 use std::array::from_fn;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -164,7 +165,7 @@ fn history(element: &Element, steps: usize, random: &mut Random) -> Vec<[f64; 3]
 }
 
 /// The largest difference of tangential forces \[N\].
-fn apart(one: &Step, two: &Step) -> f64 {
+fn apart(one: &StepOf<TwoDirections>, two: &StepOf<TwoDirections>) -> f64 {
     (one.force[0] - two.force[0]).hypot(one.force[1] - two.force[1])
 }
 
@@ -311,7 +312,7 @@ fn a_sphere_has_no_preferred_direction() {
 }
 
 /// A history of an element, displacements and normal components multiplied by factors.
-fn run(element: &Element, history: &[[f64; 3]], factors: [f64; 3]) -> Vec<Step> {
+fn run(element: &Element, history: &[[f64; 3]], factors: [f64; 3]) -> Vec<StepOf<TwoDirections>> {
     let mut contact = Contact::new(element);
     history.iter().map(|to| contact.to([0, 1, 2].map(|i| to[i] * factors[i]))).collect()
 }

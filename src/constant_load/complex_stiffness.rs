@@ -25,7 +25,7 @@ use crate::error::Error;
 use crate::limits::MAX_DISPLACEMENT;
 use crate::numerics::fp_class::in_0_to;
 use crate::numerics::lanes::Lanes;
-use crate::numerics::polynomial::Rows;
+use crate::numerics::polynomial::PolynomialRows;
 use crate::numerics::quadrature::gauss_even;
 use core::f64::consts::PI;
 
@@ -188,9 +188,9 @@ impl Contact {
 
     /// The weights of F in gross slip; 0 without an interpolant, or if Λ is so small that the rule does not converge.
     #[inline(never)]
-    pub(crate) fn weights_of_curve(&self) -> Rows<BLOCKS_IN_SLIP> {
+    pub(crate) fn weights_of_curve(&self) -> PolynomialRows<BLOCKS_IN_SLIP> {
         if !self.interpolant().is_converged() || self.relative_distance_of_zero_compliance() < 0.375 {
-            return Rows::default();
+            return PolynomialRows::default();
         }
         RULE_IN_SLIP.map(|[rho, x, weights]| {
             let x = Lanes(x);

@@ -8,7 +8,7 @@ use crate::limits::{exponent_of, in_range};
 use crate::parameters::{Common, EllipticParameters, PARAMETERS, Parameters, Sensitivity};
 use crate::shape::rounded_flat::reference_slope;
 use crate::shape::stick_zone::StickZones;
-use crate::shape::{Complement, Geometry, Layer, Quantity};
+use crate::shape::{Complement, Geometry, LayerCompliance, Quantity};
 use crate::tag::LAYOUT;
 use core::f64::consts::PI;
 
@@ -88,7 +88,7 @@ impl Contact {
         contact.reference_slope = reference_slope(parameters, half_width);
         let compliance = shape.full_stick();
         let scale = contact.stiffness_scale;
-        let (layer, under_load) = Layer::relative(&parameters.layer, normal_force, scale, compliance)?;
+        let (layer, under_load) = LayerCompliance::relative(&parameters.layer, normal_force, scale, compliance)?;
         contact.zones = StickZones::new(shape.reference.1, compliance, layer);
         contact.set_friction(normal_force, under_load, [half_width, edge_radius, length, composite_modulus])?;
         Ok(contact)
@@ -107,7 +107,8 @@ impl Contact {
         let shape = parameters.shape()?;
         contact.stiffness_scale = 1.0 / shape.compliance(Quantity::Shift, semi_axis_x);
         contact.pressure_scale = normal_force / semi_axis_x / semi_axis_y;
-        let (layer, under_load) = Layer::relative(&parameters.layer, normal_force, contact.stiffness_scale, 1.0)?;
+        let (layer, under_load) =
+            LayerCompliance::relative(&parameters.layer, normal_force, contact.stiffness_scale, 1.0)?;
         contact.zones = StickZones::new(shape.reference.1, 1.0, layer);
         // The radius of the sphere with this semi-axis.
         in_range(&[semi_axis_x, semi_axis_x, semi_axis_x, composite_modulus], &[normal_force])?;
@@ -167,10 +168,10 @@ impl Contact {
         self.sensitivity_scales =
             [self.friction_coefficient, normal_force, by_size, by_radius, by_length, by_modulus, by_compliance];
         let mut inner = INNER_FRACTION;
-        self.interpolant = ForceInterpolant::of(inner, &self.zones);
+        self.interpolant = ForceInterpolant::new(inner, &self.zones);
         if !self.interpolant.is_converged() && self.has_knee() {
             inner = KNEE_FRACTION;
-            self.interpolant = ForceInterpolant::of(inner, &self.zones);
+            self.interpolant = ForceInterpolant::new(inner, &self.zones);
         }
         self.inner_scale = 1.0 / (inner * slip_displacement);
         self.outer_scale = 1.0 / ((1.0 - inner) * slip_displacement);

@@ -4,7 +4,7 @@
 //! follow each other on one branch are one segment, and only its ends are evaluated.
 
 use crate::constant_load::contact::Contact;
-use crate::constant_load::memory::Segment;
+use crate::constant_load::memory::StepSegment;
 use crate::error::Error;
 use crate::numerics::fp_class::in_0_to;
 use crate::shape::Complement;
@@ -56,15 +56,15 @@ impl Contact {
 pub(crate) struct Dissipation<'a> {
     contact: &'a Contact,
     sum: f64,
-    last: Segment,
+    last: StepSegment,
 }
 
 impl<'a> Dissipation<'a> {
     pub fn new(contact: &'a Contact) -> Dissipation<'a> {
-        Dissipation { contact, sum: 0.0, last: Segment { scale: 0.0, start: 0.0, end: 0.0, slip_length: 0.0 } }
+        Dissipation { contact, sum: 0.0, last: StepSegment { scale: 0.0, start: 0.0, end: 0.0, slip_length: 0.0 } }
     }
 
-    pub fn add(&mut self, segment: Segment) {
+    pub fn add(&mut self, segment: StepSegment) {
         if segment.scale == self.last.scale && segment.start == self.last.end {
             self.last.end = segment.end;
             self.last.slip_length += segment.slip_length;
@@ -88,7 +88,7 @@ impl<'a> Dissipation<'a> {
     }
 
     fn add_last(&mut self) {
-        let Segment { scale, start, end, slip_length } = self.last;
+        let StepSegment { scale, start, end, slip_length } = self.last;
         if end > start {
             let difference = self.cycle_energy(end) - self.cycle_energy(start);
             self.sum += 0.25 * scale * if difference > 0.0 { difference } else { 0.0 };

@@ -150,7 +150,7 @@ impl<'a> Curve<'a> {
     }
 
     /// Shift and tangent stiffness at a force over mu N.
-    fn at(&self, force: f64) -> (f64, f64) {
+    fn shift_and_slope(&self, force: f64) -> (f64, f64) {
         let zone = self.zones.at_load(Complement { consumed: force, remaining: 1.0 - force });
         (zone.shift.consumed, 1.0 / self.zones.compliance(&zone))
     }
@@ -160,22 +160,25 @@ impl<'a> Curve<'a> {
         let slip = self.zones.slip_shift;
         let lowered = |force: f64, shift: f64, slope: f64| force - error - from.force - slope * (shift - from.shift);
         let distance = |force: f64| {
-            let (shift, slope) = self.at(force);
+            let (shift, slope) = self.shift_and_slope(force);
             lowered(force, shift, slope)
         };
         // The point of tangency: before gross slip, or at its onset.
         let (tangency, slope) = if lowered(1.0, slip, self.last_slope) > 0.0 {
             let force = root(distance, from.on_curve, 1.0);
-            (force, self.at(force).1)
+            (force, self.shift_and_slope(force).1)
         } else {
             (1.0, (1.0 - error - from.force).max(0.0) / (slip - from.shift).max(f64::MIN_POSITIVE))
         };
         let line = |shift: f64| from.force + slope * (shift - from.shift);
-        let above = |force: f64| line(self.at(force).0) - force - error;
+        let above = |force: f64| line(self.shift_and_slope(force).0) - force - error;
         if tangency < 1.0 && above(1.0) > 0.0 {
             let on_curve = root(above, tangency, 1.0);
             if on_curve + error < 1.0 {
-                return Side { slope, end: Corner { shift: self.at(on_curve).0, force: on_curve + error, on_curve } };
+                return Side {
+                    slope,
+                    end: Corner { shift: self.shift_and_slope(on_curve).0, force: on_curve + error, on_curve },
+                };
             }
         }
         let shift = from.shift + (1.0 - from.force) / slope.max(f64::MIN_POSITIVE);

@@ -120,7 +120,7 @@ impl Contact {
             self.inner::<1, true>(Lanes([displacement]))
         } else {
             let v = root_of(remaining * self.outer_scale);
-            let interval = Interval::of(v);
+            let interval = Interval::new(v);
             if !interval.is_covered() {
                 return None;
             }
@@ -163,13 +163,13 @@ impl Contact {
             while next < count
                 && let Some(v) = block(roots, next)
             {
-                let interval = Interval::of(v[0]);
+                let interval = Interval::new(v[0]);
                 if !interval.is_covered() {
                     break;
                 }
                 let (force, stiffness) = self.outer::<4, STIFFNESS>(interval, Lanes(*v));
                 store::<STIFFNESS>(forces, stiffnesses, next, force.0, stiffness.0);
-                next += leading(v, |v| Interval::of(v) == interval);
+                next += leading(v, |v| Interval::new(v) == interval);
             }
         }
         if next < count {
@@ -190,8 +190,8 @@ impl Contact {
                 stiffnesses = Some(self.inner::<4, true>(displacement).1);
             } else {
                 let roots = ((slip - displacement) * self.outer_scale).map(root_of);
-                let interval = Interval::of(roots.0[0]);
-                let is_one = displacement.0[0] * self.inner_scale > 1.0 && Interval::of(roots.0[3]) == interval;
+                let interval = Interval::new(roots.0[0]);
+                let is_one = displacement.0[0] * self.inner_scale > 1.0 && Interval::new(roots.0[3]) == interval;
                 if is_one && interval.is_covered() {
                     stiffnesses = Some(self.outer::<4, true>(interval, roots).1);
                 }
@@ -241,7 +241,7 @@ impl Contact {
             return Some((Complement { consumed, remaining: 1.0 - consumed }, stiffness));
         }
         let v = root_of(displacement.remaining * self.outer_scale);
-        let interval = Interval::of(v);
+        let interval = Interval::new(v);
         let (Lanes([remaining]), Lanes([slope])) =
             self.interpolant().complements_and_slopes::<1, true>(interval, Lanes([v]));
         interval

@@ -43,8 +43,8 @@ impl Rule {
     pub fn workspace_length(self, harmonics: usize, samples: usize) -> usize {
         let size = Size { harmonics, samples, periods: 0 };
         match self {
-            Rule::UniformSampling => uniform_sampling::Workspace::length_or_zero(size),
-            Rule::EventDriven => event_driven::Workspace::length_or_zero(size),
+            Rule::UniformSampling => uniform_sampling::UniformWorkspace::length_or_zero(size),
+            Rule::EventDriven => event_driven::EventWorkspace::length_or_zero(size),
         }
     }
 
@@ -54,8 +54,8 @@ impl Rule {
     pub fn workspace_init(self, harmonics: usize, samples: usize, workspace: &mut [f64]) -> Result<(), Error> {
         let size = Size { harmonics, samples, periods: 0 };
         match self {
-            Rule::UniformSampling => uniform_sampling::Workspace::init(size, workspace),
-            Rule::EventDriven => event_driven::Workspace::init(size, workspace),
+            Rule::UniformSampling => uniform_sampling::UniformWorkspace::init(size, workspace),
+            Rule::EventDriven => event_driven::EventWorkspace::init(size, workspace),
         }
     }
 }
@@ -64,10 +64,10 @@ impl Rule {
 ///
 /// Errors: `BadWorkspace` if uninitialised.
 pub(crate) fn workspace_size(header: &[f64; HEADER]) -> Result<(Rule, Size, usize), Error> {
-    let (rule, (size, length)) = if event_driven::Workspace::KIND.is_tag(header[0]) {
-        (Rule::EventDriven, event_driven::Workspace::read(header)?)
+    let (rule, (size, length)) = if event_driven::EventWorkspace::KIND.is_tag(header[0]) {
+        (Rule::EventDriven, event_driven::EventWorkspace::read(header)?)
     } else {
-        (Rule::UniformSampling, uniform_sampling::Workspace::read(header)?)
+        (Rule::UniformSampling, uniform_sampling::UniformWorkspace::read(header)?)
     };
     Ok((rule, size, length))
 }
@@ -78,8 +78,8 @@ pub struct Workspace<'a>(ByRule<'a>);
 
 #[derive(Debug)]
 enum ByRule<'a> {
-    UniformSampling(uniform_sampling::Workspace<'a>),
-    EventDriven(event_driven::Workspace<'a>),
+    UniformSampling(uniform_sampling::UniformWorkspace<'a>),
+    EventDriven(event_driven::EventWorkspace<'a>),
 }
 
 impl<'a> Workspace<'a> {
@@ -94,8 +94,10 @@ impl<'a> Workspace<'a> {
     /// Errors: `BadWorkspace` if too short.
     pub(crate) fn of_size(rule: Rule, size: Size, memory: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
         Ok(Workspace(match rule {
-            Rule::UniformSampling => ByRule::UniformSampling(uniform_sampling::Workspace::of_size(size, memory)?),
-            Rule::EventDriven => ByRule::EventDriven(event_driven::Workspace::of_size(size, memory)?),
+            Rule::UniformSampling => {
+                ByRule::UniformSampling(uniform_sampling::UniformWorkspace::of_size(size, memory)?)
+            }
+            Rule::EventDriven => ByRule::EventDriven(event_driven::EventWorkspace::of_size(size, memory)?),
         }))
     }
 
@@ -170,7 +172,7 @@ pub(crate) fn harmonic_sensitivity(
 
 /// Quantities requested at each point of the curve.
 #[derive(Debug, Clone, Copy, Default)]
-struct Requested {
+struct RequestedOfCurve {
     force: bool,
     stiffness: bool,
 }

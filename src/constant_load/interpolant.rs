@@ -15,7 +15,7 @@
 //! The decrease of the tangent stiffness is interpolated and the force obtained by integration, so that the rounding errors of both
 //! scale with the curvature of the curve and not with the stiffness.
 
-use crate::numerics::chebyshev::{Interpolant, Polynomial, TERMS, Tangent, powers};
+use crate::numerics::chebyshev::{Interpolant, Polynomial, SeriesPoint, TERMS, powers};
 use crate::numerics::const_math::tabulate;
 use crate::numerics::guard::{TINY, root};
 use crate::numerics::lanes::Lanes;
@@ -77,7 +77,7 @@ pub(crate) struct ForceInterpolant {
 impl ForceInterpolant {
     /// The interpolant of a curve, given the fraction of its first polynomial.
     #[inline(never)]
-    pub fn of(inner_fraction: f64, zones: &StickZones) -> ForceInterpolant {
+    pub fn new(inner_fraction: f64, zones: &StickZones) -> ForceInterpolant {
         let (slip_shift, compliance) = (zones.slip_shift, zones.small_load.compliance);
         let at_remaining: &mut dyn FnMut(f64) -> LoadPoint = &mut zones.sequence();
         let (first, remaining) = (inner_fraction * slip_shift, (1.0 - inner_fraction) * slip_shift);
@@ -86,7 +86,7 @@ impl ForceInterpolant {
                 at_remaining(slip_shift - 0.5 * (1.0 - z) * first);
             let stiffness = 1.0 / (compliance + increase);
             let slope = 0.5 * first * compliance * curvature * stiffness * stiffness * stiffness;
-            Tangent { value: increase * stiffness, slope }
+            SeriesPoint { value: increase * stiffness, slope }
         });
         // From x = 0 on; the points are symmetric.
         tangents.reverse();
@@ -157,7 +157,7 @@ impl ForceInterpolant {
             roots[k] = eighth_root(rho[k] * (1.0 / END_OF_PIECES));
         }
         for k in 0..N {
-            let place = DyadicPlace::of(roots[k], LAST_PIECES);
+            let place = DyadicPlace::new(roots[k], LAST_PIECES);
             // Every place is on a piece; the other polynomial only spares a check that could fail.
             let piece = self.last.get(place.piece).unwrap_or(&self.inner);
             slopes[k] = place.product_slope(value_and_slope(piece, place.z));
@@ -176,9 +176,9 @@ struct DyadicPlace {
 
 impl DyadicPlace {
     /// The place of an eighth root on one of some pieces, that of the end of the last one if it is below.
-    pub fn of(root: f64, pieces: usize) -> DyadicPlace {
+    pub fn new(root: f64, pieces: usize) -> DyadicPlace {
         let root = root.max(f64::from_bits((1023 - pieces as u64) << 52));
-        let Interval(exponent) = Interval::of(root);
+        let Interval(exponent) = Interval::new(root);
         DyadicPlace { piece: (1022 - exponent) as usize, z: 4.0 * (power_of(exponent) * root) - 3.0 }
     }
 
@@ -214,7 +214,7 @@ pub(crate) struct Interval(u64);
 
 impl Interval {
     /// 2⁻ʲ is the next power of 2 above the root; 1 belongs to the first interval.
-    pub fn of(root: f64) -> Interval {
+    pub fn new(root: f64) -> Interval {
         Interval((root.to_bits() >> 52).min(1022))
     }
 
@@ -242,7 +242,7 @@ fn last_pieces(
             let point = at_remaining(remaining * rho);
             let value = point.remaining / rho;
             let tangent = remaining / (compliance + point.compliance_increase);
-            Tangent { value, slope: 8.0 / (3.0 + z) * (tangent - value) }
+            SeriesPoint { value, slope: 8.0 / (3.0 + z) * (tangent - value) }
         };
         // The share in an integral is at most a 16th of that of the piece before.
         *polynomial = match piece {
@@ -266,7 +266,7 @@ fn interpolate(compliance: f64, unit: f64, at: &mut dyn FnMut(f64) -> LoadPoint,
         let stiffness = 1.0 / (compliance + increase);
         let (r, ratio) = (3.0 + z, (increase - first) * stiffness);
         let slope = (compliance + first) * curvature * stiffness * stiffness * stiffness;
-        Tangent { value: r * ratio, slope: ratio - r * r * unit * slope }
+        SeriesPoint { value: r * ratio, slope: ratio - r * r * unit * slope }
     });
     let decrease = Interpolant::<TERMS>::osculating(&tangents);
     let stiffness = unit / (compliance + first.unwrap_or(0.0));

@@ -6,11 +6,12 @@ use crate::constant_load::ConstantLoad;
 use crate::constant_load::contact::Contact;
 use crate::constant_load::energy::Dissipation;
 use crate::constant_load::evaluator::{BEYOND, Response};
+use crate::constant_load::harmonic_force::{HarmonicOutput, Workspace, harmonic_force};
 use crate::constant_load::memory::{Branch, InitialCurve, Memory, Merge, Point, Transition, force_error};
 use crate::constant_load::state::{self, HEADER, PER_REVERSAL};
 use crate::error::Error;
-use crate::law::{Law, PathOutput, Requested, StepResult};
-use crate::limits::check_displacement;
+use crate::law::{Law, PathOutput, Requested, StepOf, StepResult};
+use crate::limits::{check_coefficients, check_displacement};
 use crate::numerics::fp_class::is_finite;
 use crate::numerics::total::Total;
 use crate::tag::{Kind, is_count};
@@ -130,8 +131,8 @@ fn dissipated(contact: &Contact, state: &[f64], displacement: f64) -> f64 {
 }
 
 impl StepRecord {
-    fn result(&self, dissipated: f64) -> Step {
-        Step { force: self.end.force, tangent: self.stiffness, dissipated }
+    fn result(&self, dissipated: f64) -> StepOf<ConstantLoad> {
+        StepResult { force: self.end.force, tangent: self.stiffness, dissipated }
     }
 
     /// Writes the step into the state from which it was found, or into a copy of that.
@@ -152,6 +153,7 @@ impl Law for ConstantLoad {
     type Item = Contact;
     type Vector = f64;
     type Tangent = f64;
+    type Workspace<'a> = Workspace<'a>;
 
     const STATE_LENGTH: usize = state::state_length(0);
     const STATE: Kind = Kind::State;
@@ -162,6 +164,19 @@ impl Law for ConstantLoad {
 
     fn contains_counted(state: &[f64]) -> bool {
         state::depth(state).is_some_and(|depth| depth <= state.len().saturating_sub(HEADER) / PER_REVERSAL)
+    }
+
+    fn check_motion(_: &Contact, _: &mut Workspace, motion: &[f64]) -> Result<(), Error> {
+        check_coefficients(motion)
+    }
+
+    fn harmonic_force(
+        contact: &Contact,
+        workspace: &mut Workspace,
+        motion: &[f64],
+        output: HarmonicOutput,
+    ) -> Result<(), Error> {
+        harmonic_force(contact, workspace, motion, output)
     }
 
     fn check_step(_: &Contact, displacement: &f64) -> Result<(), Error> {
@@ -198,19 +213,19 @@ impl Law for ConstantLoad {
         force_error(state::memory(state).reversals)
     }
 
-    fn trial(contact: &Contact, state: &[f64], displacement: f64, requested: Requested) -> Step {
+    fn trial(contact: &Contact, state: &[f64], displacement: f64, requested: Requested) -> StepOf<ConstantLoad> {
         let energy = energy_if(requested, contact, state, displacement);
         match continued(contact, state, displacement) {
-            Some(Response { force, stiffness }) => Step { force, tangent: stiffness, dissipated: energy },
+            Some(Response { force, stiffness }) => StepResult { force, tangent: stiffness, dissipated: energy },
             None => step(contact, state, displacement).result(energy),
         }
     }
 
-    fn advance(contact: &Contact, state: &mut [f64], displacement: f64, requested: Requested) -> Step {
+    fn advance(contact: &Contact, state: &mut [f64], displacement: f64, requested: Requested) -> StepOf<ConstantLoad> {
         let energy = energy_if(requested, contact, state, displacement);
         if let Some(Response { force, stiffness }) = continued(contact, state, displacement) {
             state::set_point(state, Point { displacement, force });
-            return Step { force, tangent: stiffness, dissipated: energy };
+            return StepResult { force, tangent: stiffness, dissipated: energy };
         }
         let step = step(contact, state, displacement);
         step.write(state);
@@ -227,9 +242,6 @@ impl Law for ConstantLoad {
         Self::path(contact, copy, path, output);
     }
 }
-
-/// Result of a step: force, tangent stiffness and dissipated energy.
-pub type Step = StepResult<f64, f64>;
 
 fn energy_if(requested: Requested, contact: &Contact, state: &[f64], displacement: f64) -> f64 {
     if requested.energy { dissipated(contact, state, displacement) } else { 0.0 }

@@ -8,7 +8,7 @@
 //! Branches are located by comparing displacements only; no force is evaluated.
 //!
 //! A reversal is stored as `[displacement, force, error]`. The error bounds what reversals that were merged away would change in
-//! the force of the branch that leaves this reversal; it is 0 unless the stack was full (see [`merge`]).
+//! the force of the branch that leaves this reversal; it is 0 unless the stack was full (see [`Merge`]).
 
 use crate::constant_load::contact::Contact;
 use crate::numerics::total::Total;
@@ -96,7 +96,7 @@ impl Branch {
 
 /// One segment of a step, on one branch: both ends as displacements on the monotonic curve.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Segment {
+pub(crate) struct StepSegment {
     /// Masing scale of the branch.
     pub scale: f64,
     pub start: f64,
@@ -190,7 +190,7 @@ impl Memory<'_> {
 
     /// Locates the branch on which a displacement lies, closing loops on the way; `on_segment` is called for each segment.
     /// A step of zero continues the present branch. Without friction there is nothing to remember.
-    pub fn locate(&self, contact: &Contact, target: f64, mut on_segment: impl FnMut(Segment)) -> Transition {
+    pub fn locate(&self, contact: &Contact, target: f64, mut on_segment: impl FnMut(StepSegment)) -> Transition {
         let from = self.now.displacement;
         let heading = self.heading();
         let change = if target == from { heading } else { target - from };
@@ -220,13 +220,13 @@ impl Memory<'_> {
         contact: &Contact,
         mut branch: Branch,
         target: f64,
-        mut on_segment: impl FnMut(Segment),
+        mut on_segment: impl FnMut(StepSegment),
     ) -> Branch {
         let (mut at, slip_displacement) = (self.now.displacement, contact.slip_displacement);
         while !branch.contains(target) {
             let segment = branch.segment(slip_displacement, at, branch.end);
             // The initial loading curve ends at gross slip exactly.
-            on_segment(Segment { end: if branch.depth == 0 { slip_displacement } else { segment.end }, ..segment });
+            on_segment(StepSegment { end: if branch.depth == 0 { slip_displacement } else { segment.end }, ..segment });
             at = branch.end;
             branch = self.continuation(contact, &branch);
         }
@@ -237,12 +237,12 @@ impl Memory<'_> {
 
 impl Branch {
     /// The segment of the branch between two displacements.
-    pub fn segment(&self, slip_displacement: f64, from: f64, to: f64) -> Segment {
+    pub fn segment(&self, slip_displacement: f64, from: f64, to: f64) -> StepSegment {
         if self.gross_slip {
-            return Segment { scale: 1.0, start: 0.0, end: 0.0, slip_length: (to - from).abs() };
+            return StepSegment { scale: 1.0, start: 0.0, end: 0.0, slip_length: (to - from).abs() };
         }
         let start = self.distance(slip_displacement, from);
-        Segment { scale: self.scale, start, end: self.distance(slip_displacement, to), slip_length: 0.0 }
+        StepSegment { scale: self.scale, start, end: self.distance(slip_displacement, to), slip_length: 0.0 }
     }
 }
 

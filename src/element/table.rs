@@ -85,7 +85,7 @@ impl Table {
 
     /// y and, if requested, dy/dx at some arguments; `None` if one is outside.
     #[inline(always)]
-    pub fn at<const SLOPES: bool, const L: usize>(&self, x: &[f64; L]) -> Option<([f64; L], [f64; L])> {
+    pub fn values<const SLOPES: bool, const L: usize>(&self, x: &[f64; L]) -> Option<([f64; L], [f64; L])> {
         let mut rows = [&[0.0; TERMS]; L];
         for (row, x) in rows.iter_mut().zip(x) {
             *row = self.quarters.0.get((x.to_bits() >> SHIFT).wrapping_sub(self.base) as usize)?;
@@ -122,7 +122,7 @@ impl Table {
     /// y and dy/dx at an argument; `None` outside the table.
     #[inline(always)]
     pub fn one_at(&self, x: f64) -> Option<(f64, f64)> {
-        self.at::<true, 1>(&[x]).map(|([value], [slope])| (value, slope))
+        self.values::<true, 1>(&[x]).map(|([value], [slope])| (value, slope))
     }
 
     /// The smallest argument inside.
@@ -137,12 +137,12 @@ impl Table {
         let &[first, .., last] = x;
         quarter.enter(self, first)?;
         if quarter.number == last.to_bits() >> SHIFT {
-            return Some(quarter.at(x));
+            return Some(quarter.values(x));
         }
         let mut values = [0.0; 4];
         for (value, &x) in values.iter_mut().zip(x) {
             quarter.enter(self, x)?;
-            [*value] = quarter.at(&[x]);
+            [*value] = quarter.values(&[x]);
         }
         Some(values)
     }
@@ -220,7 +220,7 @@ impl Curvature {
     }
 
     #[inline(always)]
-    fn at<const N: usize>(&self, x: &[f64; N]) -> [f64; N] {
+    fn values<const N: usize>(&self, x: &[f64; N]) -> [f64; N] {
         let t = x.map(position_in);
         let mut sum = [0.0; N];
         for &[c0, c1, c2, c3] in self.powers.blocks::<4>().iter().rev() {
@@ -263,7 +263,7 @@ static MONIC_CHEBYSHEV: [[f64; ORDER]; ORDER - TERMS] = monic_powers(0.0, 1.0);
 mod tests {
     use super::*;
     use crate::constant_load::contact::tests::parameters;
-    use crate::shape::{Geometry, Layer, Quantity};
+    use crate::shape::{Geometry, LayerCompliance, Quantity};
 
     /// The largest errors are at the lower end of a quarter, for flats with short edges. They are those that the guide states.
     #[test]
@@ -280,13 +280,13 @@ mod tests {
                     reference_load: 0.0,
                 };
                 let mut both = *shape;
-                (both.layer, _) = Layer::new(&layer, 150.0).unwrap();
+                (both.layer, _) = LayerCompliance::new(&layer, 150.0).unwrap();
                 let largest = both.value(Quantity::Approach, shape.at_load(150.0));
                 let mut table = Table::default();
                 let at = |x: f64| both.size_at(Quantity::Approach, x);
                 Table::fill([&mut table], largest, &mut |x| [both.series(at(x), Quantity::Approach)[0]]);
                 let mut x = largest;
-                while let Some(([load], _)) = table.at::<true, 1>(&[x]) {
+                while let Some(([load], _)) = table.values::<true, 1>(&[x]) {
                     worst = worst.max((load / shape.load(at(x)) - 1.0).abs());
                     // The lower end, then another quarter.
                     let low = f64::from_bits(x.to_bits() >> SHIFT << SHIFT);

@@ -8,12 +8,11 @@ use super::{mslip_contact, mslip_element};
 use crate::constant_load::ConstantLoad;
 use crate::constant_load::complex_stiffness::{check_amplitude, requested as stiffness_requested, write_values};
 use crate::constant_load::contact::Contact;
-use crate::constant_load::harmonic_force::{HarmonicOutput, harmonic_force};
+use crate::constant_load::harmonic_force::HarmonicOutput;
 use crate::element::{Directions, Element};
 use crate::error::Error;
 use crate::fourier::workspace::Layout;
 use crate::law::{Law, PathOutput, Requested};
-use crate::limits::check_coefficients;
 use crate::numerics::total::Total;
 use core::{ptr, slice};
 use libc::size_t;
@@ -259,21 +258,19 @@ fn prefetch<const LINES: usize>(state: *const f64) {
 }
 
 /// Harmonic forces of all active items, with displacements of `one` coefficients.
-unsafe fn harmonic_forces<L: Law, W>(
+unsafe fn harmonic_forces<L: Law>(
     items: Items<L::Item>,
-    workspace: &mut W,
+    workspace: &mut L::Workspace<'_>,
     one: usize,
     displacement: *const f64,
     [force, jacobian, dissipated, drift]: [*mut f64; 4],
-    check: impl Fn(&mut W, &L::Item, &[f64]) -> Result<(), Error>,
-    compute: impl Fn(&L::Item, &mut W, &[f64], HarmonicOutput) -> Result<(), Error>,
 ) -> Result<(), Failure> {
     check_length::<f64>(items.n.checked_mul(one * one).ok_or(Error::BadArraySize)?)?;
     [force, jacobian, dissipated, drift].iter().try_for_each(|output| check_alignment(*output))?;
     check_input(displacement, items.n)?;
     // The arrays of an element with another number of directions are shorter: its coefficients are referenced after its check.
     let displacement_of = |i: usize| slice::from_raw_parts(displacement.wrapping_add(i * one), one);
-    items.check::<L>(|i, law| check(workspace, law, displacement_of(i)))?;
+    items.check::<L>(|i, item| L::check_motion(item, workspace, displacement_of(i)))?;
     items.with(|i| Some(displacement_of(i))).try_for_each(|(i, law, displacement)| {
         let output = HarmonicOutput {
             force: requested(item_of(force, i * one), one),
@@ -281,7 +278,7 @@ unsafe fn harmonic_forces<L: Law, W>(
             dissipated: item_of(dissipated, i).as_mut(),
             drift: item_of(drift, i).as_mut(),
         };
-        Ok(compute(law, workspace, displacement, output)?)
+        Ok(L::harmonic_force(law, workspace, displacement, output)?)
     })
 }
 
@@ -366,8 +363,8 @@ pub unsafe extern "C" fn mslip_batch_harmonic_force(
         let items = Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?;
         let (mut workspace, outputs) =
             (pointers::workspace(workspace)?, [force, jacobian, dissipated, ptr::null_mut()]);
-        let (one, check) = (workspace.coefficients(), |_: &mut _, _: &_, u: &[f64]| check_coefficients(u));
-        harmonic_forces::<ConstantLoad, _>(items, &mut workspace, one, displacement, outputs, check, harmonic_force)
+        let one = workspace.coefficients();
+        harmonic_forces::<ConstantLoad>(items, &mut workspace, one, displacement, outputs)
     })
 }
 
@@ -434,10 +431,9 @@ pub(super) unsafe fn element_harmonic_forces(
     outputs: [*mut f64; 4],
 ) -> Result<(), Failure> {
     let (directions, size, extent) = pointers::element_workspace_size(workspace)?;
-    with_law!(directions, L, law => {
-        let mut workspace = law::Workspace::of_size(size, output(workspace, extent)?.ok_or(Error::BadWorkspace)?)?;
-        let one = (directions as usize + 1) * size.coefficients();
-        let (check, compute) = (law::Workspace::check, law::harmonic_force);
-        harmonic_forces::<L, _>(items, &mut workspace, one, displacement, outputs, check, compute)
+    let memory = output(workspace, extent)?.ok_or(Error::BadWorkspace)?;
+    let one = (directions as usize + 1) * size.coefficients();
+    with_law!(directions, L => {
+        harmonic_forces::<L>(items, &mut <L as Law>::Workspace::of_size(size, memory)?, one, displacement, outputs)
     })
 }

@@ -8,6 +8,7 @@ use crate::constant_load::harmonic_force::{self, HarmonicOutput, Rule, harmonic_
 use crate::element::Directions;
 use crate::error::Error;
 use crate::fourier::workspace::{Layout, Size};
+use crate::law::Law;
 use crate::parameters::PARAMETERS;
 use core::ptr;
 use libc::size_t;
@@ -87,8 +88,7 @@ pub extern "C" fn mslip_element_workspace_length(
     rule: i32,
 ) -> size_t {
     let size = Size { harmonics, samples, periods: 0 };
-    let length =
-        |directions| with_law!(directions, _L, harmonic_force => harmonic_force::Workspace::length_or_zero(size));
+    let length = |directions| with_law!(directions, L => <L as Law>::Workspace::length_or_zero(size));
     check_element_rule(directions, rule).map_or(0, length)
 }
 
@@ -112,7 +112,7 @@ pub unsafe extern "C" fn mslip_element_workspace_init(
         let directions = check_element_rule(directions, rule)?;
         let memory = memory(workspace_length, workspace)?;
         let size = Size { harmonics, samples, periods };
-        with_law!(directions, _L, harmonic_force => harmonic_force::Workspace::init(size, memory))
+        with_law!(directions, L => <L as Law>::Workspace::init(size, memory))
     })
 }
 

@@ -11,6 +11,7 @@ use crate::constant_load::harmonic_force::{Workspace, workspace_size};
 use crate::element::{Directions, Element};
 use crate::error::Error;
 use crate::fourier::workspace::{HEADER, Layout, Size};
+use crate::law::Law;
 use core::{ptr, slice};
 
 /// The status of a call.
@@ -153,26 +154,24 @@ pub unsafe fn workspace<'a>(pointer: *mut f64) -> Result<Workspace<'a>, Error> {
 pub unsafe fn element_workspace_size(pointer: *const f64) -> Result<(Directions, Size, usize), Error> {
     let header = workspace_header(pointer)?;
     let read_as = |directions| {
-        with_law!(directions, _L, harmonic_force => {
-            let (size, length) = harmonic_force::Workspace::read(&header)?;
+        with_law!(directions, L => {
+            let (size, length) = <L as Law>::Workspace::read(&header)?;
             Ok((directions, size, length))
         })
     };
     read_as(Directions::One).or_else(|_: Error| read_as(Directions::Two))
 }
 
-/// Evaluates an expression in which `$law` is the law for a number of directions, and `$harmonic_force` the module of its harmonic force.
+/// Evaluates an expression in which `$law` is the law for a number of directions.
 macro_rules! with_law {
-    ($directions:expr, $law:ident $(, $harmonic_force:ident)? => $result:expr) => {
+    ($directions:expr, $law:ident => $result:expr) => {
         match $directions {
             $crate::element::Directions::One => {
                 type $law = $crate::one_direction::OneDirection;
-                $(use $crate::one_direction::harmonic_force as $harmonic_force;)?
                 $result
             }
             $crate::element::Directions::Two => {
                 type $law = $crate::two_directions::TwoDirections;
-                $(use $crate::two_directions::harmonic_force as $harmonic_force;)?
                 $result
             }
         }

@@ -98,8 +98,8 @@ impl<'a> Rows<'a> {
 impl<const N: usize> RowStrips<'_, N> {
     /// The sum of φ over `count` samples, from sample `from` to the one before `to`.
     pub fn sum_between(&self, from: usize, to: usize, count: usize) -> Strip<N> {
-        let mut sum = self.antiderivatives.at(to);
-        add_scaled(&mut sum, -1.0, &self.antiderivatives.at(from));
+        let mut sum = self.antiderivatives.or_zero(to);
+        add_scaled(&mut sum, -1.0, &self.antiderivatives.or_zero(from));
         if self.is_first {
             sum.as_flattened_mut().set(0, count as f64);
         }
@@ -133,13 +133,13 @@ pub(crate) struct OuterProducts<'a> {
 
 /// One strip of the rows of [`OuterProducts`].
 #[derive(Debug)]
-pub(crate) struct Terms<'a, const N: usize, const D: usize> {
+pub(crate) struct StripTerms<'a, const N: usize, const D: usize> {
     pub count: &'a mut usize,
     pub y: &'a mut [[Strip<N>; D]],
     phi: &'a mut [Strip<N>],
 }
 
-impl<const N: usize, const D: usize> Terms<'_, N, D> {
+impl<const N: usize, const D: usize> StripTerms<'_, N, D> {
     /// Appends a term.
     pub fn push(&mut self, y: [Strip<N>; D], phi: &Strip<N>) {
         self.y.set(*self.count, y);
@@ -165,10 +165,10 @@ impl<'a> OuterProducts<'a> {
     }
 
     /// A strip of the terms with D rows of each, emptied: the same number must be appended to each strip.
-    pub fn terms<const N: usize, const D: usize>(&mut self, strip: usize) -> Terms<'_, N, D> {
+    pub fn terms<const N: usize, const D: usize>(&mut self, strip: usize) -> StripTerms<'_, N, D> {
         let range = strip * self.capacity..(strip + 1) * self.capacity;
         self.count = 0;
-        Terms {
+        StripTerms {
             count: &mut self.count,
             y: self.y.blocks_mut::<N>().blocks_mut().part_mut(range.clone()),
             phi: self.phi.blocks_mut().part_mut(range),
@@ -192,7 +192,7 @@ impl<'a> OuterProducts<'a> {
                 for pair in 0..2 * N {
                     let (mut one, mut two) = ([[0.0; 4]; N], [[0.0; 4]; N]);
                     for (y, phi) in y_rows.chunks_exact(of_each).zip(phi) {
-                        let (row, phi) = (y.at(index), phi.as_flattened());
+                        let (row, phi) = (y.or_zero(index), phi.as_flattened());
                         add_scaled(&mut one, phi[2 * pair], &row);
                         add_scaled(&mut two, phi[2 * pair + 1], &row);
                     }

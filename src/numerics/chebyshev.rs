@@ -1,14 +1,14 @@
 //! Interpolation at Chebyshev points, of values or of values and slopes. For a smooth function the trailing coefficients estimate the error.
 
 use super::const_math::{cosine, tabulate};
-use crate::numerics::polynomial::Rows;
+use crate::numerics::polynomial::PolynomialRows;
 use crate::numerics::total::Total;
 
 /// Number of coefficients of a polynomial, and largest number of interpolation points.
 pub(crate) const TERMS: usize = 20;
 
 /// A polynomial in rows of four coefficients.
-pub(crate) type Polynomial = Rows<{ TERMS / 4 }>;
+pub(crate) type Polynomial = PolynomialRows<{ TERMS / 4 }>;
 
 /// Coefficients of the powers of z in T_n(shift + scale z), at `[n][power]`: integers, exact below 2⁵³.
 const fn powers_in<const N: usize>(shift: f64, scale: f64) -> [[f64; N]; N] {
@@ -45,7 +45,7 @@ pub(crate) static RECIPROCALS: [f64; TERMS] = tabulate!(TERMS, |n| 1.0 / (n as f
 
 /// Value and slope of a function at a point.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Tangent {
+pub(crate) struct SeriesPoint {
     pub value: f64,
     pub slope: f64,
 }
@@ -80,7 +80,7 @@ impl<const N: usize> Interpolant<N> {
     /// At the M points T_M+k = -T_M-k, and sin θ dT_n/dz = n sin nθ has the same value for both. So the transforms
     /// `a_m = 2/M Σ f cos mθ` and `b_m = 2/M Σ f' sin θ sin mθ` equal `c_m - c_2M-m` and `m c_m + (2M-m) c_2M-m`.
     #[inline(never)]
-    pub fn osculating<const M: usize>(tangents: &[Tangent; M]) -> Interpolant<N> {
+    pub fn osculating<const M: usize>(tangents: &[SeriesPoint; M]) -> Interpolant<N> {
         const { assert!(N == 2 * M) };
         let mut coefficients = [0.0; N];
         let (values, slopes) = coefficients.split_at_mut(M);
@@ -170,7 +170,7 @@ fn add_triangle(powers: &mut [f64], factors: &[f64], table: &[f64], width: usize
 
 /// Powers of z of a Chebyshev series, without the terms at its end that are rounding errors or exceed the rows: their derivatives would
 /// be n² times as large.
-pub(crate) fn powers<const R: usize>(series: &[f64]) -> Rows<R> {
+pub(crate) fn powers<const R: usize>(series: &[f64]) -> PolynomialRows<R> {
     let mut result = [[0.0; 4]; R];
     add_powers(result.as_flattened_mut(), series);
     result

@@ -4,10 +4,10 @@ use super::const_math::tabulate;
 use super::lanes::Lanes;
 
 /// Coefficients of x⁰, x¹, ... in rows of four.
-pub(crate) type Rows<const R: usize> = [[f64; 4]; R];
+pub(crate) type PolynomialRows<const R: usize> = [[f64; 4]; R];
 
 /// Arranges coefficients in rows.
-pub(crate) const fn rows<const N: usize, const R: usize>(terms: &[f64; N]) -> Rows<R> {
+pub(crate) const fn rows<const N: usize, const R: usize>(terms: &[f64; N]) -> PolynomialRows<R> {
     assert!(N == 4 * R);
     tabulate!(R, |r| [terms[4 * r], terms[4 * r + 1], terms[4 * r + 2], terms[4 * r + 3]])
 }
@@ -27,7 +27,7 @@ pub(crate) fn sum<'a>(rows: impl DoubleEndedIterator<Item = [f64; 4]> + 'a, x: f
 
 /// Value and derivative at x. Each vector is a pair of an even and an odd power.
 #[inline(always)]
-pub(crate) fn value_and_slope<const R: usize>(rows: &Rows<R>, x: f64) -> (f64, f64) {
+pub(crate) fn value_and_slope<const R: usize>(rows: &PolynomialRows<R>, x: f64) -> (f64, f64) {
     let square = x * x;
     let step = square * square;
     let ([mut low, mut high], [mut low_slope, mut high_slope]) = ([Lanes::<2>::ZERO; 2], [Lanes::<2>::ZERO; 2]);
@@ -51,7 +51,7 @@ pub(crate) fn value_and_slope<const R: usize>(rows: &Rows<R>, x: f64) -> (f64, f
 /// [`value_and_slope`] at L places, with the same bits. Without slopes these are 0.
 #[inline(always)]
 pub(crate) fn values_and_slopes<const R: usize, const L: usize, const SLOPES: bool>(
-    rows: &Rows<R>,
+    rows: &PolynomialRows<R>,
     x: Lanes<L>,
 ) -> (Lanes<L>, Lanes<L>) {
     let zero = Lanes([0.0; L]);

@@ -29,8 +29,8 @@ impl<T: Zero, const N: usize> Zero for [T; N] {
 }
 
 pub(crate) trait Total<T> {
-    /// The value at an index.
-    fn at(&self, index: usize) -> T;
+    /// The value at an index; 0 beyond the end.
+    fn or_zero(&self, index: usize) -> T;
 
     /// Stores a value at an index; whether it is inside.
     fn set(&mut self, index: usize, value: T) -> bool;
@@ -48,7 +48,7 @@ pub(crate) trait Total<T> {
 }
 
 impl<T: Zero> Total<T> for [T] {
-    fn at(&self, index: usize) -> T {
+    fn or_zero(&self, index: usize) -> T {
         match self.get(index) {
             Some(value) => *value,
             None => T::zero(),
@@ -112,7 +112,7 @@ mod tests {
     fn outside_is_zero_and_not_stored() {
         let mut values = [1.0, 2.0];
         let values = values.as_mut_slice();
-        assert_eq!([values.at(1), values.at(2), values.at(usize::MAX)], [2.0, 0.0, 0.0]);
+        assert_eq!([values.or_zero(1), values.or_zero(2), values.or_zero(usize::MAX)], [2.0, 0.0, 0.0]);
         assert!(values.set(0, 3.0) && !values.set(2, 4.0));
         assert_eq!((values.part(..1), values.part(1..3)), ([3.0].as_slice(), [].as_slice()));
         let mut stack = Stack { values, depth: 1 };

@@ -66,7 +66,7 @@ pub(crate) fn slope(falling: f64, rising: f64) -> f64 {
 
 /// Force and derivatives at the end of a step: ∂T/∂u and ∂T/∂(input).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Response {
+pub(crate) struct DiagramForce {
     pub force: f64,
     pub by_displacement: f64,
     pub by_input: f64,
@@ -108,7 +108,7 @@ impl End {
 }
 
 /// The step to a closed contact with the given normal state at the displacement u.
-pub(crate) fn step(element: &Element, diagram: &mut impl Diagram, displacement: f64, normal: &Normal) -> Response {
+pub(crate) fn step(element: &Element, diagram: &mut impl Diagram, displacement: f64, normal: &Normal) -> DiagramForce {
     let mu = element.friction_coefficient;
     let (xi, eta) = (displacement - mu * normal.shift, displacement + mu * normal.shift);
     let end = End { friction_coefficient: mu, xi, eta, normal: *normal };
@@ -124,7 +124,7 @@ pub(crate) fn step(element: &Element, diagram: &mut impl Diagram, displacement: 
 }
 
 /// Gross slip: one piece of slope ±mu.
-fn slip_grossly(diagram: &mut impl Diagram, displacement: f64, end: &End) -> Response {
+fn slip_grossly(diagram: &mut impl Diagram, displacement: f64, end: &End) -> DiagramForce {
     let &End { friction_coefficient: mu, xi, eta, normal: Normal { load, load_slope, .. } } = end;
     let knots = diagram.knots();
     let centre = knots.first().map_or(displacement, |[centre, ..]| *centre);
@@ -137,11 +137,11 @@ fn slip_grossly(diagram: &mut impl Diagram, displacement: f64, end: &End) -> Res
     };
     let force = sign * load;
     diagram.replace(0, [Knot::centre(origin), Knot { xi, eta, load, force }]);
-    Response { force, by_displacement: 0.0, by_input: sign * load_slope }
+    DiagramForce { force, by_displacement: 0.0, by_input: sign * load_slope }
 }
 
 /// Everything sticks: a piece with D = Δu/ΔS from the outermost knot `inner`.
-fn stick(element: &Element, diagram: &mut impl Diagram, kept: usize, inner: &Knot, end: &End) -> Response {
+fn stick(element: &Element, diagram: &mut impl Diagram, kept: usize, inner: &Knot, end: &End) -> DiagramForce {
     let &End { friction_coefficient: mu, xi, eta, normal: Normal { load, shift, load_slope, shift_slope } } = end;
     let (falling, rising) = (inner.xi - xi, eta - inner.eta);
     let per_shift = 1.0 / (rising + falling);
@@ -159,11 +159,17 @@ fn stick(element: &Element, diagram: &mut impl Diagram, kept: usize, inner: &Kno
     };
     let end = end.knot(inner.force + slope * (load - inner.load));
     diagram.replace(kept, [end]);
-    Response { force: end.force, by_displacement: secant, by_input: slope * (load_slope - secant * shift_slope) }
+    DiagramForce { force: end.force, by_displacement: secant, by_input: slope * (load_slope - secant * shift_slope) }
 }
 
 /// The piece from `inner` to `outer` leaves the quadrant through one of its sides, where a slip zone cuts it, or through its corner.
-fn cut(element: &Element, diagram: &mut impl Diagram, kept: usize, [inner, outer]: [&Knot; 2], end: &End) -> Response {
+fn cut(
+    element: &Element,
+    diagram: &mut impl Diagram,
+    kept: usize,
+    [inner, outer]: [&Knot; 2],
+    end: &End,
+) -> DiagramForce {
     let &End { friction_coefficient: mu, xi, eta, normal: Normal { load, load_slope, shift_slope, .. } } = end;
     let (falling, rising) = (inner.xi - outer.xi, outer.eta - inner.eta);
     let [to_side, to_other] = match (falling > 0.0, rising > 0.0) {
@@ -178,7 +184,7 @@ fn cut(element: &Element, diagram: &mut impl Diagram, kept: usize, [inner, outer
         let stays = (outer.xi, outer.eta) == (xi, eta);
         let end = end.knot(if stays { outer.force } else { inner.force + slope * (load - inner.load) });
         diagram.replace(kept, [end]);
-        return Response { force: end.force, by_displacement: load_slope / shift_slope, by_input: 0.0 };
+        return DiagramForce { force: end.force, by_displacement: load_slope / shift_slope, by_input: 0.0 };
     }
     let (cut_xi, cut_eta, sign) = if to_side < to_other {
         (xi, inner.eta + rising * to_side, mu)
@@ -203,7 +209,7 @@ fn cut(element: &Element, diagram: &mut impl Diagram, kept: usize, [inner, outer
         diagram.replace(kept, [end]);
     }
     let by_input = sign * (load_slope - cut_stiffness * shift_slope);
-    Response { force: end.force, by_displacement: cut_stiffness, by_input }
+    DiagramForce { force: end.force, by_displacement: cut_stiffness, by_input }
 }
 
 /// Beyond the end of a piece.

@@ -17,13 +17,13 @@ use crate::one_direction::diagram::Knot;
 
 /// The path of a step, straight in (S, u).
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Path {
+pub(crate) struct StepPath {
     pub shift: [f64; 2],
     /// Displacement covered.
     pub displacement: f64,
 }
 
-impl Path {
+impl StepPath {
     fn contact_rate(&self) -> f64 {
         self.shift[1] - self.shift[0]
     }
@@ -48,14 +48,14 @@ impl Path {
 
 /// A segment of a path: boundaries of the slip zone and of the contact at both of its ends.
 #[derive(Debug, Clone, Copy)]
-struct Slip {
+struct SlipPiece {
     inner: [f64; 2],
     outer: [f64; 2],
 }
 
 /// Energy \[J\] dissipated from a closed contact with the diagram `knots`, which must not be empty.
 #[inline(never)]
-pub(crate) fn dissipated(element: &Element, knots: &[[f64; 4]], path: &Path) -> f64 {
+pub(crate) fn dissipated(element: &Element, knots: &[[f64; 4]], path: &StepPath) -> f64 {
     let mu = element.friction_coefficient;
     let ([start, end], contact_rate) = (path.shift, path.contact_rate());
     if contact_rate == 0.0 && path.displacement == 0.0 {
@@ -98,7 +98,7 @@ pub(crate) fn dissipated(element: &Element, knots: &[[f64; 4]], path: &Path) -> 
         let step = to_piece_end.min(to_overtaking).min(1.0 - fraction);
         let next_inner = if step == to_piece_end { lowest } else { (inner + rate * step).max(lowest) };
         let next_outer = if step == 1.0 - fraction { end } else { outer + contact_rate * step };
-        let slip = Slip { inner: [inner, next_inner], outer: [outer, next_outer.max(next_inner)] };
+        let slip = SlipPiece { inner: [inner, next_inner], outer: [outer, next_outer.max(next_inner)] };
         energy += mu * (mu - slope * sign.signum()) * slip.integral(element);
         fraction += step;
         (inner, outer) = (next_inner, next_outer);
@@ -117,7 +117,7 @@ pub(crate) fn dissipated(element: &Element, knots: &[[f64; 4]], path: &Path) -> 
 }
 
 /// Gross slip, from a fraction of the path and a size of the contact to the end of the path.
-fn gross_slip(element: &Element, path: &Path, direction: Option<f64>, fraction: f64, outer: f64) -> f64 {
+fn gross_slip(element: &Element, path: &StepPath, direction: Option<f64>, fraction: f64, outer: f64) -> f64 {
     let mu = element.friction_coefficient;
     let sign = direction.unwrap_or(mu.copysign(path.displacement));
     let slip = (path.displacement - sign * path.contact_rate()) * sign.signum();
@@ -154,7 +154,7 @@ fn mean_load_near_the_largest_size(element: &Element, low: f64, high: f64) -> f6
     blocks.sum()
 }
 
-impl Slip {
+impl SlipPiece {
     /// `∫∫ (S_b - S) N''(S) dS |dS_c|`.
     ///
     /// The inner integral is the remainder `N(S_b) - N(S_c) - N'(S_c)(S_b - S_c)`. Unless the slip zone is too narrow for this
@@ -309,14 +309,14 @@ mod tests {
                 let outer = share * element.largest_shift;
                 // Two sizes whose curvature differs little: N'' may be taken out of the integral up to the square of their distance.
                 let swept = 1e-4 * (element.largest_shift * 1.007 - outer);
-                let slip = Slip { inner: [outer, outer - swept], outer: [outer, outer] };
+                let slip = SlipPiece { inner: [outer, outer - swept], outer: [outer, outer] };
                 let [curvature, ..] = element.four_curvatures(&[outer - 0.5 * swept; 4], &mut Curvature::new());
                 let expected = curvature * swept.powi(3) / 6.0;
                 let found = slip.integral(&element);
                 assert!((found / expected - 1.0).abs() < 1e-8, "{share}: {found:e}, not {expected:e}");
                 // A wider one at once and in two parts.
                 let [start, middle, end] = [outer, 0.999 * outer, 0.998 * outer];
-                let integral = |from, to| Slip { inner: [from, to], outer: [outer, outer] }.integral(&element);
+                let integral = |from, to| SlipPiece { inner: [from, to], outer: [outer, outer] }.integral(&element);
                 let (whole, parts) = (integral(start, end), integral(start, middle) + integral(middle, end));
                 assert!((parts / whole - 1.0).abs() < 1e-12, "{share}: {parts:e}, not {whole:e}");
                 // A zone that grows from nothing to any width, at once and in parts.
@@ -329,7 +329,7 @@ mod tests {
                     };
                     let integral = |from: u32, to: u32| {
                         let ([c0, b0], [c1, b1]) = (at(from), at(to));
-                        Slip { inner: [c0, c1], outer: [b0, b1] }.integral(&element)
+                        SlipPiece { inner: [c0, c1], outer: [b0, b1] }.integral(&element)
                     };
                     let (whole, parts) = (integral(0, 16), (0..16).map(|k| integral(k, k + 1)).sum::<f64>());
                     // The load has a few roundings over its logarithmic compliance, here down to 0.02, and a wide zone loses six bits.

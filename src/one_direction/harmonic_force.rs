@@ -28,38 +28,38 @@ use crate::fourier::{largest_of, normalise, work};
 use crate::limits::check_coefficients;
 use crate::tag::Kind;
 use forces::Forces;
-use jacobian::{Context, Sensitivity};
+use jacobian::{Context, JacobianMemory};
 use runs::PeriodicPath;
-use samples::{Part, Samples};
+use samples::{EvaluatedPart, Samples};
 
 /// Number of doubles in a workspace for the given number of harmonics and of samples per period; 0 if these are not allowed.
 pub fn workspace_length(harmonics: usize, samples: usize) -> usize {
-    Workspace::length_or_zero(Size { harmonics, samples, periods: 0 })
+    OneDirectionWorkspace::length_or_zero(Size { harmonics, samples, periods: 0 })
 }
 
 /// Initialises a workspace: tables for the given harmonics and samples, and scratch memory.
 /// Errors: `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24; `WorkspaceTooShort`.
 pub fn workspace_init(harmonics: usize, samples: usize, workspace: &mut [f64]) -> Result<(), Error> {
-    Workspace::init(Size { harmonics, samples, periods: 0 }, workspace)
+    OneDirectionWorkspace::init(Size { harmonics, samples, periods: 0 }, workspace)
 }
 
 /// An opened workspace.
 #[derive(Debug)]
-pub struct Workspace<'a> {
+pub struct OneDirectionWorkspace<'a> {
     size: Size,
     fourier: FoldedFourier<'a>,
     samples: Samples<'a>,
     path: PeriodicPath<'a>,
     forces: Forces<'a>,
-    sensitivity: Sensitivity<'a>,
+    sensitivity: JacobianMemory<'a>,
     assembly: Assembly<'a>,
 }
 
-impl<'a> Workspace<'a> {
+impl<'a> OneDirectionWorkspace<'a> {
     /// Opens an initialised workspace.
     /// Errors: `BadWorkspace` if uninitialised or too short.
-    pub fn new(memory: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
-        Workspace::open(memory)
+    pub fn new(memory: &'a mut [f64]) -> Result<OneDirectionWorkspace<'a>, Error> {
+        OneDirectionWorkspace::open(memory)
     }
 
     /// 2H + 1.
@@ -68,7 +68,7 @@ impl<'a> Workspace<'a> {
     }
 }
 
-impl<'a> Layout<'a> for Workspace<'a> {
+impl<'a> Layout<'a> for OneDirectionWorkspace<'a> {
     const KIND: Kind = Kind::ElementSampling;
 
     fn fill(&mut self) {
@@ -76,7 +76,7 @@ impl<'a> Layout<'a> for Workspace<'a> {
         self.sensitivity.rows.fill();
     }
 
-    fn take(size: Size, parts: &mut Parts<'a>) -> Result<Workspace<'a>, Error> {
+    fn take(size: Size, parts: &mut Parts<'a>) -> Result<OneDirectionWorkspace<'a>, Error> {
         let Size { harmonics, samples: count, .. } = size;
         // At most one knot, piece and run per sample, and a few more.
         let capacity = count + 4;
@@ -95,8 +95,8 @@ impl<'a> Layout<'a> for Workspace<'a> {
         let stored = parts.take_blocks(2 * row_blocks(harmonics) * capacity)?;
         let outer = OuterProducts::take(parts, harmonics, count, 2)?;
         let assembly = Assembly::take(parts, harmonics, 1.0 / count as f64)?;
-        let sensitivity = Sensitivity { rows, pieces, stored, places, outer, own: [by_u, by_input] };
-        Ok(Workspace { size, fourier, samples, path, forces, sensitivity, assembly })
+        let sensitivity = JacobianMemory { rows, pieces, stored, places, outer, own: [by_u, by_input] };
+        Ok(OneDirectionWorkspace { size, fourier, samples, path, forces, sensitivity, assembly })
     }
 }
 
@@ -128,7 +128,7 @@ const NORMAL_FORCE_ROUNDING: f64 = 8.0 * f64::EPSILON;
 /// contact would become too wide for its length.
 pub fn harmonic_force(
     element: &Element,
-    workspace: &mut Workspace,
+    workspace: &mut OneDirectionWorkspace,
     displacement: &[f64],
     output: HarmonicOutput,
 ) -> Result<(), Error> {
@@ -140,7 +140,7 @@ pub fn harmonic_force(
     let has_friction = !motion.open && element.friction_coefficient > 0.0;
     let mut part = None;
     if has_friction && (force.is_some() || jacobian.is_some() || dissipated.is_some()) {
-        let Workspace { fourier, samples, path, forces, sensitivity, .. } = workspace;
+        let OneDirectionWorkspace { fourier, samples, path, forces, sensitivity, .. } = workspace;
         fourier.synthesise(tangential, samples.displacement);
         let part = part.insert(samples.enter_steady_state(element, motion));
         let (runs, cut_shift) = path.evaluate(element, samples, part);
@@ -185,7 +185,7 @@ pub fn harmonic_force(
     Ok(())
 }
 
-impl Workspace<'_> {
+impl OneDirectionWorkspace<'_> {
     /// Checks a motion: all of a batch are checked before the first output is written.
     pub(crate) fn check(&mut self, element: &Element, displacement: &[f64]) -> Result<(), Error> {
         check_coefficients(displacement)?;
@@ -209,7 +209,7 @@ impl Workspace<'_> {
         input: &[f64],
         with_slopes: bool,
     ) -> Result<MotionKind, Error> {
-        let Workspace { fourier, samples, .. } = self;
+        let OneDirectionWorkspace { fourier, samples, .. } = self;
         let Some((&mean, harmonics)) = input.split_first() else { return Err(Error::BadArraySize) };
         let has = |coefficients: &[f64], parity: usize| {
             coefficients.iter().enumerate().any(|(c, value)| c.div_ceil(2) % 2 == parity && *value != 0.0)
@@ -261,8 +261,8 @@ impl Workspace<'_> {
         Ok(motion)
     }
 
-    fn write_tangential_force(&mut self, motion: MotionKind, part: Option<&Part>, tangential: &mut [f64]) {
-        let Workspace { fourier, samples, forces, .. } = self;
+    fn write_tangential_force(&mut self, motion: MotionKind, part: Option<&EvaluatedPart>, tangential: &mut [f64]) {
+        let OneDirectionWorkspace { fourier, samples, forces, .. } = self;
         if let Some(part) = part {
             fourier.sum_half_wave(part.start, motion.half_wave.then_some(-1.0), forces.force, tangential);
             normalise(tangential, 1.0 / samples.count as f64);
@@ -272,7 +272,7 @@ impl Workspace<'_> {
     }
 
     fn write_normal_force(&mut self, element: &Element, input: &[f64], motion: MotionKind, normal: &mut [f64]) {
-        let Workspace { fourier, samples, .. } = self;
+        let OneDirectionWorkspace { fourier, samples, .. } = self;
         if !element.by_approach() && !motion.open {
             // Rounding below 0 counts as 0.
             normal.iter_mut().zip(input).for_each(|(normal, input)| *normal = *input);
@@ -287,8 +287,14 @@ impl Workspace<'_> {
         }
     }
 
-    fn write_jacobian(&mut self, element: &Element, motion: MotionKind, part: Option<&Part>, jacobian: &mut [f64]) {
-        let Workspace { size, fourier, samples, sensitivity, assembly, .. } = self;
+    fn write_jacobian(
+        &mut self,
+        element: &Element,
+        motion: MotionKind,
+        part: Option<&EvaluatedPart>,
+        jacobian: &mut [f64],
+    ) {
+        let OneDirectionWorkspace { size, fourier, samples, sensitivity, assembly, .. } = self;
         let coefficients = size.coefficients();
         let (by_displacement, by_input) =
             jacobian.split_at_mut_checked(2 * coefficients * coefficients).unwrap_or((&mut [], &mut []));

@@ -7,13 +7,14 @@
 
 use crate::element::{Directions, Element, Normal};
 use crate::error::Error;
-use crate::law::{Law, PathOutput, Requested};
+use crate::law::{Law, PathOutput, Requested, StepOf, StepResult};
 use crate::limits::check_displacement;
 use crate::numerics::fp_class::is_finite;
 use crate::numerics::total::Total;
+use crate::one_direction::OneDirection;
 use crate::one_direction::diagram::Polygon;
+use crate::one_direction::harmonic_force::{HarmonicOutput, OneDirectionWorkspace, harmonic_force};
 use crate::one_direction::step::{Header, step};
-use crate::one_direction::{OneDirection, Step};
 use crate::tag::{Kind, count, is_count, stored};
 
 const HEADER: usize = 9;
@@ -52,6 +53,7 @@ impl Law for OneDirection {
     type Item = Element;
     type Vector = [f64; 2];
     type Tangent = [f64; 4];
+    type Workspace<'a> = OneDirectionWorkspace<'a>;
 
     const STATE_LENGTH: usize = state_length(0);
     const STATE: Kind = Kind::ElementState;
@@ -64,6 +66,19 @@ impl Law for OneDirection {
     fn contains_counted(state: &[f64]) -> bool {
         let pieces = state.get(1).copied().and_then(count);
         pieces.is_some_and(|pieces| pieces < state.len().saturating_sub(HEADER) / PER_KNOT)
+    }
+
+    fn check_motion(element: &Element, workspace: &mut OneDirectionWorkspace, motion: &[f64]) -> Result<(), Error> {
+        workspace.check(element, motion)
+    }
+
+    fn harmonic_force(
+        element: &Element,
+        workspace: &mut OneDirectionWorkspace,
+        motion: &[f64],
+        output: HarmonicOutput,
+    ) -> Result<(), Error> {
+        harmonic_force(element, workspace, motion, output)
     }
 
     fn check_step(element: &Element, &[displacement, input]: &[f64; 2]) -> Result<(), Error> {
@@ -103,7 +118,7 @@ impl Law for OneDirection {
     }
 
     fn force_error(state: &[f64]) -> f64 {
-        state.at(ERROR)
+        state.or_zero(ERROR)
     }
 
     fn copy_used(from: &[f64], to: &mut [f64]) {
@@ -113,14 +128,14 @@ impl Law for OneDirection {
         }
     }
 
-    fn trial(element: &Element, state: &[f64], displacement: [f64; 2], requested: Requested) -> Step {
+    fn trial(element: &Element, state: &[f64], displacement: [f64; 2], requested: Requested) -> StepOf<Self> {
         let (header, mut knots) = read(state);
         step(element, &header, &mut knots, displacement, requested.energy).0
     }
 
     #[inline(never)]
-    fn advance(element: &Element, state: &mut [f64], displacement: [f64; 2], requested: Requested) -> Step {
-        let Some((header, knots)) = state.split_first_chunk_mut::<HEADER>() else { return Step::NONE };
+    fn advance(element: &Element, state: &mut [f64], displacement: [f64; 2], requested: Requested) -> StepOf<Self> {
+        let Some((header, knots)) = state.split_first_chunk_mut::<HEADER>() else { return StepResult::NONE };
         let mut polygon = Polygon::new(element.friction_coefficient, knots, used_knots(header));
         let (step, to) = step(element, &Header::read(header), &mut polygon, displacement, requested.energy);
         let Header { displacement, input, normal: Normal { load, shift, load_slope, shift_slope }, error } = to;

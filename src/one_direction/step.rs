@@ -1,9 +1,10 @@
 //! A step from a point and its diagram, and the contact that opens or closes in it.
 
 use crate::element::{Element, Normal};
-use crate::one_direction::Step;
-use crate::one_direction::diagram::{self, Diagram, Knot, Response};
-use crate::one_direction::energy::{self, Path};
+use crate::law::{StepOf, StepResult};
+use crate::one_direction::OneDirection;
+use crate::one_direction::diagram::{self, Diagram, DiagramForce, Knot};
+use crate::one_direction::energy::{self, StepPath};
 
 /// The header of a state, from which a step starts: displacements, normal state, and the error from merged pieces.
 #[derive(Debug, Clone, Copy)]
@@ -45,7 +46,7 @@ pub(crate) fn step(
     diagram: &mut impl Diagram,
     [displacement, input]: [f64; 2],
     with_energy: bool,
-) -> (Step, Header) {
+) -> (StepOf<OneDirection>, Header) {
     if !(element.is_closed(input) && from.normal.load > 0.0 && element.friction_coefficient > 0.0) {
         return opening_or_closing(element, from, diagram, [displacement, input], with_energy);
     }
@@ -54,13 +55,17 @@ pub(crate) fn step(
     let normal = if moves { Normal::from(element.normals::<true, 1>(&[input])) } else { from.normal };
     let dissipated = if with_energy {
         let shift = [from.normal.shift, normal.shift];
-        energy::dissipated(element, diagram.knots(), &Path { shift, displacement: displacement - from.displacement })
+        energy::dissipated(
+            element,
+            diagram.knots(),
+            &StepPath { shift, displacement: displacement - from.displacement },
+        )
     } else {
         0.0
     };
-    let Response { force, by_displacement, by_input } = diagram::step(element, diagram, displacement, &normal);
+    let DiagramForce { force, by_displacement, by_input } = diagram::step(element, diagram, displacement, &normal);
     let tangent = [by_displacement, 0.0, by_input, normal.load_slope];
-    let step = Step { force: [force, normal.load], tangent, dissipated };
+    let step = StepResult { force: [force, normal.load], tangent, dissipated };
     (step, Header { displacement, input, normal, error: from.error })
 }
 
@@ -72,16 +77,17 @@ fn opening_or_closing(
     diagram: &mut impl Diagram,
     [displacement, input]: [f64; 2],
     with_energy: bool,
-) -> (Step, Header) {
+) -> (StepOf<OneDirection>, Header) {
     let friction = element.friction_coefficient > 0.0;
     let (was_closed, closed) = (from.normal.load > 0.0, element.is_closed(input));
     let normal = if closed { element.normal(input) } else { Normal::OPEN };
     let to = Header { displacement, input, normal, error: 0.0 };
-    let mut step = Step { force: [0.0, normal.load], tangent: [0.0, 0.0, 0.0, normal.load_slope], dissipated: 0.0 };
+    let mut step =
+        StepResult { force: [0.0, normal.load], tangent: [0.0, 0.0, 0.0, normal.load_slope], dissipated: 0.0 };
     if !closed || !friction {
         if with_energy && was_closed && friction {
             let end = Crossing::between(element, [from.displacement, from.input], [displacement, input.min(0.0)]);
-            let path = Path { shift: [from.normal.shift, 0.0], displacement: end.displacement - from.displacement };
+            let path = StepPath { shift: [from.normal.shift, 0.0], displacement: end.displacement - from.displacement };
             step.dissipated = energy::dissipated(element, diagram.knots(), &path);
         }
         diagram.replace(0, [Knot::centre(displacement)]);
@@ -92,10 +98,10 @@ fn opening_or_closing(
     let centre = Knot::centre(crossing.displacement);
     let mut touching = Touching { knots: [centre.into()], sticks: false, diagram };
     if with_energy {
-        let path = Path { shift: [0.0, normal.shift], displacement: displacement - crossing.displacement };
+        let path = StepPath { shift: [0.0, normal.shift], displacement: displacement - crossing.displacement };
         step.dissipated = energy::dissipated(element, &touching.knots, &path);
     }
-    let Response { force, mut by_displacement, mut by_input } =
+    let DiagramForce { force, mut by_displacement, mut by_input } =
         diagram::step(element, &mut touching, displacement, &normal);
     if touching.sticks {
         // The start of the path moves with its end.

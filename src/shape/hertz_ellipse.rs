@@ -21,7 +21,7 @@ use crate::error::Error;
 use crate::limits::in_range;
 use crate::numerics::guard::quotient;
 use crate::parameters::{Common, EllipticParameters, Pair, positive};
-use crate::shape::{Geometry, Layer, RoundedPunch, Shape};
+use crate::shape::{Geometry, LayerCompliance, RoundedPunch, Shape};
 use core::f64::consts::{FRAC_PI_2, PI};
 
 impl Geometry for EllipticParameters {
@@ -60,7 +60,7 @@ impl Geometry for EllipticParameters {
             pressure_scale: 1.5 / PI * (normal_force / (semi_axis_x * semi_axis_y) / semi_axis_x),
             reference: (semi_axis_x, RoundedPunch::ellipse(1.0)),
             composite_modulus,
-            layer: Layer::default(),
+            layer: LayerCompliance::default(),
             ..Shape::default()
         })
     }

@@ -24,7 +24,7 @@ use crate::shape::{Complement, Quantity};
 /// The layer of a contact, in absolute terms.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Layer {
+pub(crate) struct LayerCompliance {
     /// Normal and tangential compliance without load \[m/N\]: the compliances of the parameters times 1 + N_r/N_c.
     pub normal: f64,
     pub tangential: f64,
@@ -35,11 +35,11 @@ pub(crate) struct Layer {
 /// 2^40: a layer that is this many times as compliant as the contact hides it.
 const MOST_COMPLIANT: f64 = (1u64 << 40) as f64;
 
-impl Layer {
+impl LayerCompliance {
     /// The layer of parameters that were checked, N > 0, and its compliance under N over that of the parameters.
     /// Errors: `BadReferenceLoad` if the compliance under N is more than 2^40 times that of the parameters; `BadNormalCompliance`,
     /// `BadTangentialCompliance` if it, or the displacement, is not representable.
-    pub fn new(parameters: &parameters::Layer, normal_force: f64) -> Result<(Layer, f64), Error> {
+    pub fn new(parameters: &parameters::Layer, normal_force: f64) -> Result<(LayerCompliance, f64), Error> {
         let parameters::Layer { normal_compliance, tangential_compliance, stiffening_load, reference_load } =
             *parameters;
         let reference = if reference_load > 0.0 { reference_load } else { normal_force };
@@ -59,8 +59,11 @@ impl Layer {
                 in_range(&[compliance, under_load, normal_force], &[]).map_err(|_| error)?;
             }
         }
-        let layer =
-            Layer { normal: normal_compliance * unloaded, tangential: tangential_compliance * unloaded, stiffening };
+        let layer = LayerCompliance {
+            normal: normal_compliance * unloaded,
+            tangential: tangential_compliance * unloaded,
+            stiffening,
+        };
         Ok((layer, under_load))
     }
 
@@ -91,7 +94,7 @@ impl Layer {
         if x < 1e-8 { load * (1.0 - 0.5 * x) } else { quotient(x.ln_1p(), self.stiffening) }
     }
 
-    /// The load at which [`Layer::extent`] has a value, at most a value of the size of the largest loads.
+    /// The load at which [`LayerCompliance::extent`] has a value, at most a value of the size of the largest loads.
     pub fn load_of_extent(&self, extent: f64) -> f64 {
         let x = self.stiffening * extent;
         if x < 1e-8 { extent * (1.0 + 0.5 * x) } else { x.min(345.0).exp_m1() / self.stiffening.max(TINY) }
@@ -150,23 +153,24 @@ impl Layer {
 /// ```
 ///
 /// free of cancellation, with the compliance c_t without load in units of that for which Λ + λ is 1.
-impl Layer {
-    /// [`Layer::new`] in units of the stick zones, in which the compliance 1 is the inverse of `stiffness_scale`, given the compliance of
+impl LayerCompliance {
+    /// [`LayerCompliance::new`] in units of the stick zones, in which the compliance 1 is the inverse of `stiffness_scale`, given the compliance of
     /// the contact in these units.
-    /// Errors: those of [`Layer::new`]; `BadTangentialCompliance` if the layer hides the contact, or its compliance in these units is
+    /// Errors: those of [`LayerCompliance::new`]; `BadTangentialCompliance` if the layer hides the contact, or its compliance in these units is
     /// not representable.
     pub fn relative(
         parameters: &parameters::Layer,
         normal_force: f64,
         stiffness_scale: f64,
         of_contact: f64,
-    ) -> Result<(Layer, f64), Error> {
-        let (Layer { tangential, stiffening, .. }, under_load) = Layer::new(parameters, normal_force)?;
+    ) -> Result<(LayerCompliance, f64), Error> {
+        let (LayerCompliance { tangential, stiffening, .. }, under_load) =
+            LayerCompliance::new(parameters, normal_force)?;
         if tangential > 0.0 {
             in_range(&[tangential, stiffness_scale], &[]).map_err(|_| Error::BadTangentialCompliance)?;
         }
         let (tangential, stiffening) = (tangential * stiffness_scale, stiffening * normal_force);
-        let relative = Layer { normal: 0.0, tangential, stiffening };
+        let relative = LayerCompliance { normal: 0.0, tangential, stiffening };
         if relative.compliance(1.0) > MOST_COMPLIANT * of_contact {
             return Err(Error::BadTangentialCompliance);
         }

@@ -16,7 +16,7 @@
 use crate::error::Error;
 use crate::limits::{LARGEST_EXPONENT, exponent_of, in_range};
 use crate::parameters::{CENTRE_POINT, Common, Pair, Parameters, RIGID_STRIP, not_negative, positive};
-use crate::shape::{Geometry, Layer, RoundedPunch, Shape};
+use crate::shape::{Geometry, LayerCompliance, RoundedPunch, Shape};
 use core::f64::consts::{LN_2, PI};
 
 impl Geometry for Parameters {
@@ -65,7 +65,7 @@ impl Geometry for Parameters {
             pressure_scale: 4.0 / PI * (load_scale / length),
             reference,
             composite_modulus: modulus,
-            layer: Layer::default(),
+            layer: LayerCompliance::default(),
             ..Shape::default()
         };
         if slenderness <= 0.5 || shape.full_stick() <= 0.0 {

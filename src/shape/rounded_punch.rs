@@ -23,16 +23,16 @@
 
 use crate::numerics::const_math::tabulate;
 use crate::numerics::guard::{TINY, quotient};
-use crate::numerics::polynomial::{self, Rows, rows};
+use crate::numerics::polynomial::{self, PolynomialRows, rows};
 use core::f64::consts::PI;
 
 /// Terms of the series; the first omitted term is below 3⁻³⁶ of the sum.
 const TERMS: usize = 36;
 
-type Table = Rows<{ TERMS / 4 }>;
+type SeriesTable = PolynomialRows<{ TERMS / 4 }>;
 
 /// `g = 8 leg³/(a+c) Σ l_k t^k`; from `(1+t)² (ψ - sin ψ cos ψ)` with ψ = 2 atan √t.
-static LOAD: Table = rows(&tabulate!(TERMS, |k| {
+static LOAD: SeriesTable = rows(&tabulate!(TERMS, |k| {
     let n = 2.0 * k as f64;
     sign(k + 1) / ((n + 3.0) * (n + 1.0) * (n - 1.0))
 }));
@@ -46,7 +46,7 @@ const fn sign(k: usize) -> f64 {
 ///
 /// As functions of ln c both satisfy `df/d ln c = 1 - f d ln g^order / d ln c`. In terms of t this is
 /// `t (1 - t²) load f' + order arc f = 2 t load` with `arc = ψ/(2 √t)` and `load = (ψ - sin ψ cos ψ)/(8 t √t)`.
-const fn mean_over_ln_c(order: f64) -> Table {
+const fn mean_over_ln_c(order: f64) -> SeriesTable {
     let atan = tabulate!(TERMS + 1, |k| sign(k) / (2.0 * k as f64 + 1.0));
     let load = tabulate!(TERMS + 1, |k| {
         let n = k as f64;
@@ -70,10 +70,10 @@ const fn mean_over_ln_c(order: f64) -> Table {
     rows(&table)
 }
 
-static BETA: Table = mean_over_ln_c(1.0);
-static GAMMA: Table = mean_over_ln_c(2.0);
+static BETA: SeriesTable = mean_over_ln_c(1.0);
+static GAMMA: SeriesTable = mean_over_ln_c(2.0);
 
-fn sum(table: &Table, t: f64) -> f64 {
+fn sum(table: &SeriesTable, t: f64) -> f64 {
     let used = table.get(..polynomial::rows_for(t, TERMS / 4)).unwrap_or(table);
     polynomial::sum(used.iter().copied(), t)
 }

@@ -201,7 +201,7 @@ mod tests {
     use super::*;
     use crate::constant_load::contact::tests::{TITANIUM, parameters};
     use crate::parameters::EllipticParameters;
-    use crate::shape::{Geometry, Layer};
+    use crate::shape::{Geometry, LayerCompliance};
 
     #[test]
     fn the_curvature_of_the_load_is_that_of_its_series() {
@@ -225,7 +225,7 @@ mod tests {
                         stiffening_load,
                         reference_load: 0.0,
                     };
-                    (shape.layer, _) = Layer::new(&layer, 150.0).unwrap();
+                    (shape.layer, _) = LayerCompliance::new(&layer, 150.0).unwrap();
                 }
                 for load in [1e-6, 1e-2, 1.0, 150.0, 1500.0] {
                     let leg = shape.at_load(load);

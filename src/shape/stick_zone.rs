@@ -38,11 +38,11 @@
 
 pub(crate) mod small_load;
 
-use crate::numerics::chebyshev::{Interpolant, Tangent};
+use crate::numerics::chebyshev::{Interpolant, SeriesPoint};
 use crate::numerics::guard::TINY;
 use crate::shape::rounded_punch::{InversePower, RoundedPunch};
 use crate::shape::tractions::{self, SurfacePoint, difference_of_heights};
-use crate::shape::{Complement, Layer};
+use crate::shape::{Complement, LayerCompliance};
 use core::f64::consts::PI;
 use small_load::{RETAINED_TERMS, SmallLoadSeries};
 
@@ -95,7 +95,7 @@ pub(crate) struct StickZones {
     /// x_s, the shift at the onset of gross slip.
     pub slip_shift: f64,
     /// The layer in series.
-    pub layer: Layer,
+    pub layer: LayerCompliance,
     /// The expansion for τ <= 1/2 of the contact without its layer.
     pub contact: SmallLoadSeries,
     /// The expansion for τ <= 1/2.
@@ -104,7 +104,7 @@ pub(crate) struct StickZones {
 
 impl StickZones {
     /// The sizes below the contact `b` (lengths in units of its half-width), with the compliance Λ of full stick.
-    pub fn new(b: RoundedPunch, compliance: f64, layer: Layer) -> StickZones {
+    pub fn new(b: RoundedPunch, compliance: f64, layer: LayerCompliance) -> StickZones {
         let load = b.load();
         let mut zones = StickZones { b, load, beta: b.beta(load), gamma: b.gamma(load), ..StickZones::default() };
         zones.slip_shift = compliance + zones.beta + layer.shift(1.0);
@@ -144,7 +144,7 @@ impl StickZones {
     }
 
     /// Values and slopes of h'' over z at τ = (1+z)/4: positive, with its singularity as far beyond as the interval is long.
-    fn curvatures(&self) -> [Tangent; RETAINED_TERMS / 2] {
+    fn curvatures(&self) -> [SeriesPoint; RETAINED_TERMS / 2] {
         let mut tangents = Interpolant::<{ RETAINED_TERMS / 2 }>::at_points(|z| {
             let load = Complement::of_remaining(0.75 + 0.25 * z);
             let punch = self.size_under(load.remaining);
@@ -153,7 +153,7 @@ impl StickZones {
             let ([decrease, change], [rate, _]) = (punch.decrease(), punch.rates());
             let slope = value * (2.0 + rate - change / decrease) * self.load / punch.load_slope();
             let [layer, layer_slope] = self.layer.curvature(load);
-            Tangent { value: value + layer, slope: 0.25 * (slope + layer_slope) }
+            SeriesPoint { value: value + layer, slope: 0.25 * (slope + layer_slope) }
         });
         // From τ = 0 on; the points are symmetric.
         tangents.reverse();

@@ -6,7 +6,8 @@
 //! displaced to that sample at constant normal force, and advanced along a number of periods and one more from there, which counts. The
 //! nodes are those of the largest normal force.
 //!
-//! Static shear is shaken out over many periods, which are advanced by fewer samples; the drift estimates what is left.
+//! Static shear is shaken out over many periods. Those before the last two are advanced by fewer samples; the drift estimates what is left
+//! from changes between periods of the same samples.
 //!
 //! The Jacobian is the exact derivative of these steps: changes of the springs by all coefficients are propagated. What the
 //! parameters of the contact add, the load at both ends and the reference size of the nodes, is computed once a step; the changes are
@@ -14,11 +15,12 @@
 
 use super::matrix::dot;
 use super::nodes::{Both, N, NEIGHBOUR, Nodes, ROWS, Units, both, fill};
-use super::path::Path;
+use super::path::PathInContact;
 use super::shells::Pressed;
-use super::step::{Contact, Displacements, Motion, Step, bounded};
+use super::step::{Displacements, LoadedContact, SlipStep, StepMotion, bounded};
 use super::tangent::{
-    self, ContactSlopes, END, Parameters, REFERENCE, START, SpringChanges, Terms, propagate, slopes_of_nodes,
+    self, ContactSlopes, END, ParameterChanges, ParameterTerms, REFERENCE, START, SpringChanges, propagate,
+    slopes_of_nodes,
 };
 use crate::element::{Element, Normal};
 use crate::error::Error;
@@ -34,7 +36,7 @@ pub use crate::fourier::HarmonicOutput;
 
 /// Number of doubles in a workspace for the given number of harmonics and of samples per period; 0 if these are not allowed.
 pub fn workspace_length(harmonics: usize, samples: usize) -> usize {
-    Workspace::length_or_zero(Size { harmonics, samples, periods: 0 })
+    TwoDirectionsWorkspace::length_or_zero(Size { harmonics, samples, periods: 0 })
 }
 
 /// Initialises a workspace: tables for the given harmonics and samples, the number of periods before the one that counts (0: the
@@ -42,7 +44,7 @@ pub fn workspace_length(harmonics: usize, samples: usize) -> usize {
 /// Errors: `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24, `BadPeriods` for more
 /// than 65536; `WorkspaceTooShort`.
 pub fn workspace_init(harmonics: usize, samples: usize, periods: usize, workspace: &mut [f64]) -> Result<(), Error> {
-    Workspace::init(Size { harmonics, samples, periods }, workspace)
+    TwoDirectionsWorkspace::init(Size { harmonics, samples, periods }, workspace)
 }
 
 /// Samples of a cycle of the highest harmonic, at least, in the periods that are advanced by fewer. With half of them a sticking core may keep
@@ -61,7 +63,7 @@ const SAMPLE: usize = 8;
 
 /// An opened workspace.
 #[derive(Debug)]
-pub struct Workspace<'a> {
+pub struct TwoDirectionsWorkspace<'a> {
     size: Size,
     /// Values of `[1, cos t, sin t, ...]`, sample after sample.
     basis: &'a mut [f64],
@@ -72,7 +74,7 @@ pub struct Workspace<'a> {
     sums: &'a mut [f64],
 }
 
-impl<'a> Layout<'a> for Workspace<'a> {
+impl<'a> Layout<'a> for TwoDirectionsWorkspace<'a> {
     const KIND: Kind = Kind::TwoDirectionsSampling;
     /// Static shear is shaken out over many periods: the table of `periods` in the guide has the errors.
     const PERIODS: usize = 6;
@@ -81,10 +83,10 @@ impl<'a> Layout<'a> for Workspace<'a> {
         8 * size.samples + 256
     }
 
-    fn take(size: Size, parts: &mut Parts<'a>) -> Result<Workspace<'a>, Error> {
+    fn take(size: Size, parts: &mut Parts<'a>) -> Result<TwoDirectionsWorkspace<'a>, Error> {
         // One column for each coefficient of the motion, in whole blocks.
         let (columns, sums) = (COLUMNS * size.coefficients().div_ceil(BLOCK), 2 * size.coefficients());
-        Ok(Workspace {
+        Ok(TwoDirectionsWorkspace {
             size,
             basis: parts.take(size.coefficients() * size.samples)?,
             samples: parts.take(SAMPLE * size.samples)?.blocks_mut(),
@@ -105,11 +107,11 @@ impl<'a> Layout<'a> for Workspace<'a> {
     }
 }
 
-impl<'a> Workspace<'a> {
+impl<'a> TwoDirectionsWorkspace<'a> {
     /// Opens an initialised workspace.
     /// Errors: `BadWorkspace` if uninitialised or too short.
-    pub fn new(memory: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
-        Workspace::open(memory)
+    pub fn new(memory: &'a mut [f64]) -> Result<TwoDirectionsWorkspace<'a>, Error> {
+        TwoDirectionsWorkspace::open(memory)
     }
 
     /// 2H + 1.
@@ -170,7 +172,7 @@ impl<'a> Workspace<'a> {
 /// contact would become too wide for its length.
 pub fn harmonic_force(
     element: &Element,
-    workspace: &mut Workspace,
+    workspace: &mut TwoDirectionsWorkspace,
     displacement: &[f64],
     output: HarmonicOutput,
 ) -> Result<(), Error> {
@@ -182,7 +184,7 @@ pub fn harmonic_force(
 }
 
 /// The first sample of largest normal force: its index and its normal component.
-fn first_of_largest_load(workspace: &Workspace) -> (usize, f64) {
+fn first_of_largest_load(workspace: &TwoDirectionsWorkspace) -> (usize, f64) {
     let mut largest = (0, f64::MIN);
     for (index, sample) in workspace.samples.iter().enumerate() {
         largest = if sample[2] > largest.1 { (index, sample[2]) } else { largest };
@@ -197,22 +199,22 @@ struct Walk<'a> {
     nodes: &'a Nodes,
     at: [f64; 3],
     /// The contact at the start and at the end of a step.
-    from: Contact,
-    contact: Contact,
+    from: LoadedContact,
+    contact: LoadedContact,
     normal: Normal,
     springs: Displacements,
-    step: &'a mut Step,
+    step: &'a mut SlipStep,
     /// Derivatives of the contact, and of the one before, by the normal component and by the reference size, if they are known.
     slopes: [Option<[ContactSlopes; 2]>; 2],
-    terms: &'a mut [Terms; 3],
+    terms: &'a mut [ParameterTerms; 3],
 }
 
 /// What a step gives besides the springs.
 struct Advanced {
     force: Both<f64>,
     unbounded: Both<f64>,
-    motion: Motion,
-    path: Path,
+    motion: StepMotion,
+    path: PathInContact,
     closed: [bool; 2],
 }
 
@@ -222,15 +224,15 @@ impl<'a> Walk<'a> {
         element: &'a Element,
         (units, nodes): (Units, &'a Nodes),
         top: f64,
-        (step, terms): (&'a mut Step, &'a mut [Terms; 3]),
+        (step, terms): (&'a mut SlipStep, &'a mut [ParameterTerms; 3]),
     ) -> Walk<'a> {
         let mut walk = Walk {
             element,
             units,
             nodes,
             at: [0.0, 0.0, top],
-            from: Contact::open(),
-            contact: Contact::open(),
+            from: LoadedContact::open(),
+            contact: LoadedContact::open(),
             normal: Normal::OPEN,
             springs: Displacements::NONE,
             step,
@@ -245,9 +247,9 @@ impl<'a> Walk<'a> {
     fn advance(&mut self, to: [f64; 3], derivatives: bool) -> Advanced {
         let closed = [self.contact.now.load > 0.0, self.element.is_closed(to[2])];
         let same = closed[0] && to[2].to_bits() == self.at[2].to_bits();
-        let path = Path::new(self.element, &self.units, [self.at, to], closed);
+        let path = PathInContact::new(self.element, &self.units, [self.at, to], closed);
         self.from = self.contact;
-        let motion = Motion { before: self.from.now.shift, by: path.by, constant_load: same };
+        let motion = StepMotion { before: self.from.now.shift, by: path.by, constant_load: same };
         self.at = to;
         let (mut force, mut unbounded) = ([0.0; 2], [0.0; 2]);
         if closed[1] {
@@ -258,7 +260,7 @@ impl<'a> Walk<'a> {
             unbounded = self.step.advance(self.nodes, contacts, &motion, &mut self.springs, derivatives);
             force = bounded(unbounded, self.contact.now.load);
         } else {
-            (self.contact, self.springs, self.normal) = (Contact::open(), Displacements::NONE, Normal::OPEN);
+            (self.contact, self.springs, self.normal) = (LoadedContact::open(), Displacements::NONE, Normal::OPEN);
             self.slopes = [None; 2];
         }
         Advanced { force, unbounded, motion, path, closed }
@@ -268,7 +270,7 @@ impl<'a> Walk<'a> {
     fn press(&mut self, input: f64) {
         self.slopes = [self.slopes[1], None];
         self.normal = self.element.normal(input);
-        self.contact = Contact::new(self.nodes, &Pressed::new(self.element, &self.units, input, &self.normal));
+        self.contact = LoadedContact::new(self.nodes, &Pressed::new(self.element, &self.units, input, &self.normal));
     }
 
     /// The change of the force from other springs, over its bound.
@@ -283,7 +285,7 @@ impl<'a> Walk<'a> {
 
 /// Changes of the springs and the forces after a step between samples, those by the largest normal component times `by_top`.
 fn differentiate(
-    workspace: &mut Workspace,
+    workspace: &mut TwoDirectionsWorkspace,
     walk: &mut Walk,
     advanced: &Advanced,
     (nodes, by_top): (&Nodes, f64),
@@ -294,7 +296,7 @@ fn differentiate(
     let (per_scale, own_nodes) = (1.0 / walk.element.input_scale(), walk.nodes);
     let Advanced { motion, path, unbounded, .. } = advanced;
     let Walk { from, contact, step, springs, slopes: [first, second], terms, .. } = walk;
-    let derive = |contact: &Contact| {
+    let derive = |contact: &LoadedContact| {
         [ContactSlopes::by_load(own_nodes, contact), ContactSlopes::by_reference(own_nodes, nodes, contact)]
     };
     let by_end = &*second.get_or_insert_with(|| derive(contact));
@@ -310,16 +312,16 @@ fn differentiate(
     let [forces_x, forces_y] = [forces_x, forces_y].map(Total::blocks_mut::<COLUMNS>);
     for (block, (columns, (to_x, to_y))) in blocks.iter_mut().zip(forces_x.iter_mut().zip(forces_y)).enumerate() {
         let mut by = [Columns::ZERO; 2];
-        let mut parameters = Parameters { terms, changes: [Lanes::ZERO; 3] };
+        let mut parameters = ParameterChanges { terms, changes: [Lanes::ZERO; 3] };
         for lane in 0..BLOCK.min(n - BLOCK * block) {
             let c = BLOCK * block + lane;
             for k in 0..2 {
                 let [per_start, per_end] = path.per_input[k];
-                by[k][lane] = per_start * (per_scale * start.at(c)) + per_end * (per_scale * end.at(c));
-                by[k][BLOCK * (k + 1) + lane] = path.per_distance * (end.at(c) - start.at(c));
+                by[k][lane] = per_start * (per_scale * start.or_zero(c)) + per_end * (per_scale * end.or_zero(c));
+                by[k][BLOCK * (k + 1) + lane] = path.per_distance * (end.or_zero(c) - start.or_zero(c));
             }
             // The load at the start of the first step is that of the largest one.
-            let [from, to, top] = [start, end, top].map(|basis| per_scale * basis.at(c));
+            let [from, to, top] = [start, end, top].map(|basis| per_scale * basis.or_zero(c));
             parameters.changes[START][lane] = if start.is_empty() { top } else { from };
             (parameters.changes[END][lane], parameters.changes[REFERENCE][lane]) = (to, by_top * top);
         }
@@ -359,14 +361,14 @@ fn without_friction(element: &Element, samples: &mut [[f64; SAMPLE]]) {
 
 /// The periods of a motion that was synthesised. Not inlined: its frame is not that of a call with one direction.
 #[inline(never)]
-fn walk(element: &Element, workspace: &mut Workspace, displacement: &[f64], output: HarmonicOutput) {
+fn walk(element: &Element, workspace: &mut TwoDirectionsWorkspace, displacement: &[f64], output: HarmonicOutput) {
     let Size { samples: count, harmonics, periods } = workspace.size;
     let HarmonicOutput { force, jacobian, dissipated, drift } = output;
     let derivatives = jacobian.is_some();
     let (largest, top) = first_of_largest_load(workspace);
     let slides = element.friction_coefficient > 0.0 && element.is_closed(top);
     let top_load = if slides { element.normal(top).load } else { element.normal_force };
-    let units = Units::of(element, top_load);
+    let units = Units::at_load(element, top_load);
     let unit = element.friction_coefficient * units.load;
     // A contact that opens forgets: whatever was before, the second period is the steady state.
     let opens = workspace.samples.iter().any(|sample| !element.is_closed(sample[2]));
@@ -382,7 +384,7 @@ fn walk(element: &Element, workspace: &mut Workspace, displacement: &[f64], outp
             workspace.changes.fill(0.0);
             workspace.sums.fill(0.0);
         }
-        let (mut step, mut terms) = (Step::NONE, [Terms::NONE; 3]);
+        let (mut step, mut terms) = (SlipStep::NONE, [ParameterTerms::NONE; 3]);
         let mut walk = Walk::new(element, (units, &nodes[0]), top, (&mut step, &mut terms));
         let slopes = slopes_of_nodes([&nodes[1], &nodes[2]]);
         let by_top = if walk.normal.load >= units.load * 0.99 { 0.5 * walk.contact.slopes.size } else { 0.0 };
@@ -390,7 +392,7 @@ fn walk(element: &Element, workspace: &mut Workspace, displacement: &[f64], outp
         let (mut start, mut changes) = (walk.springs, [0.0; 2]);
         for step in 0..=(periods + 1) * count {
             let counts = step > periods * count;
-            if step < periods * count && !step.is_multiple_of(stride) {
+            if step < (periods - 1) * count && !step.is_multiple_of(stride) {
                 continue;
             }
             let index = (largest + step).checked_rem(count).unwrap_or(0);
@@ -449,7 +451,7 @@ fn remaining([before, last]: [f64; 2]) -> f64 {
     last * (ratio / (1.0 - ratio)).max(1.0)
 }
 
-fn write_force(workspace: &Workspace, force: &mut [f64]) {
+fn write_force(workspace: &TwoDirectionsWorkspace, force: &mut [f64]) {
     let n = workspace.coefficients();
     let per_sample = 1.0 / workspace.size.samples as f64;
     force.fill(0.0);
@@ -464,7 +466,7 @@ fn write_force(workspace: &Workspace, force: &mut [f64]) {
 }
 
 /// The Jacobian from the sums, and that of the normal force.
-fn write_jacobian(workspace: &Workspace, unit: Option<f64>, jacobian: &mut [f64]) {
+fn write_jacobian(workspace: &TwoDirectionsWorkspace, unit: Option<f64>, jacobian: &mut [f64]) {
     let (n, per_sample) = (workspace.coefficients(), 1.0 / workspace.size.samples as f64);
     let columns = workspace.forces.len() / 2;
     let weight = |c: usize| if c == 0 { per_sample } else { 2.0 * per_sample };
@@ -474,7 +476,7 @@ fn write_jacobian(workspace: &Workspace, unit: Option<f64>, jacobian: &mut [f64]
     };
     for (j, column) in jacobian.chunks_exact_mut(3 * n).enumerate() {
         for (c, place) in column.iter_mut().enumerate().take(2 * n) {
-            let sum = workspace.sums.at(c * columns + lane(j));
+            let sum = workspace.sums.or_zero(c * columns + lane(j));
             *place = unit.map_or(0.0, |unit| unit * weight(c % n) * sum);
         }
         column.iter_mut().skip(2 * n).for_each(|place| *place = 0.0);

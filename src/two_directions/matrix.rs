@@ -5,7 +5,7 @@ use crate::numerics::guard::TINY;
 use crate::numerics::lanes::Lanes;
 use crate::numerics::total::Total;
 
-/// Σ x_m matrix[m], of the rows from one to another.
+/// Σ x_m A_m, of the rows A_m of a matrix, from one to another.
 pub(super) fn times(matrix: &Matrix, [first, end]: [usize; 2], x: &Row) -> Row {
     let mut y = Row::ZERO;
     for m in first..end.min(N) {

@@ -88,7 +88,7 @@ pub(crate) struct Units {
 
 impl Units {
     /// For nodes with a reference load.
-    pub fn of(element: &Element, load: f64) -> Units {
+    pub fn at_load(element: &Element, load: f64) -> Units {
         let shape = element.shape();
         let size = shape.at_load(load.max(LEAST_REFERENCE * element.normal_force));
         let [load, shift, _] = shape.load_and_shifts(size);

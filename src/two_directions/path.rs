@@ -9,7 +9,7 @@ pub(super) const LONGEST: f64 = 1e9;
 
 /// Displacement of the springs and its derivatives, between contacts of which at least one is closed.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Path {
+pub(super) struct PathInContact {
     pub by: Both<f64>,
     pub per_distance: f64,
     /// By the normal component over its scale at the start and at the end, in each direction.
@@ -18,9 +18,9 @@ pub(super) struct Path {
     pub scale: f64,
 }
 
-impl Path {
+impl PathInContact {
     /// From and to displacements and normal components, of contacts that are closed or not.
-    pub fn new(element: &Element, units: &Units, [from, to]: [[f64; 3]; 2], closed: [bool; 2]) -> Path {
+    pub fn new(element: &Element, units: &Units, [from, to]: [[f64; 3]; 2], closed: [bool; 2]) -> PathInContact {
         let (start, end) = (from[2], to[2]);
         let (part, slopes) = match closed {
             [true, false] => (element.crossing(start, end.min(0.0)), [0.0; 2]),
@@ -34,7 +34,7 @@ impl Path {
         let distance = [to[0] - from[0], to[1] - from[1]].map(|distance| distance * per_unit);
         let longest = (part * distance[0].abs().max(distance[1].abs())).max(LONGEST);
         let per_scale = LONGEST / longest;
-        Path {
+        PathInContact {
             by: distance.map(|distance| part * distance * per_scale),
             per_distance: part * per_unit * per_scale,
             per_input: distance.map(|distance| slopes.map(|slope| distance * slope * per_scale)),

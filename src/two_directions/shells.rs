@@ -50,11 +50,12 @@ impl Pressed {
         let now = [normal.load, normal.shift, y[0], size * size, inside.load, inside.shift, y_inside[0]];
         let inner = [inside.load_slope, inside.shift_slope, y_inside[1]].map(|slope| INSIDE_EDGE * slope);
         let slopes = [normal.load_slope, normal.shift_slope, y[1], slope, inner[0], inner[1], inner[2]];
-        [now, slopes.map(|slope| scale * slope)].map(|values| Pressed::of(core::array::from_fn(|i| values[i] * per[i])))
+        [now, slopes.map(|slope| scale * slope)]
+            .map(|values| Pressed::from_values(core::array::from_fn(|i| values[i] * per[i])))
     }
 
     /// From all its values, in order.
-    pub fn of([load, x, y, size, inside, inside_x, inside_y]: [f64; 7]) -> Pressed {
+    pub fn from_values([load, x, y, size, inside, inside_x, inside_y]: [f64; 7]) -> Pressed {
         Pressed { load, shift: [x, y], size, inside, inside_shift: [inside_x, inside_y] }
     }
 

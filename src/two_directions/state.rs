@@ -12,20 +12,21 @@
 //! load exceeds theirs: so the force is continuous in the load. Moved springs are the polygon of the springs over S. An overload is forgotten
 //! in gross slip of one direction: there all springs are at their limits, which any nodes represent.
 
+use super::TwoDirections;
+use super::harmonic_force::{HarmonicOutput, TwoDirectionsWorkspace, harmonic_force};
 use super::nodes::{
     Both, FLAT_EDGE, N, NEIGHBOUR, Nodes, POINTS, PRESSURE, ROWS, SHIFT, SIZE, Units, both, fill, first_shell,
     last_node,
 };
-use super::path::{LONGEST, Path};
+use super::path::{LONGEST, PathInContact};
 use super::shells::Pressed;
-use super::step::{Contact, Displacements, LEAST, Motion, Step, bounded, dissipated, separated};
+use super::step::{Displacements, LEAST, LoadedContact, SlipStep, StepMotion, bounded, dissipated, separated};
 use super::tangent::{
-    self, ContactSlopes, END, Parameters, REFERENCE, SpringChanges, Terms, propagate, slopes_of_nodes,
+    self, ContactSlopes, END, ParameterChanges, ParameterTerms, REFERENCE, SpringChanges, propagate, slopes_of_nodes,
 };
-use super::{Requested, TwoDirections};
 use crate::element::{Directions, Element, Normal};
 use crate::error::Error;
-use crate::law::{Law, PathOutput};
+use crate::law::{Law, PathOutput, Requested, StepOf, StepResult};
 use crate::limits::check_displacement;
 use crate::numerics::fp_class::is_finite;
 use crate::numerics::guard::quotient;
@@ -57,6 +58,7 @@ impl Law for TwoDirections {
     type Item = Element;
     type Vector = [f64; 3];
     type Tangent = [f64; 9];
+    type Workspace<'a> = TwoDirectionsWorkspace<'a>;
 
     const STATE_LENGTH: usize = LENGTH;
     const STATE: Kind = Kind::TwoDirectionsState;
@@ -64,6 +66,19 @@ impl Law for TwoDirections {
 
     fn check(element: &Element) -> Result<(), Error> {
         element.check_directions(Directions::Two)
+    }
+
+    fn check_motion(element: &Element, workspace: &mut TwoDirectionsWorkspace, motion: &[f64]) -> Result<(), Error> {
+        workspace.check(element, motion)
+    }
+
+    fn harmonic_force(
+        element: &Element,
+        workspace: &mut TwoDirectionsWorkspace,
+        motion: &[f64],
+        output: HarmonicOutput,
+    ) -> Result<(), Error> {
+        harmonic_force(element, workspace, motion, output)
     }
 
     fn check_step(element: &Element, &[u, v, input]: &[f64; 3]) -> Result<(), Error> {
@@ -76,7 +91,7 @@ impl Law for TwoDirections {
         TwoDirections::check_header(state)?;
         let mut copy = [0.0; LENGTH];
         Self::copy_used(state, &mut copy);
-        let Some(memory) = State::of(&mut copy) else { return Err(Error::StateTooShort) };
+        let Some(memory) = State::split(&mut copy) else { return Err(Error::StateTooShort) };
         if !state.iter().take(LENGTH).all(|value| is_finite(*value)) {
             return Err(Error::BadState);
         }
@@ -96,7 +111,7 @@ impl Law for TwoDirections {
             values.iter().all(|value| (least..=most).contains(value))
         });
         let turned = memory.turned.as_flattened().iter().all(|tangent| tangent.abs() <= 1.0);
-        let contact = Contact::new(nodes, &at.pressed);
+        let contact = LoadedContact::new(nodes, &at.pressed);
         let within = (0..2).all(|k| {
             let (limits, rounding) = (contact.limits(nodes)[k], 1e-9 * now.shift[k] + 1e-30);
             springs.v[k].iter().zip(limits.iter()).all(|(v, limit)| v.abs() <= limit + rounding)
@@ -111,14 +126,14 @@ impl Law for TwoDirections {
         }
     }
 
-    fn trial(element: &Element, old: &[f64], displacement: [f64; 3], requested: Requested) -> super::Step {
+    fn trial(element: &Element, old: &[f64], displacement: [f64; 3], requested: Requested) -> StepOf<Self> {
         let mut copy = [0.0; LENGTH];
         Self::copy_used(old, &mut copy);
         Self::advance(element, &mut copy, displacement, requested)
     }
 
-    fn advance(element: &Element, state: &mut [f64], to: [f64; 3], requested: Requested) -> super::Step {
-        State::of(state).map_or(super::Step::NONE, |mut state| state.advance(element, to, requested))
+    fn advance(element: &Element, state: &mut [f64], to: [f64; 3], requested: Requested) -> StepOf<Self> {
+        State::split(state).map_or(StepResult::NONE, |mut state| state.advance(element, to, requested))
     }
 
     #[inline(never)]
@@ -131,7 +146,7 @@ impl Law for TwoDirections {
 
 /// Where a contact is; open if the normal force is 0.
 #[derive(Debug, Clone, Copy, Default)]
-struct Place {
+struct Situation {
     displacement: [f64; 3],
     normal_force: f64,
     load_slope: f64,
@@ -150,23 +165,23 @@ struct State<'a> {
 }
 
 impl State<'_> {
-    fn of(state: &mut [f64]) -> Option<State<'_>> {
+    fn split(state: &mut [f64]) -> Option<State<'_>> {
         let (header, rest) = state.blocks_mut::<N>().split_first_chunk_mut()?;
         let (v, rest) = rest.split_first_chunk_mut()?;
         let (turned, rest) = rest.split_first_chunk_mut()?;
         Some(State { header, v, turned, nodes: rest.first_chunk_mut()? })
     }
 
-    fn place(&self) -> Place {
+    fn place(&self) -> Situation {
         let [first, [now @ .., _, _, _, _, _, _, a, b, c, d, e, f, g]] = *self.header;
         let [_, normal_force, load_slope, v, u, input, key, load, shift, size, ..] = first;
-        Place {
+        Situation {
             displacement: [u, v, input],
             normal_force,
             load_slope,
             key,
             units: Units { load, shift, size },
-            pressed: [Pressed::of(now), Pressed::of([a, b, c, d, e, f, g])],
+            pressed: [Pressed::from_values(now), Pressed::from_values([a, b, c, d, e, f, g])],
         }
     }
 
@@ -175,8 +190,8 @@ impl State<'_> {
         Displacements { v: [Lanes(x), Lanes(y)], edge: [edge_x, edge_y] }
     }
 
-    fn write(&mut self, at: &Place, springs: &Displacements) {
-        let Place { displacement: [u, v, input], normal_force, load_slope, key, units, pressed } = *at;
+    fn write(&mut self, at: &Situation, springs: &Displacements) {
+        let Situation { displacement: [u, v, input], normal_force, load_slope, key, units, pressed } = *at;
         let Units { load, shift, size } = units;
         let ([a, b, c, d, e, f, g], [p, q, r, s, t, w, z]) = (pressed[0].values(), pressed[1].values());
         let ([x, y], tag) = (springs.edge, Kind::TwoDirectionsState.tag());
@@ -210,9 +225,9 @@ impl State<'_> {
     }
 
     /// A step.
-    fn advance(&mut self, element: &Element, to: [f64; 3], requested: Requested) -> super::Step {
+    fn advance(&mut self, element: &Element, to: [f64; 3], requested: Requested) -> StepOf<TwoDirections> {
         let closes = element.is_closed(to[2]);
-        let (mut at, mut springs, mut result) = (self.place(), self.springs(), super::Step::NONE);
+        let (mut at, mut springs, mut result) = (self.place(), self.springs(), StepResult::NONE);
         if element.friction_coefficient == 0.0 || !(closes || at.normal_force > 0.0) {
             // Without friction, or open before and after, only the position changes.
             if closes {
@@ -225,7 +240,7 @@ impl State<'_> {
         if at.key != element.key {
             // The springs of another element relax where they are.
             springs = Displacements::NONE;
-            at = Place { displacement: at.displacement, key: element.key, ..Place::default() };
+            at = Situation { displacement: at.displacement, key: element.key, ..Situation::default() };
             if element.is_closed(at.displacement[2]) && self.header[0][1] > 0.0 {
                 at.set_nodes(element, self.nodes, element.normal(at.displacement[2]).load);
             }
@@ -236,22 +251,22 @@ impl State<'_> {
             (true, false) => element.normal(to[2]),
             _ => Normal { load: at.normal_force, load_slope: at.load_slope, ..Normal::OPEN },
         };
-        let (mut from, mut outgrown) = (Contact::open(), None);
+        let (mut from, mut outgrown) = (LoadedContact::open(), None);
         if was_closed {
-            from = Contact::new(self.nodes, &at.pressed);
+            from = LoadedContact::new(self.nodes, &at.pressed);
         } else {
             // Springs that close in a step all carry the same part of it, at any nodes.
-            at.units = Units::of(element, normal.load);
+            at.units = Units::at_load(element, normal.load);
             fill(self.nodes, element, &at.units, 1.0);
         }
         if was_closed && normal.load > at.units.load * (1.0 + ROUNDING) {
             let old = Outgrown { units: at.units, springs, nodes: *self.nodes, contact: from };
             at.set_nodes(element, self.nodes, normal.load);
             springs = old.springs_at(self.nodes, &at.pressed[0], &at.units);
-            from = Contact::new(self.nodes, &at.pressed);
+            from = LoadedContact::new(self.nodes, &at.pressed);
             outgrown = Some(old);
         }
-        let path = Path::new(element, &at.units, [at.displacement, to], [was_closed, closes]);
+        let path = PathInContact::new(element, &at.units, [at.displacement, to], [was_closed, closes]);
         let unit = element.friction_coefficient * at.units.load;
         let energy_unit = unit * element.friction_coefficient * at.units.shift * path.scale;
         if !closes {
@@ -265,11 +280,11 @@ impl State<'_> {
         let mut pressed = None;
         if !same {
             at.pressed = Pressed::new(element, &at.units, to[2], &normal);
-            pressed = Some(Contact::new(self.nodes, &at.pressed));
+            pressed = Some(LoadedContact::new(self.nodes, &at.pressed));
         }
         let contact = pressed.as_ref().unwrap_or(&from);
-        let motion = Motion { before: from.now.shift, by: path.by, constant_load: same };
-        let mut step = Step::NONE;
+        let motion = StepMotion { before: from.now.shift, by: path.by, constant_load: same };
+        let mut step = SlipStep::NONE;
         (step.middle.turned, step.end.turned) = (Lanes(self.turned[0]), Lanes(self.turned[1]));
         let contacts = [&from, contact];
         let force = step.advance(self.nodes, contacts, &motion, &mut springs, requested.tangent);
@@ -301,24 +316,30 @@ impl State<'_> {
         if self.header[0][6] != 0.0 {
             (*self.turned, *self.nodes) = ([[0.0; N]; 2], [[0.0; N]; ROWS]);
         }
-        self.write(&Place { displacement, ..Place::default() }, &Displacements::NONE);
+        self.write(&Situation { displacement, ..Situation::default() }, &Displacements::NONE);
     }
 }
 
-impl Place {
+impl Situation {
     /// Nodes of a load.
     #[inline(never)]
     fn set_nodes(&mut self, element: &Element, nodes: &mut Nodes, load: f64) {
         let input = self.displacement[2];
         let normal = element.normal(input);
-        self.units = Units::of(element, load);
+        self.units = Units::at_load(element, load);
         fill(nodes, element, &self.units, 1.0);
         self.pressed = Pressed::new(element, &self.units, input, &normal);
         (self.normal_force, self.load_slope) = (normal.load, normal.load_slope);
     }
 
     /// The load of the nodes after a step with this force. Gross slip in one direction forgets an overload, as the innermost spring slips.
-    fn remembered_load(&self, contact: &Contact, step: &Step, springs: &Displacements, force: Both<f64>) -> f64 {
+    fn remembered_load(
+        &self,
+        contact: &LoadedContact,
+        step: &SlipStep,
+        springs: &Displacements,
+        force: Both<f64>,
+    ) -> f64 {
         let (load, largest) = (REMEMBERED * self.normal_force, self.units.load);
         if largest <= load {
             return largest;
@@ -338,13 +359,13 @@ impl Place {
 #[inline(never)]
 fn tangent(
     nodes: &Nodes,
-    [from, contact]: [&Contact; 2],
-    (path, motion): (&Path, &Motion),
-    (step, springs, force): (&Step, &Displacements, Both<f64>),
+    [from, contact]: [&LoadedContact; 2],
+    (path, motion): (&PathInContact, &StepMotion),
+    (step, springs, force): (&SlipStep, &Displacements, Both<f64>),
     outgrown: Option<(&Outgrown, &Element, &Units)>,
 ) -> [[f64; 3]; 2] {
     let (mut by, mut changes) = ([Lanes::<4>::ZERO; 2], SpringChanges::ZERO);
-    let (mut terms, mut by_parameters) = ([Terms::NONE; 3], [Lanes::ZERO; 3]);
+    let (mut terms, mut by_parameters) = ([ParameterTerms::NONE; 3], [Lanes::ZERO; 3]);
     (by_parameters[END][END], by_parameters[REFERENCE][REFERENCE]) = (1.0, 1.0);
     for k in 0..2 {
         (by[k][END], by[k][ALONG[k]]) = (path.per_input[k][1], 1.0);
@@ -375,7 +396,7 @@ fn tangent(
     }
     let slopes = {
         let (motion, values) = ((motion, &by), (step, springs));
-        let parameters = Parameters { terms: &terms, changes: by_parameters };
+        let parameters = ParameterChanges { terms: &terms, changes: by_parameters };
         let force_slopes = propagate(contact, nodes, motion, values, &mut changes, &parameters);
         tangent::bounded(force, contact.now.load, force_slopes, &parameters)
     };
@@ -389,7 +410,7 @@ struct Outgrown {
     units: Units,
     springs: Displacements,
     nodes: Nodes,
-    contact: Contact,
+    contact: LoadedContact,
 }
 
 impl Outgrown {

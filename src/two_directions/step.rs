@@ -20,20 +20,20 @@ use crate::numerics::lanes::Lanes;
 
 /// A contact under a load: its normal state, with derivatives by the normal component over its scale, and its shells.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Contact {
+pub(crate) struct LoadedContact {
     pub now: Pressed,
     pub slopes: Pressed,
     pub shells: Shells,
 }
 
-impl Contact {
+impl LoadedContact {
     /// A contact that is open.
-    pub fn open() -> Contact {
-        Contact { now: Pressed::default(), slopes: Pressed::default(), shells: Shells::NONE }
+    pub fn open() -> LoadedContact {
+        LoadedContact { now: Pressed::default(), slopes: Pressed::default(), shells: Shells::NONE }
     }
 
-    pub fn new(nodes: &Nodes, [now, slopes]: &[Pressed; 2]) -> Contact {
-        Contact { now: *now, slopes: *slopes, shells: Shells::new(nodes, now) }
+    pub fn new(nodes: &Nodes, [now, slopes]: &[Pressed; 2]) -> LoadedContact {
+        LoadedContact { now: *now, slopes: *slopes, shells: Shells::new(nodes, now) }
     }
 
     /// The limits S_b - S_j of the springs, 0 beyond the edge.
@@ -65,7 +65,7 @@ impl Displacements {
 
 /// A step, straight in S and in the displacement: S at the start, the displacement, and whether the load is that of the start.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Motion {
+pub(crate) struct StepMotion {
     pub before: Both<f64>,
     pub by: Both<f64>,
     pub constant_load: bool,
@@ -93,7 +93,7 @@ pub(crate) struct Far {
 }
 
 impl Far {
-    fn new(to: &Contact, motion: &Motion, old: &Displacements) -> Far {
+    fn new(to: &LoadedContact, motion: &StepMotion, old: &Displacements) -> Far {
         let (mut by, mut cut, mut ratio) = (motion.by, [0.0; 2], [0.0; 2]);
         for k in 0..2 {
             let limit = to.now.shift[k].max(LEAST);
@@ -136,7 +136,7 @@ impl Released {
 }
 
 /// A step while it is computed, and what its derivatives and its energy need.
-pub(crate) struct Step {
+pub(crate) struct SlipStep {
     /// The springs at the start and in the trial state, and the parts of the displacement that they follow.
     pub old: Displacements,
     pub trial: Both<Row>,
@@ -165,10 +165,10 @@ pub(crate) struct EdgeSpring {
     pub slips: bool,
 }
 
-impl Step {
-    pub const NONE: Step = {
+impl SlipStep {
+    pub const NONE: SlipStep = {
         let (none, rows) = ([0.0; 2], [Row::ZERO; 2]);
-        Step {
+        SlipStep {
             old: Displacements::NONE,
             trial: rows,
             parts: rows,
@@ -187,8 +187,8 @@ impl Step {
     pub fn advance(
         &mut self,
         nodes: &Nodes,
-        [from, to]: [&Contact; 2],
-        motion: &Motion,
+        [from, to]: [&LoadedContact; 2],
+        motion: &StepMotion,
         springs: &mut Displacements,
         derivatives: bool,
     ) -> Both<f64> {
@@ -217,7 +217,7 @@ impl Step {
     }
 
     /// The trial state, in which nothing slips.
-    fn stick(&mut self, nodes: &Nodes, to: &Contact, motion: &Motion) {
+    fn stick(&mut self, nodes: &Nodes, to: &LoadedContact, motion: &StepMotion) {
         let limits = to.limits(nodes);
         for k in 0..2 {
             self.parts[k] = Lanes([1.0; N]);
@@ -241,7 +241,7 @@ impl Step {
     }
 
     /// Slip in the middle and at the end.
-    fn slip(&mut self, nodes: &Nodes, [from, to]: [&Contact; 2], motion: &Motion, derivatives: bool) {
+    fn slip(&mut self, nodes: &Nodes, [from, to]: [&LoadedContact; 2], motion: &StepMotion, derivatives: bool) {
         let half = both(|k| 0.5 * (self.old.v[k] + self.trial[k]));
         if motion.constant_load {
             self.middle.find(&mut self.metric, &self.springs, &half, to.now.load, derivatives);
@@ -255,7 +255,7 @@ impl Step {
     }
 
     /// The spring at the edge is another one under another load: a rising load keeps that part of it which is still at the edge.
-    fn move_edge(&mut self, [from, to]: [&Contact; 2], motion: &Motion, springs: &mut Displacements) {
+    fn move_edge(&mut self, [from, to]: [&LoadedContact; 2], motion: &StepMotion, springs: &mut Displacements) {
         let [limit, before] = [to, from].map(|contact| contact.edge_limits().map(|limit| limit.max(LEAST)));
         for k in 0..2 {
             let rise = to.now.shift[k] - motion.before[k];
@@ -293,9 +293,9 @@ pub(crate) fn bounded(force: Both<f64>, bound: f64) -> Both<f64> {
 #[inline(never)]
 pub(crate) fn dissipated(
     nodes: &Nodes,
-    [from, to]: [&Contact; 2],
-    motion: &Motion,
-    step: &Step,
+    [from, to]: [&LoadedContact; 2],
+    motion: &StepMotion,
+    step: &SlipStep,
     new: &Displacements,
 ) -> f64 {
     let mut energy =
@@ -330,7 +330,7 @@ pub(crate) fn dissipated(
 
 /// Energy of springs that lose contact in a step to a lower load: each slips from where it reaches its limit, which falls to 0 within the
 /// part `limit/fall` of the motion, to nothing.
-pub(crate) fn separated(nodes: &Nodes, from: &Contact, now: &Pressed, by: Both<f64>, old: &Displacements) -> f64 {
+pub(crate) fn separated(nodes: &Nodes, from: &LoadedContact, now: &Pressed, by: Both<f64>, old: &Displacements) -> f64 {
     let mut energy = 0.0;
     let fall = both(|k| from.now.shift[k] - now.shift[k]);
     let limits = from.limits(nodes);

@@ -11,7 +11,7 @@ use super::matrix::dot;
 use super::nodes::{Both, FLAT_EDGE, Matrix, N, NEIGHBOUR, Nodes, Row, SHIFT, both};
 use super::shells::{Pressed, Shells, Springs, falls};
 use super::slip::{Set, Slip, set_metric, within};
-use super::step::{Contact, LEAST, Motion, Released, Step};
+use super::step::{LEAST, LoadedContact, Released, SlipStep, StepMotion};
 use crate::numerics::guard::quotient;
 use crate::numerics::lanes::Lanes;
 
@@ -51,7 +51,7 @@ impl ContactSlopes {
         ContactSlopes { shells: Shells::NONE, shift: [0.0; 2], load: 0.0, edge_limit: [0.0; 2] };
 
     /// By the normal component: of the last shell only.
-    pub fn by_load(nodes: &Nodes, contact: &Contact) -> ContactSlopes {
+    pub fn by_load(nodes: &Nodes, contact: &LoadedContact) -> ContactSlopes {
         let slopes = &contact.slopes;
         let mut by = ContactSlopes { shift: slopes.shift, load: slopes.load, ..ContactSlopes::NONE };
         if contact.now.load > 0.0 {
@@ -63,7 +63,7 @@ impl ContactSlopes {
     }
 
     /// By the reference size of the nodes, from derivatives of these.
-    pub fn by_reference(nodes: &Nodes, slopes: &Nodes, contact: &Contact) -> ContactSlopes {
+    pub fn by_reference(nodes: &Nodes, slopes: &Nodes, contact: &LoadedContact) -> ContactSlopes {
         let mut by = ContactSlopes::NONE;
         if contact.now.load > 0.0 {
             by.shells = Shells::before(slopes, contact.shells.first, contact.shells.last);
@@ -83,7 +83,7 @@ pub(crate) fn slopes_of_nodes([larger, smaller]: [&Nodes; 2]) -> Nodes {
 }
 
 /// What the derivative by one parameter of a contact adds to the changes of its springs.
-pub(crate) struct Terms {
+pub(crate) struct ParameterTerms {
     /// S at the start and at the end, S of the nodes, N; stiffnesses at the end, and the limit of the spring at the edge.
     before: Both<f64>,
     now: Both<f64>,
@@ -162,10 +162,10 @@ fn stiffness_slopes(springs: &Springs, k: usize, by: &Shells) -> Row {
     rises(&secants)
 }
 
-impl Terms {
-    pub const NONE: Terms = {
+impl ParameterTerms {
+    pub const NONE: ParameterTerms = {
         let (none, rows) = ([0.0; 2], [Row::ZERO; 2]);
-        Terms {
+        ParameterTerms {
             before: none,
             now: none,
             nodes: rows,
@@ -183,8 +183,8 @@ impl Terms {
     #[inline(never)]
     pub fn set(
         &mut self,
-        contact: &Contact,
-        (step, constant_load): (&Step, bool),
+        contact: &LoadedContact,
+        (step, constant_load): (&SlipStep, bool),
         [from, to]: [Option<&ContactSlopes>; 2],
         nodes: Option<&Nodes>,
     ) {
@@ -208,14 +208,14 @@ impl Terms {
 }
 
 /// Terms of the parameters of a contact, and the changes of these, which are in the first lanes of all changes.
-pub(crate) struct Parameters<'a> {
-    pub terms: &'a [Terms; PARAMETERS],
+pub(crate) struct ParameterChanges<'a> {
+    pub terms: &'a [ParameterTerms; PARAMETERS],
     pub changes: [Lanes<4>; PARAMETERS],
 }
 
-impl Parameters<'_> {
+impl ParameterChanges<'_> {
     /// What a term of all parameters adds.
-    fn sum(&self, term: impl Fn(&Terms) -> f64) -> Lanes<4> {
+    fn sum(&self, term: impl Fn(&ParameterTerms) -> f64) -> Lanes<4> {
         let [a, b, c] = self.terms;
         let [by_a, by_b, by_c] = self.changes;
         term(a) * by_a + term(b) * by_b + term(c) * by_c
@@ -230,12 +230,12 @@ impl Parameters<'_> {
 /// Propagates changes of the springs and of the displacement through a step: those of the springs after it, in place, and of the force, which is
 /// not yet bounded.
 pub(crate) fn propagate<const L: usize>(
-    contact: &Contact,
+    contact: &LoadedContact,
     nodes: &Nodes,
-    (motion, by): (&Motion, &Both<Lanes<L>>),
-    (step, new): (&Step, &super::step::Displacements),
+    (motion, by): (&StepMotion, &Both<Lanes<L>>),
+    (step, new): (&SlipStep, &super::step::Displacements),
     springs: &mut SpringChanges<L>,
-    parameters: &Parameters,
+    parameters: &ParameterChanges,
 ) -> Both<Lanes<L>> {
     let used = contact.used();
     let old = springs.v;
@@ -301,12 +301,12 @@ pub(crate) fn propagate<const L: usize>(
 
 /// Changes of the trial state of springs that are released.
 fn release<const L: usize>(
-    contact: &Contact,
+    contact: &LoadedContact,
     nodes: &Nodes,
-    motion: &Motion,
-    step: &Step,
+    motion: &StepMotion,
+    step: &SlipStep,
     v: &mut Both<Changes<L>>,
-    parameters: &Parameters,
+    parameters: &ParameterChanges,
 ) {
     let fall = motion.before[0] - contact.now.shift[0];
     if motion.constant_load || fall <= 0.0 {
@@ -349,11 +349,11 @@ struct FarChanges<const L: usize> {
 
 impl<const L: usize> FarChanges<L> {
     fn new(
-        contact: &Contact,
-        (motion, by): (&Motion, &Both<Lanes<L>>),
-        step: &Step,
+        contact: &LoadedContact,
+        (motion, by): (&StepMotion, &Both<Lanes<L>>),
+        step: &SlipStep,
         old: &Both<Changes<L>>,
-        parameters: &Parameters,
+        parameters: &ParameterChanges,
     ) -> Self {
         let (far, first) = (&step.far, contact.shells.first.min(FLAT_EDGE));
         let (mut way, mut distance) = (*by, Lanes::ZERO);
@@ -388,11 +388,11 @@ impl<const L: usize> FarChanges<L> {
 
 /// Changes of the spring at the edge.
 fn move_edge<const L: usize>(
-    contact: &Contact,
-    (motion, by): (&Motion, &Both<Lanes<L>>),
-    step: &Step,
+    contact: &LoadedContact,
+    (motion, by): (&StepMotion, &Both<Lanes<L>>),
+    step: &SlipStep,
     old: &Both<Lanes<L>>,
-    parameters: &Parameters,
+    parameters: &ParameterChanges,
 ) -> Both<Lanes<L>> {
     let (mut ratio, edge) = ([Lanes::ZERO; 2], &step.edge);
     let limit = contact.edge_limits().map(|limit| limit.max(LEAST));
@@ -431,7 +431,7 @@ pub(crate) fn bounded<const L: usize>(
     force: Both<f64>,
     bound: f64,
     [x, y]: Both<Lanes<L>>,
-    parameters: &Parameters,
+    parameters: &ParameterChanges,
 ) -> Both<Lanes<L>> {
     let length = (force[0] * force[0] + force[1] * force[1]).sqrt();
     if length <= super::step::ROUNDING * bound {
@@ -454,8 +454,8 @@ impl Slip {
         &self,
         springs: &Springs,
         v: &mut Both<Changes<L>>,
-        parameters: &Parameters,
-        slip_of: impl Fn(&Terms) -> &SlipTerms,
+        parameters: &ParameterChanges,
+        slip_of: impl Fn(&ParameterTerms) -> &SlipTerms,
     ) {
         if self.points.set == 0 {
             return;

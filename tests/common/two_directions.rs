@@ -1,11 +1,12 @@
 //! An element with two tangential directions and its state, and the harmonic force of a motion with one harmonic.
 
 use microslip::element::{Directions, Element, NormalInput};
+use microslip::law::StepOf;
 use microslip::parameters::{CENTRE_POINT, EllipticParameters, Layer, Material, Parameters};
 use microslip::two_directions::harmonic_force::{
-    HarmonicOutput, Workspace, harmonic_force, workspace_init, workspace_length,
+    HarmonicOutput, TwoDirectionsWorkspace, harmonic_force, workspace_init, workspace_length,
 };
-use microslip::two_directions::{Law, Step, TwoDirections};
+use microslip::two_directions::{Law, TwoDirections};
 
 pub const STEEL: Material = Material { young_modulus: 2e11, poisson_ratio: 0.3 };
 
@@ -55,11 +56,11 @@ impl Contact<'_> {
         Contact { element, state }
     }
 
-    pub fn to(&mut self, displacement: [f64; 3]) -> Step {
+    pub fn to(&mut self, displacement: [f64; 3]) -> StepOf<TwoDirections> {
         TwoDirections::step(self.element, &mut self.state, displacement).unwrap()
     }
 
-    pub fn trial(&self, displacement: [f64; 3]) -> Step {
+    pub fn trial(&self, displacement: [f64; 3]) -> StepOf<TwoDirections> {
         self.clone().to(displacement)
     }
 
@@ -92,7 +93,7 @@ pub struct Harmonic {
 pub fn harmonic(element: &Element, periods: usize, motion: &[f64; COEFFICIENTS]) -> Harmonic {
     let (mut memory, mut drift) = (vec![0.0; workspace_length(HARMONICS, SAMPLES)], f64::NAN);
     workspace_init(HARMONICS, SAMPLES, periods, &mut memory).unwrap();
-    let mut workspace = Workspace::new(&mut memory).unwrap();
+    let mut workspace = TwoDirectionsWorkspace::new(&mut memory).unwrap();
     let compute = |output: HarmonicOutput| {
         harmonic_force(element, &mut workspace, motion, HarmonicOutput { drift: Some(&mut drift), ..output })
     };

@@ -18,7 +18,7 @@
 use super::motion::{Grid, Instant, Motion, fill_integrals, fill_phi};
 use super::segments::{NodalFourier, PANEL, Segment};
 use super::sensitivity::ReversalSensitivities;
-use super::{HarmonicOutput, Requested};
+use super::{HarmonicOutput, RequestedOfCurve};
 use crate::constant_load::contact::Contact;
 use crate::constant_load::evaluator::Response;
 use crate::constant_load::memory::{Point, Reversal};
@@ -48,7 +48,7 @@ fn most_reversals(size: Size) -> usize {
 
 /// An opened workspace.
 #[derive(Debug)]
-pub(super) struct Workspace<'a> {
+pub(super) struct EventWorkspace<'a> {
     /// The stack of reversals of the law.
     reversals: &'a mut [Reversal],
     buffers: Buffers<'a>,
@@ -73,7 +73,7 @@ struct Buffers<'a> {
     assembly: Assembly<'a>,
 }
 
-impl<'a> Layout<'a> for Workspace<'a> {
+impl<'a> Layout<'a> for EventWorkspace<'a> {
     const KIND: Kind = Kind::EventDriven;
 
     fn max_rows(size: Size) -> usize {
@@ -84,7 +84,7 @@ impl<'a> Layout<'a> for Workspace<'a> {
         self.buffers.grid.fourier.fill();
     }
 
-    fn take(size: Size, parts: &mut Parts<'a>) -> Result<Workspace<'a>, Error> {
+    fn take(size: Size, parts: &mut Parts<'a>) -> Result<EventWorkspace<'a>, Error> {
         let (points, row, reversals) = (grid_points(size), row_blocks(size.harmonics), most_reversals(size));
         let buffers = Buffers {
             harmonics: size.harmonics,
@@ -102,11 +102,11 @@ impl<'a> Layout<'a> for Workspace<'a> {
             force: parts.take(size.coefficients())?,
             assembly: Assembly::take(parts, size.harmonics, 0.5 / PI)?,
         };
-        Ok(Workspace { reversals: parts.take(3 * reversals)?.blocks_mut(), buffers })
+        Ok(EventWorkspace { reversals: parts.take(3 * reversals)?.blocks_mut(), buffers })
     }
 }
 
-impl Workspace<'_> {
+impl EventWorkspace<'_> {
     /// 2H + 1.
     pub fn coefficients(&self) -> usize {
         self.buffers.coefficients()
@@ -116,14 +116,14 @@ impl Workspace<'_> {
 /// Computes the requested outputs.
 pub(super) fn harmonic_force(
     contact: &Contact,
-    workspace: &mut Workspace,
+    workspace: &mut EventWorkspace,
     displacement: &[f64],
     output: HarmonicOutput,
 ) {
-    let Workspace { reversals, buffers } = workspace;
+    let EventWorkspace { reversals, buffers } = workspace;
     let HarmonicOutput { force, jacobian, dissipated, .. } = output;
     let law = SteadyState::new(contact, reversals, dissipated.is_some());
-    let requested = Requested { force: force.is_some(), stiffness: jacobian.is_some() };
+    let requested = RequestedOfCurve { force: force.is_some(), stiffness: jacobian.is_some() };
     let mut period =
         Period { law, requested, motion: Motion::new(displacement), now: Response::default(), sensitivity: None };
     let half_wave_symmetric = period.integrate(buffers);
@@ -145,14 +145,14 @@ pub(super) fn harmonic_force(
 /// Computes the derivatives with respect to the parameters.
 pub(super) fn harmonic_sensitivity(
     contact: &Contact,
-    workspace: &mut Workspace,
+    workspace: &mut EventWorkspace,
     displacement: &[f64],
     sensitivity: &mut [f64],
 ) {
-    let Workspace { reversals, buffers } = workspace;
+    let EventWorkspace { reversals, buffers } = workspace;
     sensitivity.fill(0.0);
     let law = SteadyState::new(contact, reversals, false);
-    let (requested, motion, now) = (Requested::default(), Motion::new(displacement), Response::default());
+    let (requested, motion, now) = (RequestedOfCurve::default(), Motion::new(displacement), Response::default());
     let mut period = Period { law, requested, motion, now, sensitivity: Some(&mut *sensitivity) };
     let half_wave_symmetric = period.integrate(buffers);
     for column in sensitivity.chunks_exact_mut(buffers.coefficients()) {
@@ -185,7 +185,7 @@ impl Buffers<'_> {
     }
 
     fn instant(&self, index: usize) -> Instant {
-        self.instants.at(index)
+        self.instants.or_zero(index)
     }
 
     /// Evaluates ∫ φ between two instants.
@@ -198,7 +198,7 @@ impl Buffers<'_> {
 /// Integration over a period, event by event.
 struct Period<'m, 'c, 's> {
     law: SteadyState<'c, 's>,
-    requested: Requested,
+    requested: RequestedOfCurve,
     motion: Motion<'m>,
     /// Response at the present instant.
     now: Response,
@@ -278,7 +278,7 @@ impl Period<'_, '_, '_> {
     fn reverse(&mut self, buffers: &mut Buffers, at: Instant, direction: f64) {
         let left = self.law.branch().depth;
         let mut stack = ReversalSensitivities::new(buffers.gradients.as_flattened_mut());
-        let sensitivity = self.sensitivity.is_some().then(|| stack.at(&self.law, at.displacement));
+        let sensitivity = self.sensitivity.is_some().then(|| stack.sensitivity(&self.law, at.displacement));
         if !self.law.reverse(Point { displacement: at.displacement, force: self.now.force }, direction) {
             return;
         }
@@ -307,7 +307,7 @@ impl Period<'_, '_, '_> {
     /// Adds a segment of the present branch to the integrals and the energy. `to_slip`: gross slip starts at its end.
     fn integrate_segment(&mut self, buffers: &mut Buffers, from: Instant, to: Instant, to_slip: bool) {
         self.law.account_for(from.displacement, to.displacement);
-        let Requested { force, stiffness } = self.requested;
+        let RequestedOfCurve { force, stiffness } = self.requested;
         if to.t <= from.t || !(force || stiffness || self.sensitivity.is_some()) {
             return;
         }
@@ -324,7 +324,7 @@ impl Period<'_, '_, '_> {
             }
             if let Some(sums) = &mut self.sensitivity {
                 let stack = ReversalSensitivities::new(buffers.gradients.as_flattened_mut());
-                let columns = sums.chunks_exact_mut(coefficients).zip(stack.at(&self.law, 0.0));
+                let columns = sums.chunks_exact_mut(coefficients).zip(stack.sensitivity(&self.law, 0.0));
                 columns.for_each(|(column, derivative)| add_scaled(column, derivative, buffers.phi_integrals));
             }
             return;
@@ -334,7 +334,7 @@ impl Period<'_, '_, '_> {
             let stack = ReversalSensitivities::new(buffers.gradients.as_flattened_mut());
             let mut columns = sums.chunks_exact_mut(coefficients);
             let sums: [_; PARAMETERS] = core::array::from_fn(|_| columns.next().unwrap_or_default());
-            let derivatives = |displacement| stack.at(&self.law, displacement);
+            let derivatives = |displacement| stack.sensitivity(&self.law, displacement);
             return buffers.nodes.integrate(&self.motion, segment, buffers.harmonics, derivatives, sums);
         }
         let orders = if stiffness { 2 * buffers.harmonics } else { buffers.harmonics };

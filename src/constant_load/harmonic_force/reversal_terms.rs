@@ -8,13 +8,13 @@
 //! Y_r = k_r G_r - Σ k φ,     Y_q -= k_r G_r,     G_q += G_r.
 //! ```
 
-use crate::fourier::rows::{OuterProducts, RowStrips, Rows, Strip, Terms, add_scaled, row_blocks, with_strips};
+use crate::fourier::rows::{OuterProducts, RowStrips, Rows, Strip, StripTerms, add_scaled, row_blocks, with_strips};
 use crate::fourier::workspace::{Blocks, record};
 use crate::numerics::total::Total;
 
 record! {
     /// Consecutive samples on a branch.
-    pub(super) struct Branch {
+    pub(super) struct BranchSamples {
         pub first: u64,
         pub count: u64,
         /// Number of reversals on the stack.
@@ -43,22 +43,22 @@ pub(super) struct ReversalTerms<'a> {
 
 impl ReversalTerms<'_> {
     /// Gathers the terms along the branches, with the stiffness at the samples of two periods.
-    pub fn gather(&mut self, branches: &[Branch], stiffness: &[f64]) {
+    pub fn gather(&mut self, branches: &[BranchSamples], stiffness: &[f64]) {
         with_strips!(row_blocks(self.rows.harmonics), self.gather_strips(branches, stiffness));
     }
 
-    fn gather_strips<const N: usize>(&mut self, branches: &[Branch], stiffness: &[f64]) {
+    fn gather_strips<const N: usize>(&mut self, branches: &[BranchSamples], stiffness: &[f64]) {
         let ReversalTerms { rows, entries, sums, outer } = self;
         let sums = sums.blocks_mut::<N>().blocks_mut();
         for strip in 0..outer.strips::<N>() {
             let (rows, terms) = (rows.strips::<N>(strip), outer.terms(strip));
-            let mut stack = Stack { rows, entries, sums, depth: 0, terms };
-            for &Branch { first, count, depth } in branches {
+            let mut stack = ReversalStack { rows, entries, sums, depth: 0, terms };
+            for &BranchSamples { first, count, depth } in branches {
                 let [first, count, depth] = [first, count, depth].map(|number| number as usize);
                 stack.pop(depth);
                 if depth > stack.depth {
                     let before = first - 1;
-                    stack.push(before, stiffness.at(before));
+                    stack.push(before, stiffness.or_zero(before));
                 }
                 stack.add(first, count, stiffness);
             }
@@ -68,15 +68,15 @@ impl ReversalTerms<'_> {
 }
 
 /// The stack of reversals with their sums, in strips of N blocks.
-struct Stack<'s, const N: usize> {
+struct ReversalStack<'s, const N: usize> {
     rows: RowStrips<'s, N>,
     entries: &'s mut [Entry],
     sums: &'s mut [[Strip<N>; 2]],
     depth: usize,
-    terms: Terms<'s, N, 1>,
+    terms: StripTerms<'s, N, 1>,
 }
 
-impl<const N: usize> Stack<'_, N> {
+impl<const N: usize> ReversalStack<'_, N> {
     /// The sample of the first period.
     fn in_period(&self, sample: usize) -> usize {
         sample.checked_sub(self.rows.phi.len()).unwrap_or(sample)

@@ -23,7 +23,7 @@ const KNEE_DENSITY: f64 = 3.0;
 pub(super) const PANEL: usize = 4 * MAX_GAUSS_BLOCKS;
 
 /// Values at the nodes of a panel.
-type Nodes = [[f64; 4]; MAX_GAUSS_BLOCKS];
+type PanelNodes = [[f64; 4]; MAX_GAUSS_BLOCKS];
 
 /// The interval of time between two events.
 #[derive(Debug, Clone, Copy)]
@@ -49,10 +49,10 @@ impl Segment {
     }
 
     /// Instants and weights of the nodes of a panel.
-    fn nodes(&self, panel: usize, panels: usize, rule: &[[[f64; 4]; 2]]) -> [Nodes; 2] {
+    fn nodes(&self, panel: usize, panels: usize, rule: &[[[f64; 4]; 2]]) -> [PanelNodes; 2] {
         let Segment { from, to, to_slip, .. } = *self;
         let (length, fraction) = (to - from, 1.0 / panels as f64);
-        let [mut times, mut weights]: [Nodes; 2] = [[[0.0; 4]; _]; _];
+        let [mut times, mut weights]: [PanelNodes; 2] = [[[0.0; 4]; _]; _];
         for ((times, weights), [nodes, rule_weights]) in times.iter_mut().zip(weights.iter_mut()).zip(rule) {
             let s = (panel as f64 + Lanes(*nodes)) * fraction;
             let weight = length * fraction * Lanes(*rule_weights);
@@ -73,7 +73,7 @@ impl Segment {
 pub(super) struct NodalFourier<'a> {
     nodes_per_period: usize,
     /// cos and sin of each order at the nodes of a panel.
-    rows: &'a mut [[Nodes; 2]],
+    rows: &'a mut [[PanelNodes; 2]],
 }
 
 impl<'a> NodalFourier<'a> {
@@ -96,9 +96,9 @@ impl<'a> NodalFourier<'a> {
         let (panels, rule) = segment.panels(self.nodes_per_period);
         for panel in 0..panels {
             let [times, weights] = segment.nodes(panel, panels, rule);
-            let mut displacement: Nodes = [[0.0; 4]; _];
+            let mut displacement: PanelNodes = [[0.0; 4]; _];
             fill_rows(self.rows, motion, orders, times.part(..rule.len()), &mut displacement);
-            let mut values: [Nodes; K] = [[[0.0; 4]; _]; _];
+            let mut values: [PanelNodes; K] = [[[0.0; 4]; _]; _];
             for (block, displacement) in displacement.iter().enumerate().take(rule.len()) {
                 let at_nodes = displacement.map(&functions);
                 let by_function: [_; K] = core::array::from_fn(|k| at_nodes.map(|node| node[k]));
@@ -113,10 +113,10 @@ impl<'a> NodalFourier<'a> {
     }
 
     /// Adds the products of weights and values at the nodes of a panel with 1, cos t, sin t, cos 2t, ..., one for each of `sums`.
-    fn add(&self, weights: &[[f64; 4]], values: &Nodes, sums: &mut [f64]) {
+    fn add(&self, weights: &[[f64; 4]], values: &PanelNodes, sums: &mut [f64]) {
         let total = |[one, two, three, four]: [f64; 4]| (one + two) + (three + four);
         let Some((constant, pairs)) = sums.split_first_mut() else { return };
-        let mut products: Nodes = [[0.0; 4]; _];
+        let mut products: PanelNodes = [[0.0; 4]; _];
         let mut sum = Lanes::ZERO;
         for ((product, weight), value) in products.iter_mut().zip(weights).zip(values) {
             *product = *(Lanes(*weight) * Lanes(*value));
@@ -137,7 +137,13 @@ impl<'a> NodalFourier<'a> {
 }
 
 /// Evaluates cos and sin of all orders up to `orders`, and the displacement, at the nodes of a panel.
-fn fill_rows(rows: &mut [[Nodes; 2]], motion: &Motion, orders: usize, times: &[[f64; 4]], displacement: &mut Nodes) {
+fn fill_rows(
+    rows: &mut [[PanelNodes; 2]],
+    motion: &Motion,
+    orders: usize,
+    times: &[[f64; 4]],
+    displacement: &mut PanelNodes,
+) {
     for (block, (times, displacement)) in times.iter().zip(displacement.iter_mut()).enumerate() {
         let (cosine, sine) = (Lanes(*times).map(f64::cos), Lanes(*times).map(f64::sin));
         let (mut c, mut s) = (cosine, sine);

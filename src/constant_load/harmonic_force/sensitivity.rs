@@ -23,7 +23,7 @@ impl<'a> ReversalSensitivities<'a> {
     }
 
     /// The derivatives at a displacement on the present branch.
-    pub fn at(&self, law: &SteadyState, displacement: f64) -> Sensitivity {
+    pub fn sensitivity(&self, law: &SteadyState, displacement: f64) -> Sensitivity {
         let start = law.branch().depth.checked_sub(1).and_then(|index| self.0.get(index));
         let (start, along) = (start.copied().unwrap_or_default(), law.sensitivity(displacement));
         core::array::from_fn(|parameter| start[parameter] + along[parameter])

@@ -6,7 +6,7 @@
 
 use super::reversal_terms::{self, ReversalTerms};
 use super::sensitivity::ReversalSensitivities;
-use super::{HarmonicOutput, Requested};
+use super::{HarmonicOutput, RequestedOfCurve};
 use crate::constant_load::contact::Contact;
 use crate::constant_load::evaluator::BEYOND;
 use crate::constant_load::memory::{Branch, Point, Reversal};
@@ -23,19 +23,19 @@ use crate::tag::Kind;
 
 /// An opened workspace.
 #[derive(Debug)]
-pub(super) struct Workspace<'a> {
+pub(super) struct UniformWorkspace<'a> {
     size: Size,
     fourier: FoldedFourier<'a>,
     /// The stack of reversals of the law.
     reversals: &'a mut [Reversal],
-    path: Path<'a>,
+    path: SampledPath<'a>,
     terms: ReversalTerms<'a>,
     assembly: Assembly<'a>,
     /// Derivatives with respect to the parameters at the samples of a path, from the one after the farthest on.
     derivatives: &'a mut [Sensitivity],
 }
 
-impl<'a> Layout<'a> for Workspace<'a> {
+impl<'a> Layout<'a> for UniformWorkspace<'a> {
     const KIND: Kind = Kind::UniformSampling;
 
     fn fill(&mut self) {
@@ -43,7 +43,7 @@ impl<'a> Layout<'a> for Workspace<'a> {
         self.terms.rows.fill();
     }
 
-    fn take(size: Size, parts: &mut Parts<'a>) -> Result<Workspace<'a>, Error> {
+    fn take(size: Size, parts: &mut Parts<'a>) -> Result<UniformWorkspace<'a>, Error> {
         let Size { harmonics, samples: count, .. } = size;
         // One reversal and one branch per sample, and one more.
         let capacity = count + 1;
@@ -59,13 +59,13 @@ impl<'a> Layout<'a> for Workspace<'a> {
         let outer = OuterProducts::take(parts, harmonics, capacity, 1)?;
         let assembly = Assembly::take(parts, harmonics, 1.0 / count as f64)?;
         let derivatives = parts.take(PARAMETERS * count)?.blocks_mut();
-        let path = Path { displacement, force, stiffness, scratch, branches };
+        let path = SampledPath { displacement, force, stiffness, scratch, branches };
         let terms = ReversalTerms { rows, entries, sums, outer };
-        Ok(Workspace { size, fourier, reversals, path, terms, assembly, derivatives })
+        Ok(UniformWorkspace { size, fourier, reversals, path, terms, assembly, derivatives })
     }
 }
 
-impl Workspace<'_> {
+impl UniformWorkspace<'_> {
     /// 2H + 1.
     pub fn coefficients(&self) -> usize {
         self.size.coefficients()
@@ -75,16 +75,16 @@ impl Workspace<'_> {
 /// Computes the requested outputs.
 pub(super) fn harmonic_force(
     contact: &Contact,
-    workspace: &mut Workspace,
+    workspace: &mut UniformWorkspace,
     displacement: &[f64],
     output: HarmonicOutput,
 ) {
-    let Workspace { size, fourier, reversals, path, terms, assembly, .. } = workspace;
+    let UniformWorkspace { size, fourier, reversals, path, terms, assembly, .. } = workspace;
     let HarmonicOutput { force, jacobian, dissipated, .. } = output;
-    let Part { farthest, length, half_wave } = sample(size.samples, fourier, displacement, path.displacement);
+    let FarthestPart { farthest, length, half_wave } = sample(size.samples, fourier, displacement, path.displacement);
     let symmetry = |sign: f64| half_wave.then_some(sign);
     let mut law = SteadyState::new(contact, reversals, dissipated.is_some());
-    let requested = Requested { force: force.is_some() || jacobian.is_some(), stiffness: jacobian.is_some() };
+    let requested = RequestedOfCurve { force: force.is_some() || jacobian.is_some(), stiffness: jacobian.is_some() };
     let branches = path.advance(&mut law, farthest, length, requested);
     if let (Some(dissipated), Some(energy)) = (dissipated, law.dissipated()) {
         *dissipated = if half_wave { 2.0 * energy } else { energy };
@@ -104,15 +104,15 @@ pub(super) fn harmonic_force(
 /// Computes the derivatives with respect to the parameters.
 pub(super) fn harmonic_sensitivity(
     contact: &Contact,
-    workspace: &mut Workspace,
+    workspace: &mut UniformWorkspace,
     displacement: &[f64],
     sensitivity: &mut [f64],
 ) {
-    let Workspace { size, fourier, reversals, path, terms, derivatives, .. } = workspace;
-    let Part { farthest, length, half_wave } = sample(size.samples, fourier, displacement, path.displacement);
+    let UniformWorkspace { size, fourier, reversals, path, terms, derivatives, .. } = workspace;
+    let FarthestPart { farthest, length, half_wave } = sample(size.samples, fourier, displacement, path.displacement);
     let mut law = SteadyState::new(contact, reversals, false);
     let mut stack = ReversalSensitivities::new(terms.sums.as_flattened_mut());
-    let mut from = path.displacement.at(farthest);
+    let mut from = path.displacement.or_zero(farthest);
     law.begin(from);
     let mut now = law.sensitivity(from);
     for (i, &displacement) in path.displacement.part(farthest + 1..=farthest + length).iter().enumerate() {
@@ -120,7 +120,7 @@ pub(super) fn harmonic_sensitivity(
             if law.advance(Point { displacement: from, force: 0.0 }, displacement) {
                 stack.store(&law, now);
             }
-            (now, from) = (stack.at(&law, displacement), displacement);
+            (now, from) = (stack.sensitivity(&law, displacement), displacement);
         }
         derivatives.set(i, now);
     }
@@ -135,7 +135,7 @@ pub(super) fn harmonic_sensitivity(
 
 /// The part of a period that is evaluated: the samples after the farthest one.
 #[derive(Debug, Clone, Copy)]
-struct Part {
+struct FarthestPart {
     farthest: usize,
     length: usize,
     /// Half a period is enough.
@@ -143,7 +143,7 @@ struct Part {
 }
 
 /// Samples a displacement along two periods.
-fn sample(count: usize, fourier: &FoldedFourier, displacement: &[f64], samples: &mut [f64]) -> Part {
+fn sample(count: usize, fourier: &FoldedFourier, displacement: &[f64], samples: &mut [f64]) -> FarthestPart {
     fourier.synthesise(displacement, samples);
     let even_order = |c: usize| c.div_ceil(2).is_multiple_of(2);
     let only_odd_orders = displacement.iter().enumerate().all(|(c, value)| !even_order(c) || *value == 0.0);
@@ -152,39 +152,39 @@ fn sample(count: usize, fourier: &FoldedFourier, displacement: &[f64], samples: 
     // The first of these samples with the largest magnitude, which no sample exceeds.
     let largest = largest_of(samples.part(..padded(length)), f64::abs);
     let farthest = samples.iter().position(|value| value.abs() == largest).unwrap_or(0);
-    Part { farthest, length, half_wave }
+    FarthestPart { farthest, length, half_wave }
 }
 
 /// Values at the samples of two periods, of which those of one period are evaluated, and the branches on which they lie.
 #[derive(Debug)]
-struct Path<'a> {
+struct SampledPath<'a> {
     displacement: &'a mut [f64],
     force: &'a mut [f64],
     stiffness: &'a mut [f64],
     /// Scratch memory of evaluators.
     scratch: [&'a mut [f64]; 2],
-    branches: &'a mut [reversal_terms::Branch],
+    branches: &'a mut [reversal_terms::BranchSamples],
 }
 
-impl Path<'_> {
+impl SampledPath<'_> {
     /// Advances the law from the farthest sample along `length` further ones, and evaluates force and stiffness if requested. Returns the
     /// number of branches.
-    fn advance(&mut self, law: &mut SteadyState, farthest: usize, length: usize, requested: Requested) -> usize {
-        let Path { displacement, force, stiffness, scratch, branches } = self;
-        let mut from = Point { displacement: displacement.at(farthest), force: 0.0 };
+    fn advance(&mut self, law: &mut SteadyState, farthest: usize, length: usize, requested: RequestedOfCurve) -> usize {
+        let SampledPath { displacement, force, stiffness, scratch, branches } = self;
+        let mut from = Point { displacement: displacement.or_zero(farthest), force: 0.0 };
         let response = law.begin(from.displacement);
         from.force = response.force;
         stiffness.set(farthest, response.stiffness);
         let mut branches = Stack { values: branches, depth: 0 };
         let (mut next, last) = (farthest + 1, farthest + length);
         while next <= last {
-            let (entered, rest) = (displacement.at(next), displacement.part(next..));
+            let (entered, rest) = (displacement.or_zero(next), displacement.part(next..));
             law.advance(from, entered);
             let branch = law.branch();
             let count = count_on_branch(rest, &branch).min(last + 1 - next);
             let [first, on_branch, depth] = [next, count, branch.depth].map(|number| number as u64);
-            branches.push(reversal_terms::Branch { first, count: on_branch, depth });
-            from.displacement = displacement.at(next + count - 1);
+            branches.push(reversal_terms::BranchSamples { first, count: on_branch, depth });
+            from.displacement = displacement.or_zero(next + count - 1);
             law.account_for(entered, from.displacement);
             if requested.force {
                 let (force, stiffness) = (force.part_mut(next..), stiffness.part_mut(next..));
@@ -197,7 +197,7 @@ impl Path<'_> {
                 } else {
                     branch.along::<false>(law.contact, count, rest, [one, two], force, stiffness);
                 }
-                from.force = force.at(count - 1);
+                from.force = force.or_zero(count - 1);
             }
             next += count;
         }

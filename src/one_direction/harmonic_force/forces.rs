@@ -24,7 +24,7 @@ impl Forces<'_> {
     fn at_place(&self, samples: &Samples, place: Place) -> [f64; 2] {
         let sample = place.sample();
         if place.is_end() {
-            [samples.load.at(sample), self.force.at(sample)]
+            [samples.load.or_zero(sample), self.force.or_zero(sample)]
         } else {
             self.last_cut.get(sample).copied().unwrap_or([0.0; 2])
         }
@@ -52,7 +52,7 @@ impl Forces<'_> {
         for run in runs {
             let range = run.samples();
             let inner = self.at_place(samples, run.inner);
-            let loads = run.of(samples.load);
+            let loads = run.part_of(samples.load);
             let forces = self.force.part_mut(range.clone());
             let mu = run.sign * friction_coefficient;
             match run.kind {
@@ -83,14 +83,17 @@ impl Forces<'_> {
 fn stick(samples: &Samples, run: &Run, mu: f64, slopes: &mut [f64], inner: [f64; 2], forces: &mut [f64]) {
     let [mut load_before, mut force_before] = inner;
     let before = samples.before(run.samples().start);
-    let [mut xi_before, mut eta_before] =
-        if run.inner == Place::CENTRE { [run.parameter; 2] } else { [samples.xi.at(before), samples.eta.at(before)] };
-    for ((slope, &xi), &eta) in slopes.iter_mut().zip(run.of(samples.xi)).zip(run.of(samples.eta)) {
+    let [mut xi_before, mut eta_before] = if run.inner == Place::CENTRE {
+        [run.parameter; 2]
+    } else {
+        [samples.xi.or_zero(before), samples.eta.or_zero(before)]
+    };
+    for ((slope, &xi), &eta) in slopes.iter_mut().zip(run.part_of(samples.xi)).zip(run.part_of(samples.eta)) {
         let (falling, rising) = (xi_before - xi, eta - eta_before);
         *slope = mu * ((rising - falling) / (rising + falling).max(f64::MIN_POSITIVE));
         (xi_before, eta_before) = (xi, eta);
     }
-    for ((force, &slope), &load) in forces.iter_mut().zip(slopes.iter()).zip(run.of(samples.load)) {
+    for ((force, &slope), &load) in forces.iter_mut().zip(slopes.iter()).zip(run.part_of(samples.load)) {
         force_before += slope * (load - load_before);
         *force = force_before;
         load_before = load;

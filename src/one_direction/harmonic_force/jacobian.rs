@@ -19,12 +19,14 @@
 //! removed, the sum is added to those of the one or two samples that made it; in the end the Jacobian grows by `Σ Y_j ⊗ φ_j`.
 
 use crate::element::Element;
-use crate::fourier::rows::{OuterProducts, RowStrips, Rows, Strip, Terms, add_scaled, row_blocks, scaled, with_strips};
+use crate::fourier::rows::{
+    OuterProducts, RowStrips, Rows, Strip, StripTerms, add_scaled, row_blocks, scaled, with_strips,
+};
 use crate::fourier::workspace::{Blocks, record};
 use crate::numerics::guard::quotient;
 use crate::numerics::total::{Stack, Total, Zero};
 use crate::one_direction::harmonic_force::runs::{Run, closing};
-use crate::one_direction::harmonic_force::samples::{Part, Samples};
+use crate::one_direction::harmonic_force::samples::{EvaluatedPart, Samples};
 use crate::one_direction::step::Crossing;
 
 record! {
@@ -84,7 +86,7 @@ fn weights_of_stuck(
 
 /// Tables and memory.
 #[derive(Debug)]
-pub(super) struct Sensitivity<'a> {
+pub(super) struct JacobianMemory<'a> {
     pub rows: Rows<'a>,
     pub pieces: &'a mut [Piece],
     /// Sums of φ times both weights of pieces that were cut repeatedly.
@@ -102,7 +104,7 @@ pub(super) struct Sensitivity<'a> {
 pub(super) struct Context<'c> {
     pub element: &'c Element,
     pub samples: &'c Samples<'c>,
-    pub part: &'c Part,
+    pub part: &'c EvaluatedPart,
     pub cut_shifts: &'c [f64],
     pub cut_loads: &'c [f64],
     pub cut_stiffnesses: &'c [f64],
@@ -120,11 +122,11 @@ impl Context<'_> {
     /// S, N and 1/K_t of the whole contact at a sample: 0 if it is open.
     fn contact_at(&self, sample: usize) -> [f64; 3] {
         let Samples { shift, load, stiffness, .. } = self.samples;
-        [shift.at(sample), load.at(sample), stiffness.at(sample)]
+        [shift.or_zero(sample), load.or_zero(sample), stiffness.or_zero(sample)]
     }
 }
 
-impl Sensitivity<'_> {
+impl JacobianMemory<'_> {
     /// Gathers the derivatives along the runs.
     #[inline(never)]
     pub fn gather(&mut self, context: &Context, runs: &[Run]) {
@@ -141,15 +143,18 @@ impl Sensitivity<'_> {
         match run.kind {
             Run::OPEN | Run::GROSS_SLIP => {
                 by_u.fill(0.0);
-                by_input.iter_mut().zip(run.of(samples.load_slope)).for_each(|(weight, slope)| *weight = mu * slope);
+                by_input
+                    .iter_mut()
+                    .zip(run.part_of(samples.load_slope))
+                    .for_each(|(weight, slope)| *weight = mu * slope);
             }
             Run::STUCK => {
                 by_input.fill(0.0);
-                by_u.copy_from(run.of(samples.stiffness));
+                by_u.copy_from(run.part_of(samples.stiffness));
             }
             _ => {
                 let cuts = cut_stiffnesses.part(run.cuts());
-                let values = cuts.iter().zip(run.of(samples.stiffness)).zip(run.of(samples.shift_slope));
+                let values = cuts.iter().zip(run.part_of(samples.stiffness)).zip(run.part_of(samples.shift_slope));
                 for ((by_u, by_input), ((cut, stiffness), slope)) in by_u.iter_mut().zip(by_input).zip(values) {
                     *by_u = *cut;
                     *by_input = mu * slope * (stiffness - cut);
@@ -159,7 +164,7 @@ impl Sensitivity<'_> {
     }
 
     fn gather_strips<const N: usize>(&mut self, context: &Context, runs: &[Run]) {
-        let Sensitivity { rows, pieces, stored, places, outer, .. } = self;
+        let JacobianMemory { rows, pieces, stored, places, outer, .. } = self;
         let stored = stored.blocks_mut::<N>().blocks_mut();
         for strip in 0..outer.strips::<N>() {
             places.fill(-1.0);
@@ -203,7 +208,7 @@ struct Gathering<'c, const N: usize> {
     stack: Pieces<'c>,
     stored: &'c mut [[Strip<N>; 2]],
     places: &'c mut [f64],
-    terms: Terms<'c, N, 2>,
+    terms: StripTerms<'c, N, 2>,
 }
 
 impl<const N: usize> Gathering<'_, N> {
@@ -222,7 +227,7 @@ impl<const N: usize> Gathering<'_, N> {
             let line = Piece {
                 made: if run.sign > 0.0 { Piece::FORWARDS } else { Piece::BACKWARDS },
                 sample: last as u64,
-                weights: [samples.stiffness.at(last), 0.0],
+                weights: [samples.stiffness.or_zero(last), 0.0],
                 since: (now + count) as u64,
                 ..Piece::default()
             };
@@ -239,7 +244,7 @@ impl<const N: usize> Gathering<'_, N> {
                     if let Some(piece) = stack.top() {
                         piece.cut = Cut { step: now as u64, count: count as u64, packed: packed.start as u64 };
                     }
-                    let cut = self.context.cut_stiffnesses.at(packed.end.saturating_sub(1));
+                    let cut = self.context.cut_stiffnesses.or_zero(packed.end.saturating_sub(1));
                     stack.push(Piece { weights: [line.weights[0] - cut, 0.0], parameter: cut, ..line });
                 }
             }
@@ -260,7 +265,7 @@ impl<const N: usize> Gathering<'_, N> {
 
     /// The sums of a piece before a step; updates its weights to those at its last cut.
     fn sums(&self, index: usize, piece: &mut Piece, now: usize) -> [Strip<N>; 2] {
-        let mut sums = if piece.stored > 0 { self.stored.at(index) } else { Zero::zero() };
+        let mut sums = if piece.stored > 0 { self.stored.or_zero(index) } else { Zero::zero() };
         let Piece { since, cut: Cut { step, count, packed }, .. } = *piece;
         let [since, step, count, packed] = [since, step, count, packed].map(|number| number as usize);
         if count == 0 {
@@ -296,7 +301,7 @@ impl<const N: usize> Gathering<'_, N> {
     fn remove_beyond(&mut self, kept: usize, is_cut: bool, now: usize) {
         while self.stack.depth > 0 {
             let index = self.stack.depth - 1;
-            let mut piece = self.stack.values.at(index);
+            let mut piece = self.stack.values.or_zero(index);
             let (removes, was_cut) = (self.stack.depth > kept, piece.cut.count > 0);
             if !(removes || is_cut && was_cut && self.stack.depth == kept) {
                 return;
@@ -325,17 +330,17 @@ impl<const N: usize> Gathering<'_, N> {
     fn distribute(&mut self, piece: &Piece, [constant, linear]: &[Strip<N>; 2]) {
         let Context { element, samples, slopes, .. } = *self.context;
         let (made, sample) = (piece.made, piece.sample as usize);
-        let shift_slope = samples.shift_slope.at(sample);
+        let shift_slope = samples.shift_slope.or_zero(sample);
         let mut difference = *linear;
         add_scaled(&mut difference, -1.0, constant);
-        let (before, slope) = (samples.before(sample), slopes.at(sample));
+        let (before, slope) = (samples.before(sample), slopes.or_zero(sample));
         let own = (sample, linear, [-1.0, slope * shift_slope]);
         // One call in a loop: the function is long, and inlined.
         let (parts, count) = if !piece.is_stuck() {
             let mu = element.friction_coefficient * if made == Piece::FORWARDS { 1.0 } else { -1.0 };
             ([(sample, constant, [-1.0, mu * shift_slope]), own, own], 1)
         } else if made == Piece::BY_STICKING {
-            let inner = (before, &difference, [1.0, -slope * samples.shift_slope.at(before)]);
+            let inner = (before, &difference, [1.0, -slope * samples.shift_slope.or_zero(before)]);
             ([own, inner, own], 2)
         } else {
             let Crossing { fraction, rest, slope, .. } = closing(samples, element, sample);
@@ -349,12 +354,12 @@ impl<const N: usize> Gathering<'_, N> {
 
     /// Adds a row times the derivatives by u and by the input to the rows Y of a sample.
     fn add(&mut self, sample: usize, row: &Strip<N>, [by_u, by_input]: [f64; 2]) {
-        let place = self.places.at(sample);
+        let place = self.places.or_zero(sample);
         if place < 0.0 {
             self.places.set(sample, *self.terms.count as f64);
-            self.terms.push([scaled(by_u, row), scaled(by_input, row)], &self.rows.phi.at(sample));
+            self.terms.push([scaled(by_u, row), scaled(by_input, row)], &self.rows.phi.or_zero(sample));
         } else {
-            let [mut u_row, mut input_row] = self.terms.y.at(place as usize);
+            let [mut u_row, mut input_row] = self.terms.y.or_zero(place as usize);
             add_scaled(&mut u_row, by_u, row);
             add_scaled(&mut input_row, by_input, row);
             self.terms.y.set(place as usize, [u_row, input_row]);

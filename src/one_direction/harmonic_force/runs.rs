@@ -7,7 +7,7 @@ use crate::element::Element;
 use crate::fourier::workspace::record;
 use crate::numerics::total::Total;
 use crate::one_direction::diagram::slope;
-use crate::one_direction::harmonic_force::samples::{Part, Samples, ranges};
+use crate::one_direction::harmonic_force::samples::{EvaluatedPart, Samples, ranges};
 use crate::one_direction::step::Crossing;
 use core::ops::Range;
 
@@ -77,7 +77,7 @@ impl Run {
     }
 
     /// The values of the samples.
-    pub fn of<'v>(&self, values: &'v [f64]) -> &'v [f64] {
+    pub fn part_of<'v>(&self, values: &'v [f64]) -> &'v [f64] {
         values.part(self.samples())
     }
 
@@ -94,26 +94,26 @@ impl Run {
 record! {
     /// A knot of the diagram.
     #[derive(Default)]
-    pub(super) struct Knot {
+    pub(super) struct RunKnot {
         xi: f64,
         eta: f64,
         place: Place,
     }
 }
 
-impl Knot {
-    const fn centre(displacement: f64) -> Knot {
-        Knot { xi: displacement, eta: displacement, place: Place::CENTRE }
+impl RunKnot {
+    const fn centre(displacement: f64) -> RunKnot {
+        RunKnot { xi: displacement, eta: displacement, place: Place::CENTRE }
     }
 
     /// The far end of the part with D = 0.
-    const CORE: Knot = Knot { xi: -1e200, eta: 1e200, place: Place::CENTRE };
+    const CORE: RunKnot = RunKnot { xi: -1e200, eta: 1e200, place: Place::CENTRE };
 }
 
 /// A walk along samples: the stack of knots, and the runs and packed boundaries so far.
 #[derive(Debug)]
 pub(super) struct PeriodicPath<'a> {
-    pub knots: &'a mut [Knot],
+    pub knots: &'a mut [RunKnot],
     pub depth: usize,
     pub runs: &'a mut [Run],
     pub run_count: usize,
@@ -126,14 +126,14 @@ impl PeriodicPath<'_> {
     /// Starts anew from the displacement of the centre.
     fn restart(&mut self, displacement: f64) {
         self.depth = 0;
-        self.push(Knot::centre(displacement));
+        self.push(RunKnot::centre(displacement));
     }
 
-    fn knot(&self, index: usize) -> Knot {
+    fn knot(&self, index: usize) -> RunKnot {
         self.knots.get(index).copied().unwrap_or_default()
     }
 
-    fn push(&mut self, knot: Knot) {
+    fn push(&mut self, knot: RunKnot) {
         if let Some(place) = self.knots.get_mut(self.depth) {
             *place = knot;
             self.depth += 1;
@@ -141,7 +141,7 @@ impl PeriodicPath<'_> {
     }
 
     /// Advances along samples, run by run.
-    fn advance(&mut self, element: &Element, samples: &Samples, part: &Part, range: Range<usize>) {
+    fn advance(&mut self, element: &Element, samples: &Samples, part: &EvaluatedPart, range: Range<usize>) {
         let end = range.end;
         let (Some(xi), Some(eta), Some(inputs)) =
             (samples.xi.get(..end), samples.eta.get(..end), samples.input.get(..end))
@@ -181,7 +181,7 @@ impl PeriodicPath<'_> {
     /// one was removed.
     fn close_loops(&mut self, x: f64, y: f64) -> bool {
         let before = self.depth;
-        while let Some(&Knot { xi, eta, .. }) = self.depth.checked_sub(1).and_then(|top| self.knots.get(top))
+        while let Some(&RunKnot { xi, eta, .. }) = self.depth.checked_sub(1).and_then(|top| self.knots.get(top))
             && !(xi > x && eta < y)
         {
             self.depth -= 1;
@@ -198,7 +198,7 @@ impl PeriodicPath<'_> {
             && x < last.xi
             && y > last.eta
         {
-            last = Knot { xi: x, eta: y, place: Place::end(sample) };
+            last = RunKnot { xi: x, eta: y, place: Place::end(sample) };
             self.push(last);
             sample += 1;
         }
@@ -217,15 +217,15 @@ impl PeriodicPath<'_> {
     fn slip_grossly(&mut self, first: usize, x: f64, [xi, eta, inputs]: [&[f64]; 3]) -> Run {
         let (sign, moving) = if self.knot(0).xi <= x { (1.0, xi) } else { (-1.0, eta) };
         let later = |values| <[f64]>::get(values, first + 1..).unwrap_or(&[]).iter();
-        let mut before = sign * moving.at(first);
+        let mut before = sign * moving.or_zero(first);
         let continues = |(moving, input): &(&f64, &f64)| {
             let continues = sign * *moving >= before && **input > 0.0;
             before = sign * *moving;
             continues
         };
         let last = first + later(moving).zip(later(inputs)).take_while(continues).count();
-        self.push(Knot::centre(moving.at(last)));
-        self.push(Knot { xi: xi.at(last), eta: eta.at(last), place: Place::end(last) });
+        self.push(RunKnot::centre(moving.or_zero(last)));
+        self.push(RunKnot { xi: xi.or_zero(last), eta: eta.or_zero(last), place: Place::end(last) });
         Run { kind: Run::GROSS_SLIP, count: (last + 1 - first) as u64, sign, ..Run::default() }
     }
 
@@ -260,8 +260,8 @@ impl PeriodicPath<'_> {
         }
         let [x, y] = last;
         let [cut, end] = [[x, last_cut], [x, y]].map(|[x, y]| if is_forward { [x, y] } else { [-y, -x] });
-        self.push(Knot { xi: cut[0], eta: cut[1], place: Place::cut(sample - 1) });
-        self.push(Knot { xi: end[0], eta: end[1], place: Place::end(sample - 1) });
+        self.push(RunKnot { xi: cut[0], eta: cut[1], place: Place::cut(sample - 1) });
+        self.push(RunKnot { xi: end[0], eta: end[1], place: Place::end(sample - 1) });
         Run {
             kind: Run::SLIP,
             count: (sample - first) as u64,
@@ -279,24 +279,24 @@ const SMALLEST: f64 = 1e-150;
 
 impl PeriodicPath<'_> {
     /// Starts from the diagram before the first sample of a part.
-    fn begin(&mut self, part: &Part) {
+    fn begin(&mut self, part: &EvaluatedPart) {
         (self.run_count, self.cut_count) = (0, 0);
         self.restart(0.0);
         if !part.opens {
-            self.push(Knot::CORE);
+            self.push(RunKnot::CORE);
         }
     }
 
     /// Finds the runs along a part of the period, and the packed boundaries in blocks of four.
     #[inline(never)]
-    pub fn evaluate(&mut self, element: &Element, samples: &Samples, part: &Part) -> (&[Run], &[[f64; 4]]) {
+    pub fn evaluate(&mut self, element: &Element, samples: &Samples, part: &EvaluatedPart) -> (&[Run], &[[f64; 4]]) {
         self.begin(part);
         for range in ranges(part, samples.count) {
             self.advance(element, samples, part, range);
         }
         let (runs, cuts) = (self.run_count, self.cut_count);
         // Fills the last block of four.
-        let last = cuts.checked_sub(1).map_or(0.0, |last| self.cut_shift.at(last));
+        let last = cuts.checked_sub(1).map_or(0.0, |last| self.cut_shift.or_zero(last));
         self.cut_shift.iter_mut().skip(cuts).take(3).for_each(|place| *place = last);
         let cut_shift = self.cut_shift.blocks().get(..cuts.div_ceil(4));
         (self.runs.part(..runs), cut_shift.unwrap_or(&[]))
@@ -305,6 +305,6 @@ impl PeriodicPath<'_> {
 
 /// Where the path from the open sample before a sample closes the contact.
 pub(super) fn closing(samples: &Samples, element: &Element, sample: usize) -> Crossing {
-    let motion = |sample| [samples.displacement.at(sample), samples.input.at(sample)];
+    let motion = |sample| [samples.displacement.or_zero(sample), samples.input.or_zero(sample)];
     Crossing::between(element, motion(samples.before(sample)), motion(sample))
 }

@@ -25,7 +25,7 @@ pub(super) struct Samples<'a> {
 
 /// The part of a period that is evaluated.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Part {
+pub(super) struct EvaluatedPart {
     /// First sample: one at which the steady state is known.
     pub start: usize,
     /// A whole period, or half of it if the motion is half-wave symmetric.
@@ -35,7 +35,7 @@ pub(super) struct Part {
 }
 
 /// Samples before and after the end of the arrays.
-pub(super) fn ranges(part: &Part, samples: usize) -> [core::ops::Range<usize>; 2] {
+pub(super) fn ranges(part: &EvaluatedPart, samples: usize) -> [core::ops::Range<usize>; 2] {
     let end = part.start + part.length;
     if end <= samples { [part.start..end, 0..0] } else { [part.start..samples, 0..end - samples] }
 }
@@ -46,7 +46,7 @@ impl Samples<'_> {
     }
 
     pub fn is_open(&self, sample: usize) -> bool {
-        self.input.at(sample) <= 0.0
+        self.input.or_zero(sample) <= 0.0
     }
 
     /// The normal state of all samples under a constant input > 0.
@@ -93,7 +93,7 @@ impl Samples<'_> {
     /// - X > 0: the centre has at most this displacement, so the sample of X is one of gross slip, and o = X; Y < 0 accordingly;
     /// - otherwise there is no gross slip and o = 0; the part of the diagram with D = 0 that is never reached ends at S = min(-X, Y)/mu.
     ///   At the sample where that is attained everything beyond is slip zone.
-    pub fn enter_steady_state(&mut self, element: &Element, motion: MotionKind) -> Part {
+    pub fn enter_steady_state(&mut self, element: &Element, motion: MotionKind) -> EvaluatedPart {
         let mu = element.friction_coefficient;
         let (mut largest, mut smallest) = ([f64::MIN; 4], [f64::MAX; 4]);
         let blocks = self
@@ -125,6 +125,6 @@ impl Samples<'_> {
             first(self.eta, smallest)
         };
         let length = if motion.half_wave { self.count / 2 } else { self.count };
-        Part { start, length, opens }
+        EvaluatedPart { start, length, opens }
     }
 }

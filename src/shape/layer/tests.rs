@@ -3,7 +3,7 @@ use super::*;
 /// The logarithms and their series for a small argument, on both sides of the place where one takes over.
 #[test]
 fn logarithms_join_their_series() {
-    let layer = Layer { normal: 0.0, tangential: 1.0, stiffening: 0.4 };
+    let layer = LayerCompliance { normal: 0.0, tangential: 1.0, stiffening: 0.4 };
     let joins = |ratio: &dyn Fn(f64) -> f64| {
         let [below, above] = [1.0 - 1e-12, 1.0 + 1e-12].map(|part| ratio(part * 1e-8 / layer.stiffening));
         assert!((above / below - 1.0).abs() < 1e-15, "{below:e} {above:e}");

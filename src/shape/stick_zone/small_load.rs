@@ -9,22 +9,22 @@
 //!
 //! Each is `Σ c_m f_m τᵐ` times a power of τ, with factors f_m independent of the shape.
 
-use crate::numerics::chebyshev::{Interpolant, Tangent};
+use crate::numerics::chebyshev::{Interpolant, SeriesPoint};
 use crate::numerics::const_math::tabulate;
-use crate::numerics::polynomial::{self, Rows, rows};
+use crate::numerics::polynomial::{self, PolynomialRows, rows};
 use crate::shape::Complement;
 use crate::shape::stick_zone::StickZone;
 
 /// Terms of the polynomial up to τ = 1/2.
 pub(crate) const RETAINED_TERMS: usize = 20;
 
-type Terms = Rows<{ RETAINED_TERMS / 4 }>;
+type SeriesTerms = PolynomialRows<{ RETAINED_TERMS / 4 }>;
 
 // The factors f_m of integrals of τᵐ.
-const COMPLIANCE: Terms = rows(&tabulate!(RETAINED_TERMS, |m| 1.0 / (m + 1) as f64));
-const SHIFT: Terms = rows(&tabulate!(RETAINED_TERMS, |m| 1.0 / ((m + 1) * (m + 2)) as f64));
-const DISSIPATION: Terms = rows(&tabulate!(RETAINED_TERMS, |m| 4.0 / ((m + 2) * (m + 3)) as f64));
-const D_DISSIPATION: Terms = rows(&tabulate!(RETAINED_TERMS, |m| 4.0 / (m + 2) as f64));
+const COMPLIANCE: SeriesTerms = rows(&tabulate!(RETAINED_TERMS, |m| 1.0 / (m + 1) as f64));
+const SHIFT: SeriesTerms = rows(&tabulate!(RETAINED_TERMS, |m| 1.0 / ((m + 1) * (m + 2)) as f64));
+const DISSIPATION: SeriesTerms = rows(&tabulate!(RETAINED_TERMS, |m| 4.0 / ((m + 2) * (m + 3)) as f64));
+const D_DISSIPATION: SeriesTerms = rows(&tabulate!(RETAINED_TERMS, |m| 4.0 / (m + 2) as f64));
 
 /// The expansion of the monotonic curve for τ <= 1/2.
 #[repr(C)]
@@ -35,12 +35,12 @@ pub struct SmallLoadSeries {
     /// x at τ = 1/2.
     pub(crate) half_shift: f64,
     /// Coefficients c_m of h''.
-    curvature: Terms,
+    curvature: SeriesTerms,
 }
 
 impl SmallLoadSeries {
     /// The series from values and slopes of its curvature over z at τ = (1+z)/4.
-    pub(crate) fn new(compliance: f64, curvature: &[Tangent; RETAINED_TERMS / 2]) -> SmallLoadSeries {
+    pub(crate) fn new(compliance: f64, curvature: &[SeriesPoint; RETAINED_TERMS / 2]) -> SmallLoadSeries {
         let mut scale = 1.0;
         let curvature = Interpolant::<RETAINED_TERMS>::osculating(curvature).powers_from_end().map(|power| {
             let coefficient = scale * power;
@@ -59,14 +59,14 @@ impl SmallLoadSeries {
     }
 
     /// `Σ c_m f_m τᵐ`.
-    fn sum(&self, factors: &Terms, tau: f64) -> f64 {
+    fn sum(&self, factors: &SeriesTerms, tau: f64) -> f64 {
         let used = polynomial::rows_for(tau, RETAINED_TERMS / 4);
         let pairs = self.curvature.iter().zip(factors).take(used);
         polynomial::sum(pairs.map(|([a, b, c, d], [f, g, h, i])| [a * f, b * g, c * h, d * i]), tau)
     }
 
     /// The coefficients c_m f_m.
-    fn terms(&self, factors: &Terms) -> Terms {
+    fn terms(&self, factors: &SeriesTerms) -> SeriesTerms {
         let mut terms = self.curvature;
         for (row, factors) in terms.iter_mut().zip(factors) {
             row.iter_mut().zip(factors).for_each(|(term, factor)| *term *= factor);

@@ -5,7 +5,7 @@
 use crate::cases::Case;
 use microslip::element::{Directions, Element, NormalInput};
 use microslip::two_directions::harmonic_force::{
-    HarmonicOutput, Workspace, harmonic_force, workspace_init, workspace_length,
+    HarmonicOutput, TwoDirectionsWorkspace, harmonic_force, workspace_init, workspace_length,
 };
 use nalgebra::{SMatrix, SVector};
 
@@ -55,7 +55,7 @@ pub fn table() -> String {
 fn solve(element: &Element, load: [f64; 2], frequency: f64, periods: usize, motion: &mut Vector) -> [f64; 3] {
     let mut memory = vec![0.0; workspace_length(1, SAMPLES)];
     workspace_init(1, SAMPLES, periods, &mut memory).expect("allowed numbers");
-    let mut workspace = Workspace::new(&mut memory).expect("an initialised workspace");
+    let mut workspace = TwoDirectionsWorkspace::new(&mut memory).expect("an initialised workspace");
     let slip_force = element.friction_coefficient * element.normal_force;
     let unit = element.friction_coefficient * element.shift_under(element.normal_force);
     let stuck = element.tangential_stiffness * unit / slip_force;

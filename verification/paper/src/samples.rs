@@ -3,7 +3,7 @@
 use crate::cases::Case;
 use microslip::element::{Element, NormalInput};
 use microslip::one_direction::harmonic_force::{
-    HarmonicOutput, Workspace, harmonic_force, workspace_init, workspace_length,
+    HarmonicOutput, OneDirectionWorkspace, harmonic_force, workspace_init, workspace_length,
 };
 use std::f64::consts::TAU;
 
@@ -118,7 +118,7 @@ impl Motion {
 fn evaluate(element: &Element, displacement: &[f64], harmonics: usize, samples: usize) -> (Vec<f64>, f64) {
     let mut memory = vec![0.0; workspace_length(harmonics, samples)];
     workspace_init(harmonics, samples, &mut memory).expect("allowed numbers");
-    let mut workspace = Workspace::new(&mut memory).expect("an initialised workspace");
+    let mut workspace = OneDirectionWorkspace::new(&mut memory).expect("an initialised workspace");
     let (mut force, mut energy) = (vec![0.0; displacement.len()], 0.0);
     let output = HarmonicOutput { force: Some(&mut force), jacobian: None, dissipated: Some(&mut energy), drift: None };
     harmonic_force(element, &mut workspace, displacement, output).expect("a motion within the range");

@@ -4,7 +4,8 @@ use crate::cases::Case;
 use crate::drawings::even;
 use crate::table::Table;
 use microslip::element::{Element, NormalInput};
-use microslip::one_direction::{Law, OneDirection, Step, state_length};
+use microslip::law::StepOf;
+use microslip::one_direction::{Law, OneDirection, state_length};
 use std::f64::consts::TAU;
 
 const STEPS_OF_CYCLE: usize = 180;
@@ -76,13 +77,13 @@ impl Path<'_> {
         Path { element, state, displacement: 0.0 }
     }
 
-    fn displace(&mut self, displacement: f64, load: f64) -> Step {
+    fn displace(&mut self, displacement: f64, load: f64) -> StepOf<OneDirection> {
         self.displacement = displacement;
         OneDirection::step(self.element, &mut self.state, [displacement, load]).expect("an admissible step")
     }
 
     /// A step to a tangential force below the slip force, by Newton's method within a bracket.
-    fn pull(&mut self, force: f64, load: f64) -> Step {
+    fn pull(&mut self, force: f64, load: f64) -> StepOf<OneDirection> {
         let start = self.state.clone();
         let reach = 8.0 * self.element.friction_coefficient * self.element.shift_under(load);
         let (mut low, mut high) = (self.displacement - reach, self.displacement + reach);

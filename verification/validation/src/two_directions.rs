@@ -5,7 +5,8 @@
 use crate::golden;
 use crate::table::Table;
 use microslip::element::{Directions, Element, NormalInput};
-use microslip::two_directions::{Law, Step, TwoDirections};
+use microslip::law::{StepOf, StepResult};
+use microslip::two_directions::{Law, TwoDirections};
 use microslip::{EllipticParameters, Material, Parameters};
 use std::f64::consts::TAU;
 use std::fmt::Write;
@@ -39,8 +40,8 @@ pub struct Point {
     pub dissipated: f64,
 }
 
-impl From<Step> for Point {
-    fn from(Step { force: [x, y, _], dissipated, .. }: Step) -> Point {
+impl From<StepOf<TwoDirections>> for Point {
+    fn from(StepResult { force: [x, y, _], dissipated, .. }: StepOf<TwoDirections>) -> Point {
         Point { force: [x, y], dissipated }
     }
 }

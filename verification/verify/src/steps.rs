@@ -6,6 +6,7 @@ use crate::element::prepare;
 use crate::histories::{self, OF_CONTACTS, OF_ELEMENTS};
 use crate::layer;
 use crate::sampler::{Case, ElementCase, Sampler};
+use microslip::law::StepResult;
 use microslip::one_direction::{self as state, Law, OneDirection};
 
 /// Reversals or pieces that a state holds: none are merged.
@@ -91,7 +92,7 @@ pub fn of_element(case: &ElementCase, sampler: &mut Sampler, _: &mut crate::Tall
             step.unwrap_or_else(|error| panic!("{error:?}; {}", context()))
         };
         let now = step(&mut one, to);
-        let state::Step { force: [force, load], tangent, dissipated } = now;
+        let StepResult { force: [force, load], tangent, dissipated } = now;
         let finite = force.is_finite() && load.is_finite() && tangent.iter().all(|value| value.is_finite());
         assert!(finite && dissipated.is_finite() && dissipated >= 0.0, "{now:?}; {}", context());
         assert!(force.abs() <= mu * load, "Coulomb's bound: {now:?}; {}", context());

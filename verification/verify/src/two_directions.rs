@@ -3,7 +3,8 @@
 use crate::call::quiet;
 use crate::sampler::{ElementCase, Sampler};
 use microslip::element::{Directions, Element, NormalInput};
-use microslip::two_directions::{Law, Step, TwoDirections};
+use microslip::law::StepResult;
+use microslip::two_directions::{Law, TwoDirections};
 use reference::Input;
 
 /// Error of the force of a step that is repeated, over mu N of the parameters: rounding errors of the springs, times the condition of the map
@@ -71,7 +72,7 @@ pub fn histories(case: &ElementCase, sampler: &mut Sampler, _: &mut crate::Tally
                 .unwrap_or_else(|e| panic!("{e:?}; {}", context()))
         };
         let step = advance(&mut state);
-        let Step { force: [x, y, load], tangent, dissipated } = step;
+        let StepResult { force: [x, y, load], tangent, dissipated } = step;
         let finite = load.is_finite() && tangent.iter().all(|value| value.is_finite()) && dissipated.is_finite();
         assert!(finite && load >= 0.0 && dissipated >= 0.0, "{step:?}; {}", context());
         // The force is divided by its excess; the squares of forces are within the range of doubles.
