@@ -238,8 +238,8 @@ pub(crate) fn propagate<const L: usize>(
     parameters: &ParameterChanges,
 ) -> Both<Lanes<L>> {
     let used = contact.used();
-    let old = springs.v;
-    let mut v = old;
+    let SpringChanges { v, edge } = springs;
+    let old = *v;
     for k in 0..2 {
         let rise = contact.now.shift[k] - motion.before[k];
         for j in 0..N {
@@ -252,7 +252,7 @@ pub(crate) fn propagate<const L: usize>(
             }
         }
     }
-    release(contact, nodes, motion, step, &mut v, parameters);
+    release(contact, nodes, motion, step, v, parameters);
     let far = &step.far;
     if far.part < 1.0 {
         let between = if motion.constant_load { &step.springs } else { &step.between };
@@ -261,15 +261,15 @@ pub(crate) fn propagate<const L: usize>(
                 v[k][j] = 0.5 * (v[k][j] + old[k][j]);
             }
         }
-        step.middle.differentiate(between, &mut v, parameters, |terms| &terms.middle);
+        step.middle.differentiate(between, v, parameters, |terms| &terms.middle);
         for k in 0..2 {
             for j in 0..N {
                 v[k][j] = used[j] * (2.0 * v[k][j] - old[k][j]);
             }
         }
-        step.end.differentiate(&step.springs, &mut v, parameters, |terms| &terms.end);
+        step.end.differentiate(&step.springs, v, parameters, |terms| &terms.end);
     }
-    let mut edges = move_edge(contact, (motion, by), step, &springs.edge, parameters);
+    *edge = move_edge(contact, (motion, by), step, edge, parameters);
     if far.part > 0.0 {
         let changes = FarChanges::new(contact, (motion, by), step, &old, parameters);
         let (limits, edge_limits) = (contact.limits(nodes), contact.edge_limits());
@@ -280,9 +280,9 @@ pub(crate) fn propagate<const L: usize>(
                 v[k][j] = changes.blend((far.part, far.e[k], changes.e[k]), (v[k][j], value), limit);
             }
             let by_limit = parameters.sum(|terms| terms.edge_limit[k]);
-            let (limit, edge) = (edge_limits[k], &step.edge);
-            let value = limit * edge.ratio[k] / if edge.slips { edge.length.max(1.0) } else { 1.0 };
-            edges[k] = changes.blend((far.part, far.e[k], changes.e[k]), (edges[k], value), (limit, by_limit));
+            let (limit, end) = (edge_limits[k], &step.edge);
+            let value = limit * end.ratio[k] / if end.slips { end.length.max(1.0) } else { 1.0 };
+            edge[k] = changes.blend((far.part, far.e[k], changes.e[k]), (edge[k], value), (limit, by_limit));
         }
     }
     let mut force = [Lanes::ZERO; 2];
@@ -290,12 +290,11 @@ pub(crate) fn propagate<const L: usize>(
         for j in 0..N {
             force[k] += step.springs.stiffness[k][j] * v[k][j];
         }
-        force[k] += contact.shells.edge[k] * edges[k];
+        force[k] += contact.shells.edge[k] * edge[k];
         force[k].add_first(
             parameters.sum(|terms| dot(&new.v[k], &terms.stiffness[k]) + new.edge[k] * terms.edge_stiffness[k]),
         );
     }
-    *springs = SpringChanges { v, edge: edges };
     force
 }
 
