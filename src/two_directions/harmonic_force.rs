@@ -231,10 +231,10 @@ impl<'a> Walk<'a> {
             units,
             nodes,
             at: [0.0, 0.0, top],
-            from: LoadedContact::open(),
-            contact: LoadedContact::open(),
+            from: LoadedContact::default(),
+            contact: LoadedContact::default(),
             normal: Normal::OPEN,
-            springs: Displacements::NONE,
+            springs: Displacements::default(),
             step,
             slopes: [None; 2],
             terms,
@@ -260,7 +260,8 @@ impl<'a> Walk<'a> {
             unbounded = self.step.advance(self.nodes, contacts, &motion, &mut self.springs, derivatives);
             force = bounded(unbounded, self.contact.now.load);
         } else {
-            (self.contact, self.springs, self.normal) = (LoadedContact::open(), Displacements::NONE, Normal::OPEN);
+            (self.contact, self.springs, self.normal) =
+                (LoadedContact::default(), Displacements::default(), Normal::OPEN);
             self.slopes = [None; 2];
         }
         Advanced { force, unbounded, motion, path, closed }
@@ -384,7 +385,7 @@ fn walk(element: &Element, workspace: &mut TwoDirectionsWorkspace, displacement:
             workspace.changes.fill(0.0);
             workspace.sums.fill(0.0);
         }
-        let (mut step, mut terms) = (SlipStep::NONE, [ParameterTerms::NONE; 3]);
+        let (mut step, mut terms) = (SlipStep::default(), <[ParameterTerms; 3]>::default());
         let mut walk = Walk::new(element, (units, &nodes[0]), top, (&mut step, &mut terms));
         let slopes = slopes_of_nodes([&nodes[1], &nodes[2]]);
         let by_top = if walk.normal.load >= units.load * 0.99 { 0.5 * walk.contact.slopes.size } else { 0.0 };

@@ -41,6 +41,7 @@ const BEFORE: Matrix = {
 };
 
 /// A symmetric matrix J of the points from one to another as `J = L D L'`. With `F = L⁻¹ D`, `J⁻¹ = D⁻¹ F' D⁻¹ F D⁻¹`.
+#[derive(Default)]
 pub(crate) struct Factors {
     /// -F, a row for each point.
     rows: Matrix,
@@ -51,8 +52,6 @@ pub(crate) struct Factors {
 }
 
 impl Factors {
-    pub const NONE: Factors = Factors { rows: [Row::ZERO; N], columns: [Row::ZERO; N], per_pivot: Row::ZERO };
-
     /// Factorises the sum of a diagonal and of a matrix whose rows are given. What is below a pivot is eliminated, and stays in its place: it
     /// is F there. Single elements are chosen by their place in the lanes: a vector that is loaded right after one of its elements was stored
     /// would wait for it.
@@ -84,23 +83,38 @@ impl Factors {
     }
 
     /// J⁻¹ x in place, of several x at once.
-    pub fn solve_lanes<const L: usize>(&self, [first, end]: [usize; 2], x: &mut [Lanes<L>; N]) {
-        for i in first..end.min(N) {
-            x[i] = self.per_pivot[i] * x[i];
-        }
-        for i in (first..end).rev().map(|i| i.min(N - 1)) {
-            let mut sum = Lanes::ZERO;
-            for m in first..(i + 1).min(end) {
-                sum += self.rows[i][m] * x[m];
+    pub fn solve_lanes<const L: usize>(&self, range: [usize; 2], x: &mut [Lanes<L>; N]) {
+        let per_pivots = |x: &mut [Lanes<L>; N]| {
+            for i in 0..N {
+                x[i] = self.per_pivot[i] * x[i];
             }
-            x[i] = self.per_pivot[i] * sum;
+        };
+        per_pivots(x);
+        times_upper_transposed(&self.columns, range, x);
+        per_pivots(x);
+        times_upper(&self.columns, range, x);
+        per_pivots(x);
+    }
+}
+
+/// U x in place, of several x at once, by rows of an upper triangular matrix U from one to another.
+pub(super) fn times_upper<const L: usize>(rows: &Matrix, [first, end]: [usize; 2], x: &mut [Lanes<L>; N]) {
+    for i in first..end.min(N) {
+        let mut sum = Lanes::ZERO;
+        for m in i..end.min(N) {
+            sum += rows[i][m] * x[m];
         }
-        for i in first..end.min(N) {
-            let mut sum = Lanes::ZERO;
-            for m in i..end.min(N) {
-                sum += self.rows[m][i] * x[m];
-            }
-            x[i] = self.per_pivot[i] * sum;
+        x[i] = sum;
+    }
+}
+
+/// U' x in place.
+pub(super) fn times_upper_transposed<const L: usize>(rows: &Matrix, [first, end]: [usize; 2], x: &mut [Lanes<L>; N]) {
+    for i in (first..end).rev().map(|i| i.min(N - 1)) {
+        let mut sum = Lanes::ZERO;
+        for m in first..(i + 1).min(end) {
+            sum += rows[m][i] * x[m];
         }
+        x[i] = sum;
     }
 }

@@ -30,7 +30,11 @@ pub(crate) struct Pressed {
     pub inside_shift: Both<f64>,
 }
 
-/// The normal component over that of the size inside the edge: the spring between both makes the stuck stiffness exact, to about this part.
+/// Values of a normal state.
+pub(crate) const VALUES: usize = 7;
+
+/// The normal component of the size inside the edge over the present one. The spring between both makes the stuck stiffness exact, to the
+/// part by which this differs from 1.
 const INSIDE_EDGE: f64 = 1.0 - 8e-6;
 /// Nodes closer to the size inside than this part of its S do not count as inside: their shell would be lost in rounding.
 const THINNEST: f64 = 1e-9;
@@ -55,18 +59,18 @@ impl Pressed {
     }
 
     /// From all its values, in order.
-    pub fn from_values([load, x, y, size, inside, inside_x, inside_y]: [f64; 7]) -> Pressed {
+    pub fn from_values([load, x, y, size, inside, inside_x, inside_y]: [f64; VALUES]) -> Pressed {
         Pressed { load, shift: [x, y], size, inside, inside_shift: [inside_x, inside_y] }
     }
 
-    pub fn values(&self) -> [f64; 7] {
+    pub fn values(&self) -> [f64; VALUES] {
         let Pressed { load, shift: [x, y], size, inside, inside_shift: [inside_x, inside_y] } = *self;
         [load, x, y, size, inside, inside_x, inside_y]
     }
 }
 
 /// The shells of a contact, from one to the last one; those beyond are 0. F_ij of those before the last one are in the tables of the nodes.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 #[repr(align(32))]
 pub(crate) struct Shells {
     pub first: usize,
@@ -81,15 +85,6 @@ pub(crate) struct Shells {
 }
 
 impl Shells {
-    pub const NONE: Shells = Shells {
-        first: 0,
-        last: 0,
-        load: [Row::ZERO; 2],
-        shift: [Row::ZERO; 2],
-        last_pressure: Row::ZERO,
-        edge: [0.0; 2],
-    };
-
     pub fn new(nodes: &Nodes, now: &Pressed) -> Shells {
         let last = last_node(nodes, now.inside_shift[0] * (1.0 - THINNEST)).min(N - 1);
         let mut shells = Shells::before(nodes, first_shell(nodes), last);
@@ -99,7 +94,7 @@ impl Shells {
 
     /// The shells from one to the one before the last one.
     pub fn before(nodes: &Nodes, first: usize, last: usize) -> Shells {
-        let mut shells = Shells { first, last: last.min(N - 1), ..Shells::NONE };
+        let mut shells = Shells { first, last: last.min(N - 1), ..Shells::default() };
         for j in 0..shells.last {
             for k in 0..2 {
                 shells.load[k][j] = nodes[LOAD_STEP][j];
@@ -186,7 +181,7 @@ impl Shells {
 
     /// The contact in the middle of a step: the means of the shells at both ends.
     pub fn middle([from, to]: [&Shells; 2]) -> Shells {
-        let mut middle = Shells { first: to.first, last: from.last.max(to.last), ..Shells::NONE };
+        let mut middle = Shells { first: to.first, last: from.last.max(to.last), ..Shells::default() };
         for k in 0..2 {
             middle.load[k] = 0.5 * (from.load[k] + to.load[k]);
             middle.shift[k] = 0.5 * (from.shift[k] + to.shift[k]);
@@ -223,7 +218,7 @@ pub(crate) fn falls(v: &Row) -> Row {
 }
 
 /// The springs of a contact, and their maps from and to tractions.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 #[repr(align(32))]
 pub(crate) struct Springs {
     pub shells: Shells,
@@ -238,15 +233,6 @@ pub(crate) struct Springs {
 }
 
 impl Springs {
-    pub const NONE: Springs = Springs {
-        shells: Shells::NONE,
-        pressure: [Row::ZERO; N],
-        per_pressure: Row::ZERO,
-        per_shift: [Row::ZERO; 2],
-        stiffness: [Row::ZERO; 2],
-        inverse: [[Row::ZERO; N]; 2],
-    };
-
     /// Sets the springs in the middle between shells: at the end of a step, between the same ones.
     pub fn set(&mut self, nodes: &Nodes, ends: [&Shells; 2]) {
         let Springs { shells, pressure, per_pressure, per_shift, stiffness, inverse } = self;

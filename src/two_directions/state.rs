@@ -19,7 +19,7 @@ use super::nodes::{
     last_node,
 };
 use super::path::{LONGEST, PathInContact};
-use super::shells::Pressed;
+use super::shells::{Pressed, VALUES};
 use super::step::{Displacements, LEAST, LoadedContact, SlipStep, StepMotion, bounded, dissipated, separated};
 use super::tangent::{
     self, ContactSlopes, END, ParameterChanges, ParameterTerms, REFERENCE, SpringChanges, propagate, slopes_of_nodes,
@@ -193,34 +193,13 @@ impl State<'_> {
     fn write(&mut self, at: &Situation, springs: &Displacements) {
         let Situation { displacement: [u, v, input], normal_force, load_slope, key, units, pressed } = *at;
         let Units { load, shift, size } = units;
-        let ([a, b, c, d, e, f, g], [p, q, r, s, t, w, z]) = (pressed[0].values(), pressed[1].values());
         let ([x, y], tag) = (springs.edge, Kind::TwoDirectionsState.tag());
         let all_digits = if normal_force > 0.0 { ALL_DIGITS } else { 0.0 };
-        *self.header = [
-            [
-                tag,
-                normal_force,
-                load_slope,
-                v,
-                u,
-                input,
-                key,
-                load,
-                shift,
-                size,
-                x,
-                y,
-                all_digits,
-                0.0,
-                0.0,
-                0.0,
-                0.0,
-                0.0,
-                0.0,
-                0.0,
-            ],
-            [a, b, c, d, e, f, g, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, p, q, r, s, t, w, z],
-        ];
+        *self.header = [[0.0; N]; HEADER_ROWS];
+        let [first, second] = &mut *self.header;
+        first.copy_from(&[tag, normal_force, load_slope, v, u, input, key, load, shift, size, x, y, all_digits]);
+        second.copy_from(&pressed[0].values());
+        second.part_mut(N - VALUES..).copy_from(&pressed[1].values());
         *self.v = [springs.v[0].0, springs.v[1].0];
     }
 
@@ -239,7 +218,7 @@ impl State<'_> {
         }
         if at.key != element.key {
             // The springs of another element relax where they are.
-            springs = Displacements::NONE;
+            springs = Displacements::default();
             at = Situation { displacement: at.displacement, key: element.key, ..Situation::default() };
             if element.is_closed(at.displacement[2]) && self.header[0][1] > 0.0 {
                 at.set_nodes(element, self.nodes, element.normal(at.displacement[2]).load);
@@ -251,7 +230,7 @@ impl State<'_> {
             (true, false) => element.normal(to[2]),
             _ => Normal { load: at.normal_force, load_slope: at.load_slope, ..Normal::OPEN },
         };
-        let (mut from, mut outgrown) = (LoadedContact::open(), None);
+        let (mut from, mut outgrown) = (LoadedContact::default(), None);
         if was_closed {
             from = LoadedContact::new(self.nodes, &at.pressed);
         } else {
@@ -284,7 +263,7 @@ impl State<'_> {
         }
         let contact = pressed.as_ref().unwrap_or(&from);
         let motion = StepMotion { before: from.now.shift, by: path.by, constant_load: same };
-        let mut step = SlipStep::NONE;
+        let mut step = SlipStep::default();
         (step.middle.turned, step.end.turned) = (Lanes(self.turned[0]), Lanes(self.turned[1]));
         let contacts = [&from, contact];
         let force = step.advance(self.nodes, contacts, &motion, &mut springs, requested.tangent);
@@ -316,7 +295,7 @@ impl State<'_> {
         if self.header[0][6] != 0.0 {
             (*self.turned, *self.nodes) = ([[0.0; N]; 2], [[0.0; N]; ROWS]);
         }
-        self.write(&Situation { displacement, ..Situation::default() }, &Displacements::NONE);
+        self.write(&Situation { displacement, ..Situation::default() }, &Displacements::default());
     }
 }
 
@@ -364,8 +343,8 @@ fn tangent(
     (step, springs, force): (&SlipStep, &Displacements, Both<f64>),
     outgrown: Option<(&Outgrown, &Element, &Units)>,
 ) -> [[f64; 3]; 2] {
-    let (mut by, mut changes) = ([Lanes::<4>::ZERO; 2], SpringChanges::ZERO);
-    let (mut terms, mut by_parameters) = ([ParameterTerms::NONE; 3], [Lanes::ZERO; 3]);
+    let (mut by, mut changes) = ([Lanes::<4>::ZERO; 2], SpringChanges::default());
+    let (mut terms, mut by_parameters) = (<[ParameterTerms; 3]>::default(), [Lanes::ZERO; 3]);
     (by_parameters[END][END], by_parameters[REFERENCE][REFERENCE]) = (1.0, 1.0);
     for k in 0..2 {
         (by[k][END], by[k][ALONG[k]]) = (path.per_input[k][1], 1.0);
@@ -418,7 +397,7 @@ impl Outgrown {
     fn springs_at(&self, nodes: &Nodes, now: &Pressed, units: &Units) -> Displacements {
         let (ratio, first) = (self.units.shift / units.shift, self.contact.shells.first.min(FLAT_EDGE));
         let last = last_node(nodes, now.inside_shift[0]);
-        let mut new = Displacements { edge: self.springs.edge.map(|edge| ratio * edge), ..Displacements::NONE };
+        let mut new = Displacements { edge: self.springs.edge.map(|edge| ratio * edge), ..Displacements::default() };
         let limits = self.contact.limits(&self.nodes);
         for k in 0..2 {
             let (limits, old) = (limits[k], &self.springs.v[k]);

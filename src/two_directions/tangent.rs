@@ -7,7 +7,7 @@
 //! C dv = dq - dC v,   dr = C⁻¹'[k (dv* - dv) + dk (v* - v) - dC' r],   e × dr + de × r = 0,   de = e⊥ dθ
 //! ```
 
-use super::matrix::dot;
+use super::matrix::{dot, times_upper, times_upper_transposed};
 use super::nodes::{Both, FLAT_EDGE, Matrix, N, NEIGHBOUR, Nodes, Row, SHIFT, both};
 use super::shells::{Pressed, Shells, Springs, falls};
 use super::slip::{Set, Slip, set_metric, within};
@@ -19,14 +19,10 @@ use crate::numerics::lanes::Lanes;
 pub(crate) type Changes<const L: usize> = [Lanes<L>; N];
 
 /// Changes of the springs, and of the spring at the edge.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct SpringChanges<const L: usize> {
     pub v: Both<Changes<L>>,
     pub edge: Both<Lanes<L>>,
-}
-
-impl<const L: usize> SpringChanges<L> {
-    pub const ZERO: Self = SpringChanges { v: [[Lanes::ZERO; N]; 2], edge: [Lanes::ZERO; 2] };
 }
 
 /// Parameters of a contact: the normal component over its scale at the end and at the start of the step, and the logarithm of
@@ -37,7 +33,7 @@ pub(crate) const REFERENCE: usize = 2;
 const PARAMETERS: usize = 3;
 
 /// A contact's derivatives by one of its parameters.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct ContactSlopes {
     pub shells: Shells,
     pub shift: Both<f64>,
@@ -47,13 +43,10 @@ pub(crate) struct ContactSlopes {
 }
 
 impl ContactSlopes {
-    const NONE: ContactSlopes =
-        ContactSlopes { shells: Shells::NONE, shift: [0.0; 2], load: 0.0, edge_limit: [0.0; 2] };
-
     /// By the normal component: of the last shell only.
     pub fn by_load(nodes: &Nodes, contact: &LoadedContact) -> ContactSlopes {
         let slopes = &contact.slopes;
-        let mut by = ContactSlopes { shift: slopes.shift, load: slopes.load, ..ContactSlopes::NONE };
+        let mut by = ContactSlopes { shift: slopes.shift, load: slopes.load, ..ContactSlopes::default() };
         if contact.now.load > 0.0 {
             by.edge_limit = both(|k| slopes.shift[k] - slopes.inside_shift[k]);
             (by.shells.first, by.shells.last) = (contact.shells.first, contact.shells.last);
@@ -64,7 +57,7 @@ impl ContactSlopes {
 
     /// By the reference size of the nodes, from derivatives of these.
     pub fn by_reference(nodes: &Nodes, slopes: &Nodes, contact: &LoadedContact) -> ContactSlopes {
-        let mut by = ContactSlopes::NONE;
+        let mut by = ContactSlopes::default();
         if contact.now.load > 0.0 {
             by.shells = Shells::before(slopes, contact.shells.first, contact.shells.last);
             by.shells.set_last_slopes(nodes, &contact.shells, &contact.now, &Pressed::default(), Some(slopes));
@@ -83,6 +76,7 @@ pub(crate) fn slopes_of_nodes([larger, smaller]: [&Nodes; 2]) -> Nodes {
 }
 
 /// What the derivative by one parameter of a contact adds to the changes of its springs.
+#[derive(Default)]
 pub(crate) struct ParameterTerms {
     /// S at the start and at the end, S of the nodes, N; stiffnesses at the end, and the limit of the spring at the edge.
     before: Both<f64>,
@@ -98,6 +92,7 @@ pub(crate) struct ParameterTerms {
 }
 
 /// Terms of a slip: dC v; dk (v* - v) - dC' r, in which the pressures are constant; and r dp/p, which is what their changes add to the slip.
+#[derive(Default)]
 struct SlipTerms {
     tractions: Both<Row>,
     forces: Both<Row>,
@@ -105,11 +100,6 @@ struct SlipTerms {
 }
 
 impl SlipTerms {
-    const NONE: SlipTerms = {
-        let zero = [Row::ZERO; 2];
-        SlipTerms { tractions: zero, forces: zero, slip: zero }
-    };
-
     /// Of a parameter by which the shells from one on, and the nodes, have derivatives.
     fn set(
         &mut self,
@@ -163,22 +153,6 @@ fn stiffness_slopes(springs: &Springs, k: usize, by: &Shells) -> Row {
 }
 
 impl ParameterTerms {
-    pub const NONE: ParameterTerms = {
-        let (none, rows) = ([0.0; 2], [Row::ZERO; 2]);
-        ParameterTerms {
-            before: none,
-            now: none,
-            nodes: rows,
-            load: 0.0,
-            stiffness: rows,
-            edge_stiffness: none,
-            edge_limit: none,
-            edge_before: none,
-            middle: SlipTerms::NONE,
-            end: SlipTerms::NONE,
-        }
-    };
-
     /// Of a parameter by which the contact at the start, that at the end, or both have derivatives, and the nodes.
     #[inline(never)]
     pub fn set(
@@ -188,7 +162,7 @@ impl ParameterTerms {
         [from, to]: [Option<&ContactSlopes>; 2],
         nodes: Option<&Nodes>,
     ) {
-        let none = ContactSlopes::NONE;
+        let none = ContactSlopes::default();
         // By the load, only the last shells have derivatives.
         let lasts = [from, to].map(|by| by.map_or(N, |by| by.shells.last));
         let first = if nodes.is_some() { 0 } else { lasts[0].min(lasts[1]) };
@@ -460,39 +434,28 @@ impl Slip {
             return;
         }
         let (first, end) = (self.points.first.min(N), springs.shells.range().end.min(N));
-        // The springs at the present tractions, and the slip at them. Both maps are triangular, and applied in place.
+        let range = [first, end];
+        // The springs at the present tractions, and the slip at them.
         let mut own = [[Lanes::<4>::ZERO; N]; 2];
         for k in 0..2 {
             for j in first..end {
                 own[k][j] = -parameters.sum(|terms| slip_of(terms).tractions[k][j]);
             }
+            times_upper(&springs.inverse[k], range, &mut own[k]);
             for j in first..end {
-                let mut sum = Lanes::ZERO;
-                for i in j..end {
-                    sum += springs.inverse[k][j][i] * own[k][i];
-                }
-                own[k][j] = sum;
-                v[k][j].add_first(-sum);
+                v[k][j].add_first(-own[k][j]);
                 v[k][j] = springs.stiffness[k][j] * v[k][j];
                 v[k][j].add_first(parameters.sum(|terms| slip_of(terms).forces[k][j]));
             }
-            for i in (first..end).rev().map(|i| i.min(N - 1)) {
-                let mut sum = Lanes::ZERO;
-                for j in first..(i + 1).min(end) {
-                    sum += springs.inverse[k][j][i] * v[k][j];
-                }
-                v[k][i] = sum;
+            times_upper_transposed(&springs.inverse[k], range, &mut v[k]);
+            for i in first..end {
                 v[k][i].add_first(parameters.sum(|terms| slip_of(terms).slip[k][i]));
             }
         }
-        self.turn(springs, v, [first, end]);
+        self.turn(springs, v, range);
         for k in 0..2 {
+            times_upper(&springs.inverse[k], range, &mut v[k]);
             for j in first..end {
-                let mut sum = Lanes::ZERO;
-                for i in j..end {
-                    sum += springs.inverse[k][j][i] * v[k][i];
-                }
-                v[k][j] = sum;
                 v[k][j].add_first(own[k][j]);
             }
         }
