@@ -204,7 +204,7 @@ struct Walk<'a> {
     normal: Normal,
     springs: Displacements,
     step: &'a mut SlipStep,
-    /// Derivatives of the contact, and of the one before, by the normal component and by the reference size, if they are known.
+    /// Derivatives of the contact before and of the present one, by the normal component and by the reference size, if they are known.
     slopes: [Option<[ContactSlopes; 2]>; 2],
     terms: &'a mut [ParameterTerms; 3],
 }
@@ -284,7 +284,8 @@ impl<'a> Walk<'a> {
     }
 }
 
-/// Changes of the springs and the forces after a step between samples, those by the largest normal component times `by_top`.
+/// Changes of the springs and of the forces after a step between samples. `by_top` is the change of the logarithm of the reference size by the
+/// largest normal component over its scale.
 fn differentiate(
     workspace: &mut TwoDirectionsWorkspace,
     walk: &mut Walk,
@@ -388,6 +389,7 @@ fn walk(element: &Element, workspace: &mut TwoDirectionsWorkspace, displacement:
         let (mut step, mut terms) = (SlipStep::default(), <[ParameterTerms; 3]>::default());
         let mut walk = Walk::new(element, (units, &nodes[0]), top, (&mut step, &mut terms));
         let slopes = slopes_of_nodes([&nodes[1], &nodes[2]]);
+        // The reference size is not that of the largest load if this is below the least reference load.
         let by_top = if walk.normal.load >= units.load * 0.99 { 0.5 * walk.contact.slopes.size } else { 0.0 };
         let mut before = None;
         let (mut start, mut changes) = (walk.springs, [0.0; 2]);

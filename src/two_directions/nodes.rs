@@ -101,7 +101,7 @@ pub(crate) fn first_shell(nodes: &Nodes) -> usize {
     if nodes[SIZE][0] < 0.0 { 0 } else { FLAT_EDGE }
 }
 
-/// The node within a present shift across the line that is the next to the edge.
+/// The outermost node whose shift across the line is less than the present one.
 pub(crate) fn last_node(nodes: &Nodes, shift: f64) -> usize {
     FLAT_EDGE + nodes[SHIFT].iter().skip(FLAT_EDGE + 1).filter(|node| **node < shift).count()
 }

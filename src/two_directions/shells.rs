@@ -5,7 +5,7 @@
 //!
 //! ```text
 //! T = Σ k_j v_j,   k_j = Z_j - Z_{j-1},   Z_j = ΔN_j/ΔS_j
-//! q_i = Σ_{j>=i} g_ij (v_j - v_{j+1}),   g_ij = F_ij/(p_i ΔS_j),   p_i = Σ_j F_ij
+//! q_i = Σ_{j>=i} g_ij (v_j - v_{j+1}),   g_ij = F_ij/(p_i ΔS_j),   p_i = Σ_j F_ij without the shells under the flat
 //! ```
 //!
 //! q is the traction over the pressure: |q_i| <= 1 is Coulomb's law, in units of μ. All of this depends on sums over shells only, so the middle
@@ -165,7 +165,7 @@ impl Shells {
         self.last_pressure[last] = pressure_at_edge_slope(nodes, by_nodes, last, [now.size, by.size]);
     }
 
-    /// F_ij of a shell, given the tables of nodes; 0 before the last shell without.
+    /// F_ij of a shell. Without the tables of the nodes, only that of the last shell is not 0.
     fn pressure(&self, nodes: Option<&Nodes>, j: usize) -> Row {
         match nodes {
             _ if j == self.last => self.last_pressure,

@@ -26,12 +26,14 @@ pub(crate) type Set = u32;
 /// Newton steps, and changes of the set, after which a guess is given up.
 const STEPS: usize = 60;
 const CHANGES: usize = 12;
-/// Changes of angles: the one that would be next, at the end, and that up to which the factors are kept.
+/// Newton's method has converged when the change of the angles that would be next is at most this.
 const CONVERGED: f64 = 1e-11;
+/// The factors of J are kept while the changes of the angles are at most this.
 const KEPT: f64 = 1e-2;
-/// The square of a larger one could overflow.
+/// Newton's method is given up at a change of angles whose square could overflow.
 const LOST: f64 = 1e100;
-/// Of two changes that are at most the first number, with new factors each, the second one is a rounding error from this part on.
+/// A change of the angles is a rounding error if it is more than the part `STALLED` of the one before, which was at most `SMALL_TURN`, and
+/// both followed from new factors.
 const SMALL_TURN: f64 = 1e-9;
 const STALLED: f64 = 0.5;
 /// Sweeps of the points before Newton's method is tried again, and attempts, the first one of which is without.
@@ -39,10 +41,11 @@ const SWEEPS: usize = 30;
 const ATTEMPTS: usize = 8;
 /// Newton steps after which points that slip backwards stick: the angle of a point that hardly slips is undetermined.
 const REVIEW: usize = 15;
-/// |q|² from which on a point slips, and slip against the traction, over its scale, from which on it sticks: rounding errors.
+/// Coulomb's bound of |q|², but for rounding: a point whose |q|² is larger slips.
 const BEYOND: f64 = 1.0 + 1e-12;
+/// A point sticks again if its slip against the traction is more than this part of the scale of slip, a rounding error.
 const BACKWARDS: f64 = 1e-14;
-/// Cosine of the angle up to which a point is expected to turn again, and the traction over its bound from which on it is expected to slip.
+/// A point is expected to slip if its traction is more than this part of the bound, and to turn again if the cosine of its angle is more.
 const NEAR: f64 = 0.5;
 
 /// Slip of the points of a contact, and what its derivatives need.
@@ -58,11 +61,12 @@ pub(crate) struct Slip {
     kept: (Set, Factors),
 }
 
-/// K from the innermost point on, without points that stick, of these points under a load.
+/// The metric K of a set of slipping points under a load: from the innermost one on, with the points that stick eliminated.
 #[derive(Default)]
 #[repr(align(32))]
 pub(crate) struct Metric {
     of: Both<Matrix>,
+    /// The set and the load; a load that is NaN is never met again.
     known: (Set, f64),
 }
 

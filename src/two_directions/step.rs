@@ -105,13 +105,13 @@ impl Far {
 const LARGEST_FALL: f64 = 4.0;
 
 /// A spring whose limit falls to a small part, and vanishes if the edge passes its node: it slips for the most part on its own, before the
-/// others. So much less does its trial state exceed its limit: not at all if the spring is gone at the end.
+/// others. Its trial state exceeds its limit by a part of the excess only, which is 0 if the spring is gone at the end.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Released {
     /// The trial state over the limit, and its length.
     pub ratio: Both<f64>,
     pub length: f64,
-    /// The part of the excess that is left, and the factor of the trial state, 1 if nothing changes.
+    /// The part of the excess that is left, and the factor by which the trial state is reduced.
     pub part: f64,
     pub scale: f64,
 }

@@ -1,7 +1,7 @@
 //! Derivatives of a step whose values are known: one more step of Newton's method from the solution of each slip.
 //!
-//! A step is linear in small changes, so many are propagated at once, in lanes: of the motion, of the springs at the start, and of parameters
-//! of the contact. Those by parameters have terms of their own, with dC and dk of the shells:
+//! A step is linear in small changes of the motion and of the springs at its start, so many are propagated at once, in lanes. Changes of the
+//! parameters of the contact add terms to them, with the changes dC and dk of the shells:
 //!
 //! ```text
 //! C dv = dq - dC v,   dr = C⁻¹'[k (dv* - dv) + dk (v* - v) - dC' r],   e × dr + de × r = 0,   de = e⊥ dθ
@@ -181,7 +181,7 @@ impl ParameterTerms {
     }
 }
 
-/// Terms of the parameters of a contact, and the changes of these, which are in the first lanes of all changes.
+/// The terms of each parameter of a contact, and by how much the parameter changes in the first four of the lanes that are propagated.
 pub(crate) struct ParameterChanges<'a> {
     pub terms: &'a [ParameterTerms; PARAMETERS],
     pub changes: [Lanes<4>; PARAMETERS],
@@ -502,7 +502,8 @@ impl Slip {
     }
 }
 
-/// Points in between that stick: their tractions at those of the others, in place of their slip, and the slip that the others take from it.
+/// Eliminates the points that stick between others: the change of slip of such a point becomes the change of its traction, and is subtracted
+/// from the change of slip of the others by their share.
 #[inline(never)]
 fn eliminate<const L: usize>(
     metric: &Both<Matrix>,
