@@ -52,9 +52,9 @@ pub(crate) struct Factors {
 }
 
 impl Factors {
-    /// Factorises the sum of a diagonal and of a matrix whose rows are given. Below a pivot the rows
-    /// are eliminated but for its own column, which becomes one of -F. Single elements are chosen by their place in the lanes: a vector that is loaded right after one of its elements was stored
-    /// would wait for it.
+    /// Factorises the sum of a diagonal and of a matrix whose rows are given. Below a pivot the rows are eliminated but for its own column,
+    /// which becomes one of -F. Single elements are chosen by their place in the lanes: a vector that is loaded right after one of its elements
+    /// was stored would wait for it.
     pub fn set(&mut self, [first, end]: [usize; 2], diagonal: &Row, row: impl Fn(usize) -> Row) {
         let Factors { rows, columns, per_pivot } = self;
         for i in first..end.min(N) {
