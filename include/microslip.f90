@@ -2220,8 +2220,8 @@ contains
     real(mslip_real), intent(inout), optional, target :: dissipated
       !! Work of the tangential force in the returned period, the energy dissipated [J].
     real(mslip_real), intent(inout), optional, target :: drift
-      !! Largest difference of the tangential force between the last two periods, over mu times the largest normal
-      !! force.
+      !! Estimate of the largest difference of the tangential force from the steady state, over mu times the largest
+      !! normal force.
 
     integer(mslip_size) :: k
     type(c_ptr) :: ptr(2)
@@ -2370,8 +2370,8 @@ contains
     real(mslip_real), intent(inout), optional, target, contiguous :: dissipated(:)
       !! Work of the tangential force in the returned period, the energy dissipated [J].
     real(mslip_real), intent(inout), optional, target, contiguous :: drift(:)
-      !! Largest difference of the tangential force between the last two periods, over mu times the largest normal
-      !! force.
+      !! Estimate of the largest difference of the tangential force from the steady state, over mu times the largest
+      !! normal force.
     integer(mslip_size), intent(inout), optional :: failed_item
       !! On an error the first item at fault, from 1; 0 if the error is not the error of an item. Not written on
       !! success.
