@@ -42,6 +42,36 @@ pub struct PathOutput<'a, L: Law> {
 pub type StepOf<L> = StepResult<<L as Law>::Vector, <L as Law>::Tangent>;
 
 /// A law that advances the state of a contact, or of an element with a number of directions.
+///
+/// A loop of a contact under a constant normal force closes:
+///
+/// ```
+/// use microslip::Contact;
+/// use microslip::constant_load::ConstantLoad;
+/// use microslip::law::Law;
+/// # use microslip::{Material, Parameters};
+/// # let parameters = Parameters {
+/// #     flat_half_width: 0.0,
+/// #     edge_radius: 0.05,
+/// #     length: 0.02,
+/// #     normal_force: 800.0,
+/// #     friction_coefficient: 0.5,
+/// #     material: [Material { young_modulus: 2e11, poisson_ratio: 0.3 }; 2],
+/// #     displacement_reference: 1,
+/// #     ..Parameters::default()
+/// # };
+///
+/// let contact = Contact::rounded_flat(&parameters)?;
+/// let mut state = [0.0; 64];
+/// ConstantLoad::state_init(&mut state)?;
+/// let amplitude = 0.5 * contact.slip_displacement;
+/// let first = ConstantLoad::step(&contact, &mut state, amplitude)?;
+/// let back = ConstantLoad::step(&contact, &mut state, -amplitude)?;
+/// let closed = ConstantLoad::step(&contact, &mut state, amplitude)?;
+/// assert!((closed.force - first.force).abs() <= 1e-12 * first.force);
+/// assert!(back.dissipated + closed.dissipated > 0.0);
+/// # Ok::<(), microslip::Error>(())
+/// ```
 pub trait Law: Sized {
     /// A contact or an element.
     type Item: Copy;

@@ -8,6 +8,29 @@
 //! - [`one_direction`], [`two_directions`]: states, steps and harmonic force of an element with one and with two tangential directions.
 //! - [`shape`]: normal and tangential laws of the contact shapes, independent of the load.
 //! - [`ffi`]: the C interface.
+//!
+//! A steel cylinder under 800 N:
+//!
+//! ```
+//! use microslip::{Contact, Material, Parameters};
+//!
+//! let parameters = Parameters {
+//!     flat_half_width: 0.0,
+//!     edge_radius: 0.05,
+//!     length: 0.02,
+//!     normal_force: 800.0,
+//!     friction_coefficient: 0.5,
+//!     material: [Material { young_modulus: 2e11, poisson_ratio: 0.3 }; 2],
+//!     displacement_reference: 1,
+//!     ..Parameters::default()
+//! };
+//! let contact = Contact::rounded_flat(&parameters)?;
+//! let point = contact.curve_at_displacement(0.5 * contact.slip_displacement)?;
+//! assert!(point.force() < 0.5 * 800.0 && point.stiffness() < contact.initial_stiffness);
+//! let stiffness = contact.complex_stiffness(0.5 * contact.slip_displacement)?;
+//! assert!(stiffness.real < contact.initial_stiffness && stiffness.imaginary > 0.0);
+//! # Ok::<(), microslip::Error>(())
+//! ```
 #![no_std]
 #![deny(unsafe_code)]
 #![cfg_attr(test, allow(dead_code))]

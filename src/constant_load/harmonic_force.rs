@@ -113,6 +113,35 @@ impl<'a> Workspace<'a> {
 /// Harmonic force of a periodic displacement given by its 2H + 1 coefficients \[m\], by the rule of the workspace.
 /// Errors: `BadDisplacement` if a coefficient is not finite or exceeds 1e150; `BadArraySize` if a length does not agree with the
 /// workspace.
+///
+/// The friction force of one harmonic by 64 samples:
+///
+/// ```
+/// use microslip::Contact;
+/// use microslip::constant_load::harmonic_force::{HarmonicOutput, Rule, Workspace, harmonic_force};
+/// # use microslip::{Material, Parameters};
+/// # let parameters = Parameters {
+/// #     flat_half_width: 0.0,
+/// #     edge_radius: 0.05,
+/// #     length: 0.02,
+/// #     normal_force: 800.0,
+/// #     friction_coefficient: 0.5,
+/// #     material: [Material { young_modulus: 2e11, poisson_ratio: 0.3 }; 2],
+/// #     displacement_reference: 1,
+/// #     ..Parameters::default()
+/// # };
+///
+/// let contact = Contact::rounded_flat(&parameters)?;
+/// let mut memory = vec![0.0; Rule::UniformSampling.workspace_length(1, 64)];
+/// Rule::UniformSampling.workspace_init(1, 64, &mut memory)?;
+/// let motion = [0.0, 0.5 * contact.slip_displacement, 0.0];
+/// let (mut force, mut energy) = ([0.0; 3], 0.0);
+/// let output = HarmonicOutput { force: Some(&mut force), jacobian: None, dissipated: Some(&mut energy), drift: None };
+/// harmonic_force(&contact, &mut Workspace::new(&mut memory)?, &motion, output)?;
+/// // The displacement has no sine: that of the force dissipates.
+/// assert!(force[2] < 0.0 && energy > 0.0);
+/// # Ok::<(), microslip::Error>(())
+/// ```
 pub fn harmonic_force(
     contact: &Contact,
     workspace: &mut Workspace,

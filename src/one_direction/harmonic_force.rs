@@ -126,6 +126,38 @@ const NORMAL_FORCE_ROUNDING: f64 = 8.0 * f64::EPSILON;
 /// Errors: `BadArraySize` if a length does not agree with the workspace; `BadDisplacement` if a coefficient is not finite or
 /// exceeds 1e150; `BadNormalForce` if a sample of the normal force is negative by more than rounding; `LengthTooShort` if the
 /// contact would become too wide for its length.
+///
+/// A vibration while the normal force varies in phase:
+///
+/// ```
+/// use microslip::element::{Directions, Element, NormalInput};
+/// use microslip::one_direction::harmonic_force::{
+///     HarmonicOutput, OneDirectionWorkspace, harmonic_force, workspace_init, workspace_length,
+/// };
+/// # use microslip::{Material, Parameters};
+/// # let parameters = Parameters {
+/// #     flat_half_width: 0.0,
+/// #     edge_radius: 0.05,
+/// #     length: 0.02,
+/// #     normal_force: 800.0,
+/// #     friction_coefficient: 0.5,
+/// #     material: [Material { young_modulus: 2e11, poisson_ratio: 0.3 }; 2],
+/// #     displacement_reference: 1,
+/// #     ..Parameters::default()
+/// # };
+///
+/// let element = Element::rounded_flat(&parameters, Directions::One, NormalInput::Force)?;
+/// let mut memory = vec![0.0; workspace_length(1, 64)];
+/// workspace_init(1, 64, &mut memory)?;
+/// let u = 200.0 / element.tangential_stiffness;
+/// let motion = [0.0, u, 0.0, 800.0, 300.0, 0.0];
+/// let mut force = [0.0; 6];
+/// let output = HarmonicOutput { force: Some(&mut force), jacobian: None, dissipated: None, drift: None };
+/// harmonic_force(&element, &mut OneDirectionWorkspace::new(&mut memory)?, &motion, output)?;
+/// // The second half is the normal force itself.
+/// assert!(force[1] > 0.0 && (force[4] - 300.0).abs() < 1e-9);
+/// # Ok::<(), microslip::Error>(())
+/// ```
 pub fn harmonic_force(
     element: &Element,
     workspace: &mut OneDirectionWorkspace,
