@@ -355,15 +355,17 @@ pub fn history(options: &History, spec: &ContactSpec) -> Result<Report> {
     let new = |option, selected, names, quantity| ColumnSpec::new(option, selected, names, quantity, spec.units);
     let column = new("--column", &options.column, &["displacement", "displacement_x"], Length);
     let column_y = new("--column-y", &options.column_y, &["displacement_y"], Length);
-    let normal = [
-        new("--approach-column", &options.approach_column, &["approach"], Length),
+    // A selected column of normal forces leaves no choice.
+    let approach: &[&str] = if options.normal_force_column.is_some() { &[] } else { &["approach"] };
+    let specs = [
+        column,
+        column_y,
+        new("--approach-column", &options.approach_column, approach, Length),
         new("--normal-force-column", &options.normal_force_column, &["normal_force"], Force),
     ];
-    // A selected column of normal forces leaves no choice.
-    let first = usize::from(options.normal_force_column.is_some());
-    let table = parse_columns(&read_table(path)?, options.skip, [&column, &column_y], &normal[first..])
-        .map_err(|reason| CliError::in_file(path, reason))?;
-    let columns = [&column, &column_y, &normal[0], &normal[1]].map(|column| {
+    let table =
+        parse_columns(&read_table(path)?, options.skip, &specs).map_err(|reason| CliError::in_file(path, reason))?;
+    let columns = specs.map(|column| {
         column.selected.map_or(String::new(), |selected| format!(" {} {}", column.option, quoted(selected)))
     });
     let relative = if options.relative { " --relative" } else { "" };
@@ -373,12 +375,15 @@ pub fn history(options: &History, spec: &ContactSpec) -> Result<Report> {
         columns.concat(),
         skipped(options.skip)
     );
-    let input = table.alternative.map(|alternative| [NormalInput::Approach, NormalInput::Force][first + alternative]);
-    match input {
-        _ if table.has_second => varying_load::history_in_two_directions(options, spec, input, &table, &repeat),
+    let inputs = [(2, NormalInput::Approach), (3, NormalInput::Force)];
+    let input = inputs.into_iter().find(|(column, _)| table.has(*column)).map(|(_, input)| input);
+    let mut report = match input {
+        _ if table.has(1) => varying_load::history_in_two_directions(options, spec, input, &table, &repeat),
         None => constant_load_history(options, spec, &table, &repeat),
         Some(input) => varying_load::history(options, spec, input, &table, &repeat),
-    }
+    }?;
+    report.warnings.extend(table.warning);
+    Ok(report)
 }
 
 /// The option that leaves out lines, if any.

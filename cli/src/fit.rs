@@ -24,7 +24,7 @@ pub fn fit(options: &Fit, spec: &ContactSpec) -> Result<Report> {
     let extra: Vec<&Path> = [&options.fitted, &options.json].into_iter().flatten().map(PathBuf::as_path).collect();
     check_outputs(&options.measured.iter().map(PathBuf::as_path).collect::<Vec<_>>(), &extra)?;
     let measured = options.measured.iter().enumerate().map(|(index, path)| measurement(options, spec, index, path));
-    let measured = measured.collect::<Result<Vec<_>>>()?;
+    let (measured, warnings): (Vec<_>, Vec<_>) = measured.collect::<Result<Vec<_>>>()?.into_iter().unzip();
     let contact = spec.given.fit_contact()?;
     let found = microslip_fit::fit(&contact, &measured, &fixed(options, spec))
         .map_err(|error| CliError::Input(error.to_string()))?;
@@ -52,46 +52,53 @@ pub fn fit(options: &Fit, spec: &ContactSpec) -> Result<Report> {
         rounded(slider.misfit.force_rms, Force, spec.units)
     );
     report.status = if found.explanation.explained { 0 } else { NOT_EXPLAINED };
-    report.warnings.extend(found.warnings);
+    report.warnings.extend(warnings.into_iter().flatten().flatten().chain(found.warnings));
     Ok(report)
 }
 
-/// The measurement of a file, in the units of the contact.
-fn measurement(options: &Fit, spec: &ContactSpec, index: usize, path: &Path) -> Result<Measurement> {
+/// The measurement of a file, in the units of the contact, and warnings.
+fn measurement(
+    options: &Fit,
+    spec: &ContactSpec,
+    index: usize,
+    path: &Path,
+) -> Result<(Measurement, [Option<String>; 2])> {
     let units = options.data_units;
     let given = |quantity| units.map(|units| if quantity == Length { units.length } else { units.force });
     let of = |option, selected, names, quantity| ColumnSpec {
         given: given(quantity).filter(|_| quantity != Time),
         ..ColumnSpec::new(option, selected, names, quantity, spec.units)
     };
-    let column = of("--column", &options.column, &["displacement"], Length);
-    let forces = of("--force-column", &options.force_column, &["force"], Force).required();
-    let normal = [of("--normal-force-column", &options.normal_force_column, &["normal_force"], Force)];
-    let time = of("--time-column", &options.time_column, &["time"], Time);
-    let normal = if options.loads.is_empty() { &normal[..] } else { &[] };
-    let text = read_table(path)?;
-    let columns = |second, others| {
-        parse_columns(&text, options.skip, [&column, second], others).map_err(|reason| CliError::in_file(path, reason))
-    };
-    let (table, times) = (columns(&forces, normal)?, columns(&time, &[])?);
+    // Given loads leave no choice.
+    let normal: &[&str] = if options.loads.is_empty() { &["normal_force"] } else { &[] };
+    let specs = [
+        of("--column", &options.column, &["displacement"], Length),
+        of("--force-column", &options.force_column, &["force"], Force).required(),
+        of("--normal-force-column", &options.normal_force_column, normal, Force),
+        of("--time-column", &options.time_column, &["time"], Time),
+    ];
+    let table =
+        parse_columns(&read_table(path)?, options.skip, &specs).map_err(|reason| CliError::in_file(path, reason))?;
     if options.loads.len() > 1 && options.loads.len() != options.measured.len() {
         return usage(format!("--loads has {} values for {} tables", options.loads.len(), options.measured.len()));
     }
     // Whatever the headers of the tables state.
     let factor = units.unwrap_or(spec.units.of_data()).force.in_si / spec.units.in_si(Force);
     let load = match options.loads[..] {
-        [] if table.alternative.is_some() => Some(NormalForce::Samples(table.column(2))),
-        [] => None,
+        [] => table.column(2).map(NormalForce::Samples),
         [one] => Some(NormalForce::Constant(factor * one)),
         _ => Some(NormalForce::Constant(factor * options.loads.get(index).copied().unwrap_or(f64::NAN))),
     };
-    Ok(Measurement {
-        name: path.to_string_lossy().into_owned(),
-        displacement: table.column(0),
-        force: table.column(1),
-        normal_force: load,
-        time: times.has_second.then(|| times.column(1)),
-    })
+    let [displacement, force] = [0, 1].map(|column| table.column(column).unwrap_or_default());
+    let time = table.column(3);
+    let name = path.to_string_lossy().into_owned();
+    let has_invalid_times = time.iter().flatten().any(|time| !time.is_finite());
+    let warnings = [
+        table.warning.map(|warning| format!("{name}: {warning}")),
+        has_invalid_times.then(|| format!("{name}: some times are not read; equal steps of time are assumed")),
+    ];
+    let time = time.filter(|_| !has_invalid_times);
+    Ok((Measurement { name, displacement, force, normal_force: load, time }, warnings))
 }
 
 fn fixed(options: &Fit, spec: &ContactSpec) -> Options {

@@ -13,9 +13,8 @@ pub fn format_list(values: &[f64]) -> String {
 /// A number, also with the exponents of Fortran: 1.0D-06, 1.0-106.
 pub fn parse_number(text: &str) -> Result<f64, &'static str> {
     let mut number = text.trim().replace(['d', 'D'], "e");
-    if let Some(place) =
-        number.len().checked_sub(4).filter(|place| *place > 0 && number[*place..].starts_with(['+', '-']))
-    {
+    let place = number.len().saturating_sub(4);
+    if place > 0 && ["+", "-"].iter().any(|sign| number.get(place..).is_some_and(|end| end.starts_with(sign))) {
         let has_letter = number.contains(['e', 'E']);
         number.insert_str(place, if has_letter { "" } else { "e" });
     }

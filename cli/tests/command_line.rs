@@ -322,6 +322,7 @@ fn tables_of_other_programs_are_read() {
         ("# time displacement force\n0.0 1e-6 3\n0.1 -2e-6 4\n", ""),
         ("% displacement,force\n1e-6 3\n-2e-6 4\n", ""),
         ("! displacement [ um ]  force / N\n  1.0  3\n -2.0  4\n", ""),
+        ("displacement force\n1e-6 2 # reversal\n-2e-6 3\n", ""),
         ("Normal Displacement   displacement   Axial Force\n  1.0 1e-6 3\n -2.0 -2e-6 4\n", ""),
         (of_blocks, "--column u"),
         // Units in a row, in brackets, in the name.
@@ -333,6 +334,17 @@ fn tables_of_other_programs_are_read() {
         ("t,Displacement / micrometres\n0,1\n1,-2\n", ""),
         ("m,N\n1e-6,2\n-2e-6,3\n", "--column 1"),
         ("x_s,displacement\n1,1e-6\n2,-2e-6\n", ""),
+        ("displacement in µm;force - N\n1;2\n-2;3\n", ""),
+        ("Displacement / (um) (filtered),force\n1,2\n-2,3\n", ""),
+        ("displacement\tforce\nLVDT-1\tLC 5\nµm\tN\n1\t2\n-2\t3\n", ""),
+        ("t;displacement\ns;µm\nfloat;float\n1;1\n2;-2\n", ""),
+        // Thousands with decimal points or commas, marks of comments, text in the first column.
+        ("x;displacement\n1 234,5;1e-6\n1'234,5;-2e-6\n", ""),
+        ("force,displacement [nm]\n1,\"1,000\"\n2.5,\"-2,000\"\n", ""),
+        ("* rig 3\n; 5 1 7\n* displacement, force\n1e-6, 2\n; pause\n-2e-6, 3\n", ""),
+        ("REM displacement|force\n|1e-6|2|\n|-2e-6|3|\n", "--column 2"),
+        ("state,displacement,force\nup,1e-6,2\ndown,-2e-6,3\n", ""),
+        ("displacement;force\n1e-6;2;;\n-2e-6;3;;\n", ""),
         // Headers of programs, columns of other things, separators at the end of lines.
         (labview, ""),
         (mts, ""),
@@ -354,11 +366,18 @@ fn tables_of_other_programs_are_read() {
         assert_eq!(numbers(&result).len(), 2, "{table}");
         assert_eq!(shell.stdout(result.lines().nth(1).unwrap().strip_prefix("# ").unwrap()), result);
         let utf16: Vec<u8> = table.encode_utf16().flat_map(u16::to_le_bytes).collect();
-        shell.write("table.csv", [&b"\xff\xfe"[..], &utf16].concat());
+        shell.write("table.csv", utf16);
         assert_eq!(shell.stdout(&command), result);
     }
     shell.write("table.csv", b"displacement [\xb5m]\n1\n-2\n");
     assert_eq!(column(&shell.stdout("microslip history flat.toml --displacements table.csv"), 0), [1e-6, -2e-6]);
+    // What follows the rows is reported.
+    shell.write("table.csv", "displacement,force\n1e-6,2\n-2e-6,3\nMax,1e-6\nstopped, 12:00\n");
+    let result = shell.run("microslip history flat.toml --displacements table.csv");
+    assert!(
+        String::from_utf8_lossy(&result.stderr).contains("warning: line 4: \"Max,1e-6\" and what follows is no row")
+    );
+    assert_eq!(column(&String::from_utf8_lossy(&result.stdout), 0), [1e-6, -2e-6]);
 }
 
 /// Elements with one and with two directions, by normal force, by approach and, with two, under the force of the parameters.
@@ -817,20 +836,22 @@ fn errors_in_files_name_file_and_line() {
         (
             b"u;v\n1,5;2\n1,234.5;3\n",
             "--column 1",
-            "line 2, column u: \"1,5\": not a number; other numbers have decimal points",
+            "line 3, column u: \"1,234.5\": not a number; other numbers have decimal commas",
         ),
         (
             b"650\n0 1e-6\n1 2e-6\n",
             "--column 2",
-            "line 1: 1 columns, but line 2 has 2; is a comma the decimal separator? --skip 1",
+            "line 1: \"650\" has 1 columns, but line 2 has 2; --skip 1 leaves it out",
         ),
         (b"u [mil]\n1\n", "", "line 1: column u is in \"mil\", which is no unit of m, cm, mm, um, nm"),
         (b"u [N]\n1\n", "", "line 1: column u is in N, not in m"),
-        (b"u\n1\n2\nEnd of test\n", "", "line 4: \"End of test\" is no row of the table, which starts in line 2"),
+        (b"u\n1\nu\n2\n", "", "line 3: \"u\" is no row of the table, which starts in line 2; give each table a file"),
+        (b"u [um]\n1.5um\n", "", "line 2: \"1.5um\": not a number; write its unit in the header"),
+        (b"a,b\n1.5,2,3\n", "--column a", "line 2: no column a; the 3 columns have no names; line 1 has 2"),
         (b"u\n1\n2e-\n", "", "line 3: \"2e-\": not a number; is the file cut off?"),
         (b"\x89PNG\0\0", "", "this is no text"),
         (b"# c\nu\n1e-6\ninf", "", &format!("line 4: {}", Error::BadDisplacement)),
-        (b"u\n0\n0,5e-6\n", "", "line 3: 2 columns, but the first row has 1; is a comma the decimal separator?"),
+        (b"u\n0\n0,5e-6\n", "", "line 2: \"0\" has 1 columns, but line 3 has 2; is a comma the decimal separator?"),
         (b"t,u\n0\n", "--column u", "line 2: only 1 of 2 columns"),
         (
             b"0;1,5E-06\n0.5;1e-6\n",
@@ -851,7 +872,7 @@ fn errors_in_files_name_file_and_line() {
         ),
         (b"0,.1\n", "--column 3", "line 1: no column 3; the 2 columns have no names, by their numbers 1 to 2"),
         (b"", "", "the table has no displacements"),
-        (b"t,u\n0,1\n0,x\n", "--column u", "line 3, column u: \"x\": not a number"),
+        (b"t,u\n0,1\n0,x\n", "--column u", &format!("line 3, column u: {}", Error::BadDisplacement)),
         (b"displacement,normal_force\n0,1\n0,-2\n", "", "line 3, column normal_force: -2: normal_force must be"),
         (b"displacement,approach\n0,1\n", "", "line 2, column approach: 1: length too small for the half-width"),
         (b"u,N\n0,1\n", "--column u --approach-column u", "line 1: --column and --approach-column select the same"),
@@ -860,7 +881,7 @@ fn errors_in_files_name_file_and_line() {
             "--column u --column-y v --normal-force-column v",
             "line 1: --column-y and --normal-force-column select the same column",
         ),
-        (b"displacement,displacement_y\n0,0\n0,inf\n", "", "line 3, column displacement_y: inf: a displacement must"),
+        (b"displacement,displacement_y\n0,0\n0,inf\n", "", "line 3, column displacement_y: NaN: a displacement must"),
         (
             b"displacement_x,displacement_y,normal_force\n0,0,1\n0,1,-2\n",
             "",
