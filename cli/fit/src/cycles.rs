@@ -58,6 +58,9 @@ const LARGEST_SWING: f64 = 0.1;
 /// Least ratio of the relative areas of a loop of gross slip and of a loop without, which a lag of some samples makes negative.
 const OPEN: f64 = 4.0;
 
+/// Steps of force in which a play is looked for, and the least part of the displacement in them that is a play.
+const LEVELS: usize = 24;
+const PLAY: f64 = 0.3;
 /// Samples of a branch; of more, successive ones are averaged.
 const SAMPLES: usize = 250;
 /// A rest at a reversal: within this fraction of the range for more than this fraction of a branch. A sine stays there for 0.09.
@@ -247,10 +250,46 @@ impl Loop {
         }
     }
 
-    /// Every fourth sample of the loop without a play, which is crossed within a part of the height around a force.
-    pub fn without_play(&self, play: f64, [force, width]: [f64; 2]) -> Loop {
+    /// The size of a play and the forces between which it is crossed, without a model: along a branch of the law the compliance
+    /// never decreases, in a play it does so at the end. `None` if no branch crosses all levels of force, or none has a play.
+    pub fn play(&self) -> Option<(f64, [f64; 2])> {
+        let [low, high] = self.force_range();
+        let level = |k: usize| low + (high - low) * (k as f64 + 1.0) / (LEVELS as f64 + 2.0);
+        let (mut excess, mut steps, mut branches) = ([0.0; LEVELS], [0.0; LEVELS], 0.0);
+        for branch in self.samples.chunk_by(|one, next| one.direction == next.direction) {
+            let sign = branch[0].direction;
+            let place = |k: usize| if sign > 0.0 { k } else { LEVELS - k };
+            // The displacement at which the force first passes a level.
+            let passes = |k: usize| {
+                let force = level(place(k));
+                let next = branch.iter().position(|sample| sign * (sample.force - force) >= 0.0)?;
+                let [before, after] = [&branch[next.checked_sub(1)?], &branch[next]];
+                let part = (force - before.force) / (after.force - before.force);
+                Some(before.distance + part * (after.distance - before.distance))
+            };
+            let Some(distances) = (0..=LEVELS).map(passes).collect::<Option<Vec<_>>>() else { continue };
+            let mut least = f64::INFINITY;
+            for k in (0..LEVELS).rev() {
+                let step = distances[k + 1] - distances[k];
+                least = least.min(step);
+                let place = place(k).min(place(k + 1));
+                (excess[place], steps[place]) = (excess[place] + step - least, steps[place] + step);
+            }
+            branches += 1.0;
+        }
+        // The levels around the one with the largest excess.
+        let most = (0..LEVELS).max_by(|i, j| excess[*i].total_cmp(&excess[*j]))?;
+        let is_in = |k: &usize| excess[*k] > 0.1 * excess[most];
+        let first = (0..most).rev().take_while(is_in).last().unwrap_or(most);
+        let last = (most..LEVELS).take_while(is_in).last().unwrap_or(most);
+        let [size, whole] = [&excess, &steps].map(|of| of[first..=last].iter().sum::<f64>() / branches);
+        (size > PLAY * whole).then_some((size, [level(first), level(last + 1)]))
+    }
+
+    /// The loop without a play, and without the samples in it, between these forces.
+    pub fn without_play(&self, play: f64, [low, high]: [f64; 2]) -> Loop {
         let sample = |sample: &Sample| {
-            let crossed = 0.5 * play * ((sample.force - force) / (width * self.height())).tanh();
+            let crossed = 0.5 * play * if sample.force > high { 1.0 } else { -1.0 };
             Sample {
                 displacement: sample.displacement - crossed,
                 // From the reversal, on the other side.
@@ -258,7 +297,8 @@ impl Loop {
                 ..*sample
             }
         };
-        let samples = self.samples.iter().step_by(4).map(sample).collect();
+        let samples =
+            self.samples.iter().filter(|sample| sample.force < low || sample.force > high).map(sample).collect();
         Loop { amplitude: self.amplitude - 0.5 * play, samples, ..self.clone() }
     }
 

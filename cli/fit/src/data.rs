@@ -107,7 +107,11 @@ impl Record {
                 return fail(format!("{column} is constant"));
             }
             let largest = LARGEST_STEP * range(values);
-            if let Some(i) = values.windows(2).position(|pair| (pair[1] - pair[0]).abs() > largest) {
+            // Behind a large play the force jumps while the displacement goes on.
+            let step = |i: usize| displacement.get(i + 1).map_or(0.0, |next| (next - displacement[i]).abs());
+            let goes_on = |i: usize| step(i) < LONGEST_GAP * step(i.saturating_sub(1)).max(step(i + 1));
+            let jumps = |i: &usize| (values[i + 1] - values[*i]).abs() > largest && (column != "force" || !goes_on(*i));
+            if let Some(i) = (0..count - 1).find(jumps) {
                 return fail(format!(
                     "{column} jumps by more than a quarter of its range after sample {}: samples are missing, or a cycle has \
                      fewer than 12",

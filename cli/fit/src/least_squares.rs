@@ -7,7 +7,7 @@
 use crate::cycles::{Loop, Sample};
 use crate::error::Error;
 use crate::model::{
-    CONTACT, Curve, FRICTION, Family, LoopModel, NUISANCES, PARAMETERS, Prediction, SERIES, SHAPE, STIFFENING,
+    CONTACT, Curve, FRICTION, Family, LoopModel, NUISANCES, PARALLEL, PARAMETERS, Prediction, SERIES, SHAPE, STIFFENING,
 };
 use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
 use nalgebra::{DMatrix, DVector, Dyn, Owned};
@@ -77,8 +77,9 @@ impl<'a> Fit<'a> {
         'a: 'b,
     {
         let compliances: Vec<_> = self.curves.iter().map(|curve| 1.0 / curve.initial_stiffness()).collect();
-        let given = [FRICTION, SERIES, CONTACT].map(|i| (i == FRICTION || !free[i]).then_some(self.parameters[i]));
+        let given = [FRICTION, SERIES, CONTACT].map(|i| (!free[i]).then_some(self.parameters[i]));
         let mut parameters = self.parameters;
+        parameters[PARALLEL] *= if free[PARALLEL] { 0.0 } else { 1.0 };
         [parameters[FRICTION], parameters[SERIES], parameters[CONTACT]] = start_values(loops, &compliances, given);
         let mut fit = Fit::new(self.family, loops, parameters, self.limits, self.has_shape)?;
         fit.minimize(free);

@@ -82,9 +82,8 @@ const LEAST_SHARE: f64 = 0.1;
 const CORRECTIONS: usize = 3;
 /// A cause that explains more than this share leaves nothing for a play.
 const CLEAR: f64 = 0.9;
-/// Plays that are tried, over the smallest amplitude, and then factors on the best of them.
-const PLAYS: [f64; 6] = [0.03, 0.1, 0.25, 0.5, 0.9, 1.4];
-const REFINEMENTS: [f64; 6] = [0.7, 1.4, 0.85, 1.2, 0.93, 1.07];
+/// Samples of a loop that a play leaves at least.
+const LEAST_SAMPLES: usize = 20;
 /// A plateau is seen if the displacement exceeds that of gross slip by this part. A shorter one is not distinguished from the bend
 /// before it.
 const SHORTEST_PLATEAU: f64 = 0.02;
@@ -272,49 +271,32 @@ fn solve_with<'a>(
 }
 
 /// The causes after a play, if its removal from the loops and another fit explain more than this share of the residuals: near a fit
-/// that a large play has bent, the direction of another cause may explain more. The play is crossed at zero force, which is that of
-/// the sensor or the middle of the loop.
+/// that a large play has bent, the direction of another cause may explain more.
 fn play(fit: &Fit, others: Free, least_share: f64) -> Result<Option<Vec<Cause>>, Error> {
-    let smallest = fit.loops().iter().map(|one| one.amplitude).fold(f64::INFINITY, f64::min);
-    let without = |part: f64, width: f64, place: f64| -> Vec<_> {
-        let of_loop = |one: &Loop| {
-            let [low, high] = one.force_range();
-            one.without_play(part * smallest, [0.5 * place * (low + high), width])
-        };
-        fit.loops().iter().map(of_loop).collect()
-    };
-    let misfit = |loops: &[Loop]| -> Result<f64, Error> {
-        let forces = fit.of_loops(loops, others)?.forces();
-        let of_loop = |(one, forces): (&Loop, &Vec<[f64; 2]>)| {
-            forces.iter().map(|[measured, law]| ((measured - law) / one.height()).powi(2)).sum::<f64>()
-        };
-        Ok(loops.iter().zip(&forces).map(of_loop).sum())
-    };
-    let whole = misfit(&without(0.0, 1.0, 0.0))?;
-    let crossings = [(0.02, 0.0), (0.02, 1.0), (0.2, 0.0), (0.2, 1.0)];
-    let mut trials: Vec<_> =
-        PLAYS.into_iter().flat_map(|part| crossings.map(|(width, place)| (part, width, place))).collect();
-    let (mut best, mut largest) = (None, least_share);
-    for factor in [1.0].into_iter().chain(REFINEMENTS) {
-        if let Some((part, width, place)) = best.filter(|_| factor != 1.0) {
-            trials = vec![(factor * part, width, place)];
-        }
-        for (part, width, place) in trials.drain(..) {
-            let share = 1.0 - misfit(&without(part, width, place))? / whole;
-            if share > largest {
-                (best, largest) = (Some((part, width, place)), share);
-            }
-        }
+    let largest = fit.loops().iter().max_by(|one, other| one.amplitude.total_cmp(&other.amplitude));
+    let Some((size, forces)) = largest.and_then(Loop::play) else { return Ok(None) };
+    let loops = fit.loops().iter().map(|one| one.without_play(size, forces));
+    let loops: Vec<_> = loops.filter(|one| one.amplitude > 0.0 && one.samples.len() >= LEAST_SAMPLES).collect();
+    if loops.is_empty() {
+        return Ok(None);
     }
-    let Some((part, width, place)) = best else { return Ok(None) };
-    let kinds: Vec<_> = KINDS.into_iter().filter(|kind| *kind != CauseKind::Play).collect();
-    let loops = without(part, width, place);
+    let mean_square = |loops: &[Loop], fit: &Fit| {
+        let of_loop = |(one, forces): (&Loop, Vec<[f64; 2]>)| {
+            forces.into_iter().map(|[measured, law]| ((measured - law) / one.height()).powi(2)).collect::<Vec<_>>()
+        };
+        let squares: Vec<_> = loops.iter().zip(fit.forces()).flat_map(of_loop).collect();
+        squares.iter().sum::<f64>() / squares.len() as f64
+    };
     let mut rest = fit.of_loops(&loops, others)?;
+    let share = 1.0 - mean_square(&loops, &rest) / mean_square(fit.loops(), fit);
+    if share <= least_share {
+        return Ok(None);
+    }
+    let kinds: Vec<_> = KINDS.into_iter().filter(|kind| *kind != CauseKind::Play).collect();
     rest.release(others);
-    let rest = causes(&rest, &kinds, LEAST_SHARE / (1.0 - largest).max(LEAST_SHARE));
-    let rest = rest.iter().map(|effect| Cause { share: effect.cause.share * (1.0 - largest), ..effect.cause });
-    let play = Cause { kind: CauseKind::Play, size: part * smallest, share: largest };
-    Ok(Some([play].into_iter().chain(rest).collect()))
+    let rest = causes(&rest, &kinds, LEAST_SHARE / (1.0 - share).max(LEAST_SHARE));
+    let rest = rest.iter().map(|effect| Cause { share: effect.cause.share * (1.0 - share), ..effect.cause });
+    Ok(Some([Cause { kind: CauseKind::Play, size, share }].into_iter().chain(rest).collect()))
 }
 
 /// Whether a loop exceeds the displacement of gross slip by this part.

@@ -226,28 +226,34 @@ fn causes_are_named_and_nothing_wrong_is_determined() {
     check_table("causes", &rows);
 }
 
-/// A play that exceeds the displacement of gross slip several times, crossed at once or within a third of the slip force on both
-/// sides, bends the fit so far that the direction of a lag or of the speed explains more.
+/// A play that exceeds the displacement of gross slip many times, crossed at once or against a spring within a part of the slip
+/// force on both sides, bends the fit so far that the direction of a lag or of the speed explains more. At a small number of samples
+/// the force jumps behind the play.
 #[test]
 fn a_large_play_is_named_first() {
-    for (play, width) in [(1.5, 0.01), (3.0, 0.01), (3.0, 0.3), (5.0, 0.3)] {
+    for (play, width) in [(1.5, 0.01), (3.0, 0.3), (5.0, 0.01), (10.0, 0.5), (40.0, 0.01)] {
         let contact = flat();
         let law = library_contact(&contact, 800.0);
         let mut random = Random::new(3);
-        let rig = Rig { amplitude: 4.0, samples: 1000, noise: [1e-3, 1e-5], offset: 0.0, drift: 0.0, ..RIG };
-        let mut one = measured(&contact, &rig, &mut random);
+        let rig = Rig { amplitude: 2.0, samples: 20_000, offset: 0.0, drift: 0.0, ..RIG };
+        let fine = measured(&contact, &rig, &mut random);
         let play = play * law.slip_displacement;
-        for (at, force) in one.displacement.iter_mut().zip(&one.force) {
-            *at += 0.5 * play * (force / (width * law.slip_force)).tanh();
+        // Steps of displacement of one size.
+        let step = (4.0 * law.slip_displacement + play) / 150.0;
+        let mut one = Measurement::default();
+        let mut last = 0.0;
+        for (at, force) in fine.displacement.iter().zip(fine.force) {
+            let at = at + 0.5 * play * (force / (width * law.slip_force)).clamp(-1.0, 1.0);
+            while f64::abs(at - last) >= step {
+                last += step.copysign(at - last);
+                one.displacement.push(last);
+                one.force.push(force + 1e-3 * law.slip_force * random.normal());
+            }
         }
         let Report { explanation, .. } = fit(&contact, &[one], &Options::default()).unwrap();
         let first = explanation.causes.first().unwrap();
-        // A soft play has only a part of its size within the loop.
-        let error = if width < 0.1 { 0.1 } else { 0.35 };
-        // That of a cause which explains nearly all from the fit as it is remains an estimate.
-        let error = if first.share > 0.9 && play < 2.0 * law.slip_displacement { 1.0 } else { error };
         assert!(!explanation.explained && first.kind == CauseKind::Play, "{play:e} {width}: {explanation:?}");
-        assert!((first.size / play - 1.0).abs() < error, "{play:e} {width}: {first:?}");
+        assert!((first.size / play - 1.0).abs() < 0.05, "{play:e} {width}: {first:?}");
     }
 }
 
