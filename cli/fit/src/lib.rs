@@ -75,7 +75,8 @@ pub fn fit(contact: &Contact, measurements: &[Measurement], options: &Options) -
     let forces = solution.fit.forces();
     let [friction, series, contact_compliance, shape_estimate, series_stiffening, parallel_stiffness] =
         solution.estimates;
-    let (determined, neutral) = solution.determined(shape.map_or(0.0, in_range))?;
+    let neutral = [contact.friction_coefficient, 0.0, 1.0, shape.map_or(0.0, in_range), 0.0, 0.0];
+    let (determined, neutral) = solution.determined(neutral)?;
     let fitted_shape = determined.parameters[model::SHAPE];
     let geometry = if range.is_some() { family.geometry(fitted_shape) } else { contact.geometry };
     let fixed = |value| Estimate { value, lower: value, upper: Some(value), status: Status::Fixed };

@@ -245,7 +245,10 @@ pub(crate) fn contact_toml(
             .to_owned();
     if !neutral.is_empty() {
         let names = neutral.join(" and ");
-        text += &format!("# The loops do not determine {names}: as given here; the others are fitted with that.\n");
+        text += &format!(
+            "# The loops do not determine {names}: as given, or nearest to that of what they admit; the others are fitted with \
+             that.\n"
+        );
     }
     if *factor != 1.0 {
         text += &format!(

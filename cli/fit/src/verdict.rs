@@ -35,6 +35,8 @@ pub(crate) struct Solution<'a> {
     pub fit: Fit<'a>,
     /// What was fitted.
     free: Free,
+    /// Variance of the weighted residuals, with their correlation.
+    unit: f64,
     pub estimates: [Estimate; PARAMETERS],
     /// Initial compliance of contact, rig and bodies.
     pub total_compliance: Estimate,
@@ -46,31 +48,45 @@ pub(crate) struct Solution<'a> {
 }
 
 impl<'a> Solution<'a> {
-    /// The fit in which the factor on the displacements and the shape are neutral if the loops do not determine them: 1, or the
-    /// nearest admitted factor, and the given shape. Names of what is neutral.
-    pub fn determined(&self, given_shape: f64) -> Result<(Fit<'a>, Vec<&'static str>), Error> {
+    /// The fit in which friction coefficient, factor on the displacements and shape are neutral if the loops do not determine them,
+    /// or have the nearest admitted value. Names of what is neutral.
+    pub fn determined(&self, neutral: [f64; PARAMETERS]) -> Result<(Fit<'a>, Vec<&'static str>), Error> {
         let (mut fit, mut free, mut names) = (self.fit.clone(), self.free, Vec::new());
-        for (i, neutral, name) in [(CONTACT, 1f64, "contact_compliance"), (SHAPE, given_shape, "shape")] {
+        for (i, name) in [(FRICTION, "friction_coefficient"), (CONTACT, "contact_compliance"), (SHAPE, "shape")] {
             let Estimate { lower, upper, status, .. } = self.estimates[i];
-            if free[i] && status == Status::NotDetermined {
-                fit.parameters[i] = neutral.max(lower).min(upper.unwrap_or(f64::INFINITY).max(lower));
-                free[i] = false;
-                names.push(name);
+            let is_open = status == Status::NotDetermined || (i == FRICTION && status != Status::Determined);
+            if !free[i] || !is_open {
+                continue;
+            }
+            free[i] = false;
+            names.push(name);
+            let (value, target) = (fit.parameters[i], neutral[i].min(upper.unwrap_or(f64::INFINITY)).max(lower));
+            // Microslip may contradict a coefficient of friction, which is only bounded from below.
+            for part in if i == FRICTION { &TOWARDS_NEUTRAL[..] } else { &[1.0] } {
+                let mut trial = fit.clone();
+                trial.parameters[i] = value + part * (target - value);
+                trial.set_shape(trial.parameters[SHAPE])?;
+                if free[SERIES] {
+                    let rest = self.total_compliance.value - trial.parameters[CONTACT] * trial.law_compliance()[0];
+                    trial.parameters[SERIES] = rest.max(1e-3 * self.total_compliance.value);
+                }
+                let trial = Candidate::new(trial, free);
+                if i != FRICTION || trial.is_as_good_as(&self.fit, QUANTILE.powi(2) * self.unit) {
+                    fit = trial.fit;
+                    break;
+                }
             }
         }
         if !names.is_empty() {
-            fit.set_shape(fit.parameters[SHAPE])?;
-            if free[SERIES] {
-                let rest = self.total_compliance.value - fit.parameters[CONTACT] * fit.law_compliance()[0];
-                fit.parameters[SERIES] = rest.max(1e-3 * self.total_compliance.value);
-            }
             fit.settle(free);
         }
         Ok((fit, names))
     }
 }
 
-/// Steps of the friction coefficient, as factors, towards a fit without a plateau.
+/// Parts of the way to a neutral value that are tried.
+const TOWARDS_NEUTRAL: [f64; 6] = [1.0, 0.8, 0.6, 0.4, 0.2, 0.1];
+/// Steps of the friction coefficient, as factors, towards fits without a plateau, and beyond.
 const FRICTION_STEPS: [f64; 7] = [1.02, 1.05, 1.1, 1.2, 1.4, 2.0, 3.0];
 /// A cause is significant if it explains the square of this times what a direction of no effect explains, one over the number of
 /// independent residuals: by chance in one of 2000 fits, each of the eight causes in one of 16,000.
@@ -106,6 +122,13 @@ impl<'a> Candidate<'a> {
         fit.minimize(free);
         let chi_squared = fit.chi_squared();
         Candidate { fit, chi_squared }
+    }
+
+    /// Whether another fit explains no more: at most this part of the sum of squares, or an error of the model.
+    fn is_as_good_as(&self, other: &Fit, excess: f64) -> bool {
+        let pairs = || misfits(&self.fit).into_iter().zip(misfits(other));
+        self.chi_squared - other.chi_squared() <= excess
+            || pairs().all(|(this, other)| this.misfit.powi(2) <= other.misfit.powi(2) + other.of_model)
     }
 }
 
@@ -220,7 +243,17 @@ fn solve_with<'a>(
             admitted.map(|(candidate, _)| (candidate.fit, others)).collect()
         };
     }
-    of_shapes.extend(without_plateau.map(|candidate| (candidate.fit, others)));
+    if let Some(candidate) = without_plateau {
+        let [of_shape, free] = [others, free].map(|of| std::array::from_fn(|i| of[i] && i != FRICTION));
+        let steps = FRICTION_STEPS.iter().filter(|_| others[FRICTION]).filter_map(|step| {
+            let mut start = candidate.fit.clone();
+            start.parameters[FRICTION] = step * start.carried(0.0);
+            let candidate = Candidate::new(start, free);
+            candidate.is_as_good_as(&fit, QUANTILE.powi(2) * unit).then_some((candidate.fit, of_shape))
+        });
+        of_shapes.extend(steps);
+        of_shapes.push((candidate.fit, others));
+    }
     if corrected.parameters != fit.parameters {
         of_shapes.push((corrected, of_shapes[0].1));
     }
@@ -260,14 +293,32 @@ fn solve_with<'a>(
     }
     let slider = spring_slider(&fit, others);
     // What the law explains beyond the slider is below the error of the model, or may be chance.
-    let slider_misfits = misfits(&slider.fit).into_iter().zip(misfits(&fit));
-    let is_below = |(slider, law): (LoopMisfit, LoopMisfit)| slider.misfit.powi(2) <= law.misfit.powi(2) + law.of_model;
-    let is_spring_slider = excess(&slider) <= (CLAIM * QUANTILE).powi(2) || { slider_misfits }.all(is_below);
+    let is_spring_slider = slider.is_as_good_as(&fit, (CLAIM * QUANTILE).powi(2) * unit);
+    let [law, _] = fit.law_compliance();
+    let total = total_compliance.value;
+    if is_spring_slider && !is_hidden(law, total) {
+        // The sum of both is seen, but not its parts.
+        for (i, upper) in [(SERIES, total), (CONTACT, total / law)].into_iter().filter(|(i, _)| others[*i]) {
+            let estimate = estimates[i];
+            let upper = estimate.upper.map(|most| most.max(upper));
+            estimates[i] = Estimate { lower: 0.0, upper, status: Status::NotDetermined, ..estimate };
+        }
+    }
     if let Some([low, high]) = range.filter(|_| is_spring_slider) {
         let value = estimates[SHAPE].value;
         estimates[SHAPE] = Estimate { value, lower: low, upper: Some(high), status: Status::NotDetermined };
     }
-    Ok(Solution { fit, free, estimates, total_compliance, profile, explanation, slider: slider.fit, is_spring_slider })
+    Ok(Solution {
+        fit,
+        free,
+        unit,
+        estimates,
+        total_compliance,
+        profile,
+        explanation,
+        slider: slider.fit,
+        is_spring_slider,
+    })
 }
 
 /// The causes after a play, if its removal from the loops and another fit explain more than this share of the residuals: near a fit
@@ -297,6 +348,11 @@ fn play(fit: &Fit, others: Free, least_share: f64) -> Result<Option<Vec<Cause>>,
     let rest = causes(&rest, &kinds, LEAST_SHARE / (1.0 - share).max(LEAST_SHARE));
     let rest = rest.iter().map(|effect| Cause { share: effect.cause.share * (1.0 - share), ..effect.cause });
     Ok(Some([Cause { kind: CauseKind::Play, size, share }].into_iter().chain(rest).collect()))
+}
+
+/// Whether the contact, as it is given, has a small part of the total compliance.
+fn is_hidden(law: f64, total: f64) -> bool {
+    law < SMALL_PART * total
 }
 
 /// Whether a loop exceeds the displacement of gross slip by this part.
@@ -572,7 +628,7 @@ pub(crate) fn sentences(solution: &Solution, range: Option<[f64; 2]>, normal_for
     }
     sentences.extend(of_stiffening(share, normal_force));
     sentences.extend(of_spring(spring, solution.fit.plateau_slope()));
-    let hides = solution.fit.law_compliance()[0] < SMALL_PART * total.value;
+    let hides = is_hidden(solution.fit.law_compliance()[0], total.value);
     if solution.is_spring_slider && !hides {
         sentences.push("No microslip is seen: a spring and a slider fit as well.".to_owned());
     }
