@@ -27,8 +27,8 @@ pub(crate) struct Fit<'a> {
     targets: Vec<Vec<[f64; 2]>>,
     curves: Vec<Curve>,
     pub free: Free,
-    /// Whether the shape is a parameter.
-    has_shape: bool,
+    /// Whether the share of the stiffness that grows with the load was fitted.
+    has_share: bool,
     /// Friction coefficient, series compliance, contact compliance, a/b, share of the series stiffness that grows with the load,
     /// parallel stiffness.
     pub parameters: [f64; PARAMETERS],
@@ -44,7 +44,6 @@ impl<'a> Fit<'a> {
         loops: &'a [Loop],
         parameters: [f64; PARAMETERS],
         limits: [[f64; 2]; PARAMETERS],
-        has_shape: bool,
     ) -> Result<Fit<'a>, Error> {
         let middle = |one: &Loop| {
             let forces = one.samples.iter().map(|sample| sample.force);
@@ -56,12 +55,12 @@ impl<'a> Fit<'a> {
             targets: Vec::new(),
             curves: Vec::new(),
             free: [false; PARAMETERS],
-            has_shape,
+            has_share: false,
             parameters,
             nuisances: loops.iter().map(|one| [middle(one), 0.0, 0.0, 0.0]).collect(),
             limits,
         };
-        fit.set_shape(parameters[SHAPE])?;
+        fit.update()?;
         fit.update_targets();
         Ok(fit)
     }
@@ -76,30 +75,28 @@ impl<'a> Fit<'a> {
     where
         'a: 'b,
     {
-        let compliances: Vec<_> = self.curves.iter().map(|curve| 1.0 / curve.initial_stiffness()).collect();
+        let compliance = |one: &Loop| self.family.compliance(self.parameters[SHAPE], one.normal_force);
+        let compliances = loops.iter().map(compliance).collect::<Result<Vec<_>, _>>()?;
         let given = [FRICTION, SERIES, CONTACT].map(|i| (!free[i]).then_some(self.parameters[i]));
         let mut parameters = self.parameters;
         parameters[PARALLEL] *= if free[PARALLEL] { 0.0 } else { 1.0 };
         [parameters[FRICTION], parameters[SERIES], parameters[CONTACT]] = start_values(loops, &compliances, given);
-        let mut fit = Fit::new(self.family, loops, parameters, self.limits, self.has_shape)?;
+        let mut fit = Fit::new(self.family, loops, parameters, self.limits)?;
         fit.minimize(free);
         Ok(fit)
     }
 
-    /// Changes a/b.
-    pub fn set_shape(&mut self, shape: f64) -> Result<(), Error> {
-        self.parameters[SHAPE] = shape;
-        let shape = self.has_shape.then_some(shape);
-        self.curves =
-            self.loops.iter().map(|one| self.family.curve(shape, one.normal_force)).collect::<Result<_, _>>()?;
+    /// The curves of changed parameters.
+    pub fn update(&mut self) -> Result<(), Error> {
+        let curve = |one: &Loop| self.family.curve(&self.parameters, one.normal_force, self.has_share);
+        let curves = self.loops.iter().map(curve);
+        self.curves = curves.collect::<Result<_, _>>()?;
         Ok(())
     }
 
     fn models(&self) -> impl Iterator<Item = (&Loop, LoopModel<'_>)> {
         let of_loop = self.loops.iter().zip(&self.curves).zip(&self.nuisances);
-        of_loop.map(|((one, curve), nuisances)| {
-            (one, LoopModel::new(one, curve, &self.parameters, nuisances, self.free[SHAPE]))
-        })
+        of_loop.map(|((one, curve), nuisances)| (one, LoopModel::new(one, curve, self.parameters[PARALLEL], nuisances)))
     }
 
     /// Weights, and forces at the mean normal force, from the present model. What the noise does not explain of the misfit of a
@@ -140,10 +137,17 @@ impl<'a> Fit<'a> {
     pub fn minimize(&mut self, free: Free) {
         let method = LevenbergMarquardt::new().with_ftol(1e-8).with_xtol(1e-6).with_gtol(1e-8).with_patience(10);
         let mut fixed = self.limits_at_which(|_| true);
+        self.has_share |= free[STIFFENING];
         for _ in 0..=PARAMETERS {
             self.free = std::array::from_fn(|i| free[i] && !fixed[i]);
+            if self.update().is_err() {
+                break;
+            }
             *self = method.minimize(self.clone()).0;
             self.free = free;
+            if self.update().is_err() {
+                break;
+            }
             let Some((residuals, jacobian)) = self.residuals().zip(self.jacobian()) else { break };
             let gradient = jacobian.tr_mul(&residuals);
             let columns = self.columns();
@@ -224,7 +228,7 @@ impl<'a> Fit<'a> {
         for (i, [low, high]) in self.limits.into_iter().enumerate().filter(|(_, [low, high])| low < high) {
             self.parameters[i] = (self.parameters[i] + part * (self.parameters[i] - from[i])).clamp(low, high);
         }
-        self.set_shape(self.parameters[SHAPE])
+        self.update()
     }
 
     /// Removes residuals from the measured forces.
@@ -249,7 +253,7 @@ impl<'a> Fit<'a> {
 
     /// Largest displacement of each loop over that at the onset of gross slip.
     pub fn slip_ratios(&self) -> Vec<f64> {
-        let of_loop = |(one, curve): (&Loop, &Curve)| one.amplitude / curve.slip_displacement(&self.parameters);
+        let of_loop = |(one, curve): (&Loop, &Curve)| one.amplitude / curve.slip_displacement();
         self.loops.iter().zip(&self.curves).map(of_loop).collect()
     }
 
@@ -267,13 +271,10 @@ impl<'a> Fit<'a> {
 
     /// Initial compliance of the law under the normal force of the contact, and its derivative with respect to the shape.
     pub fn law_compliance(&self) -> [f64; 2] {
-        let at = |shape: f64| {
-            let curve = self.family.reference_curve(self.has_shape.then_some(shape));
-            curve.map_or(f64::NAN, |curve| 1.0 / curve.initial_stiffness())
-        };
+        let at = |shape: f64| self.family.reference_compliance(shape).unwrap_or(f64::NAN);
         // The compliance depends on the shape by a logarithm only: a one-sided difference suffices for an interval.
         let (step, here) = (1e-4, at(self.parameters[SHAPE]));
-        [here, if self.has_shape { (at(self.parameters[SHAPE] + step) - here) / step } else { 0.0 }]
+        [here, (at(self.parameters[SHAPE] + step) - here) / step]
     }
 
     /// Variances of linear combinations of the parameters, of which only the free ones vary, if the residuals have variance 1.
@@ -313,8 +314,8 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Fit<'_> {
                 }
             }
         }
-        if self.free[SHAPE] && self.set_shape(self.parameters[SHAPE]).is_err() {
-            self.parameters[SHAPE] = f64::NAN;
+        if self.update().is_err() {
+            self.nuisances[0][0] = f64::NAN;
         }
     }
 

@@ -47,11 +47,11 @@ pub fn fit(contact: &Contact, measurements: &[Measurement], options: &Options) -
         warnings.extend(record.warnings);
     }
     loops.iter().try_for_each(|one| one.check_direction(&loops))?;
-    let shape = family.shape();
+    let shape = family.shape()?;
     let range = shape.filter(|_| options.shape != ShapeParameter::Fixed).map(|_| family.shape_range());
 
-    let compliances = loops.iter().map(|one| Ok(1.0 / family.curve(None, one.normal_force)?.initial_stiffness()));
-    let compliances = compliances.collect::<Result<Vec<_>, Error>>()?;
+    let compliances = loops.iter().map(|one| family.compliance(shape.unwrap_or(0.0), one.normal_force));
+    let compliances = compliances.collect::<Result<Vec<_>, _>>()?;
     let given = [options.friction_coefficient, options.series_compliance, options.contact_compliance];
     let [friction, series, contact_factor] = start_values(&loops, &compliances, given);
     let compliance = series + contact_factor * cycles::mean(compliances.iter().copied());
@@ -64,7 +64,7 @@ pub fn fit(contact: &Contact, measurements: &[Measurement], options: &Options) -
         [limit, [1e-6 * compliance, f64::MAX], positive, range.unwrap_or_default(), [0.0, MOST_STIFFENING], positive];
     let in_range = |shape: f64| range.map_or(shape, |[low, high]| shape.clamp(low, high));
     let start = [friction, series, contact_factor, shape.map_or(0.0, in_range), 0.0, spring];
-    let start = Fit::new(&family, &loops, start, limits, range.is_some())?;
+    let start = Fit::new(&family, &loops, start, limits)?;
     let solution = verdict::solve(&start, options, range)?;
 
     let ([friction_coefficient, compliance, ..], slider_forces) =

@@ -74,6 +74,10 @@ fn between_branches(one: &Loop, residuals: &[f64], forces: &[[f64; 2]]) -> f64 {
             _ => 0.0,
         });
         let differences = DVector::from_iterator(second.len(), second.clone().map(difference));
+        // The decomposition does not end for what is not a number.
+        if !differences.iter().all(|difference| difference.is_finite()) {
+            continue;
+        }
         if let Ok(changes) = columns.clone().svd(true, true).solve(&differences, 1e-12) {
             squares += (differences - columns * changes).norm_squared();
             degrees += (second.len() as f64 - 3.0).max(0.0);

@@ -65,7 +65,6 @@ impl<'a> Solution<'a> {
             for part in if i == FRICTION { &TOWARDS_NEUTRAL[..] } else { &[1.0] } {
                 let mut trial = fit.clone();
                 trial.parameters[i] = value + part * (target - value);
-                trial.set_shape(trial.parameters[SHAPE])?;
                 if free[SERIES] {
                     let rest = self.total_compliance.value - trial.parameters[CONTACT] * trial.law_compliance()[0];
                     trial.parameters[SERIES] = rest.max(1e-3 * self.total_compliance.value);
@@ -452,7 +451,7 @@ fn along_shapes<'a>(
     for shapes in [upwards, downwards] {
         let mut from = start.clone();
         for k in shapes {
-            from.set_shape(shape(k))?;
+            from.parameters[SHAPE] = shape(k);
             let found = Candidate::new(from, others);
             from = found.fit.clone();
             candidates.push(found);
