@@ -44,7 +44,7 @@ Tables:
   At most 4 million rows and 200 MB are read.
 
 Results:
-  CSV on standard output or in the file of --out: comments (#) with the command that repeats the result, a header
+  CSV on standard output or in the file of --out: comments (#) with the command that repeats the result and the contact, a header
   with units, and numbers that are read back bit for bit. --plot also draws them.
 
 Exit status:

@@ -4,7 +4,7 @@ use crate::args::{Amplitudes, Curve, History, Iwan, Loop, Tractions};
 use crate::columns::{ColumnSpec, InputTable, parse_columns, read_table};
 use crate::contact_spec::ContactSpec;
 use crate::error::{CliError, Result, input, usage};
-use crate::number::{format_list, format_number};
+use crate::number::format_number;
 use crate::plot::{Axis, Line, Panel, Picture, Row, rounded};
 use crate::table::Table;
 use crate::units::Quantity::{self, Energy, Force, Length, Number, Pressure, Stiffness, StiffnessSlope};
@@ -20,7 +20,7 @@ use std::ops::RangeInclusive;
 /// The result of a command.
 #[derive(Debug)]
 pub struct Report {
-    /// The program's version, the command that repeats the result, and remarks.
+    /// The program's version, the command that repeats the result, the contact, and remarks.
     comments: Vec<String>,
     pub warnings: Vec<String>,
     /// Exit status of the program, if it is not 0 although there is a result.
@@ -30,12 +30,13 @@ pub struct Report {
 }
 
 impl Report {
-    pub fn new(name: &str, spec: &ContactSpec, options: &str, table: Table, rows: Vec<Row>) -> Report {
+    pub fn new(spec: &ContactSpec, table: Table, rows: Vec<Row>) -> Report {
         let normal_force = rounded(spec.given.normal_force.unwrap_or_default(), Force, spec.units);
         Report {
             comments: vec![
                 format!("microslip {}", env!("CARGO_PKG_VERSION")),
-                format!("microslip {name}{}{options}", spec.given.options()),
+                command_line(),
+                format!("contact:{}", spec.given.options()),
             ],
             warnings: spec.given.implausible(),
             status: 0,
@@ -58,6 +59,19 @@ impl Report {
     pub fn csv(&self) -> String {
         self.table.csv(&self.comments)
     }
+}
+
+/// The command that repeats the result, without its outputs.
+fn command_line() -> String {
+    let (mut words, mut arguments) = (vec!["microslip".to_owned()], std::env::args().skip(1));
+    while let Some(word) = arguments.next() {
+        match word.split_once('=').map_or(word.as_str(), |(option, _)| option) {
+            "--out" | "--plot" if !word.contains('=') => drop(arguments.next()),
+            "--out" | "--plot" => {}
+            _ => words.push(quoted(&word)),
+        }
+    }
+    words.join(" ")
 }
 
 /// Parameters of the contact.
@@ -141,7 +155,7 @@ pub fn contact(spec: &ContactSpec) -> Report {
     let table = Table::of_text("quantity,value,unit", properties.map(row).into());
     let pressure = across(contact, 201).into_iter().map(|x| (x, contact.pressure(x))).collect();
     let panels = vec![panel(ACROSS, Axis::linear("pressure", Pressure), pressure)];
-    Report::new("contact", spec, "", table, panels)
+    Report::new(spec, table, panels)
 }
 
 /// The maximum pressure: in the middle of a cylinder or an ellipse; on the rounded edge of a flat, where a golden-section search
@@ -185,11 +199,10 @@ pub fn tractions(options: &Tractions, spec: &ContactSpec) -> Result<Report> {
     if let Some(bad) = options.position.iter().find(|x| !x.is_finite()) {
         return Err(CliError::in_option("--position", *bad, Error::BadPosition));
     }
-    let (x, repeat) = match &options.position[..] {
-        [] => (across(contact, options.points), format!("--points {}", options.points)),
-        x => (x.to_vec(), format!("--position {}", format_list(x))),
+    let x = match &options.position[..] {
+        [] => across(contact, options.points),
+        x => x.to_vec(),
     };
-    let repeat = format!(" --force {} {repeat}", format_list(&forces));
     let has_slip = !spec.given.is_elliptic();
     let (mut rows, mut shear, mut slip) = (Vec::new(), Vec::new(), Vec::new());
     for (stroke, force) in (1..).zip(forces) {
@@ -211,7 +224,7 @@ pub fn tractions(options: &Tractions, spec: &ContactSpec) -> Result<Report> {
         panels.push(Panel { x: ACROSS, y: Axis::linear("slip", Length), lines: slip }.into());
         columns.extend([("slip", Length), ("damage", Stiffness)]);
     }
-    Ok(Report::new("tractions", spec, &repeat, Table::of_numbers(&columns, units, &rows), panels))
+    Ok(Report::new(spec, Table::of_numbers(&columns, units, &rows), panels))
 }
 
 pub fn curve(options: &Curve, spec: &ContactSpec) -> Result<Report> {
@@ -227,18 +240,13 @@ pub fn curve(options: &Curve, spec: &ContactSpec) -> Result<Report> {
         let point = point.map_err(|error| CliError::in_option(option, displacement, error))?;
         Ok(vec![displacement, point.force(), point.stiffness(), point.stick_half_width()])
     };
-    let repeat = if !forces.is_empty() {
-        format!(" --force {}", format_list(&forces))
-    } else if !displacements.is_empty() {
-        format!(" --displacement {}", format_list(&displacements))
-    } else {
+    if forces.is_empty() && displacements.is_empty() {
         let default = 1.25 * contact.slip_displacement;
         let end = options.to.map_or(default, |to| if relative { to * contact.slip_displacement } else { to });
         at_displacement("--to", end)?;
         check_range("--to", end, 0.0..=f64::INFINITY)?;
         displacements = grid(end, options.points);
-        format!(" --to {} --points {}", format_number(end), options.points)
-    };
+    }
     let displacements = displacements.into_iter().map(|displacement| at_displacement("--displacement", displacement));
     let rows = forces.iter().map(at_force).chain(displacements).collect::<Result<Vec<_>>>()?;
     let columns = [("displacement", Length), ("force", Force), ("stiffness", Stiffness), ("stick_half_width", Length)];
@@ -247,7 +255,7 @@ pub fn curve(options: &Curve, spec: &ContactSpec) -> Result<Report> {
         panel(DISPLACEMENT, STIFFNESS, pairs(&rows, 0, 2)),
         panel(DISPLACEMENT, Axis::linear("stick half-width", Length), pairs(&rows, 0, 3)),
     ];
-    Ok(Report::new("curve", spec, &repeat, Table::of_numbers(&columns, spec.units, &rows), panels))
+    Ok(Report::new(spec, Table::of_numbers(&columns, spec.units, &rows), panels))
 }
 
 pub fn hysteresis_loop(options: &Loop, spec: &ContactSpec) -> Result<Report> {
@@ -257,9 +265,8 @@ pub fn hysteresis_loop(options: &Loop, spec: &ContactSpec) -> Result<Report> {
         _ => (&options.amplitude[..], options.relative),
     };
     let amplitudes = scaled(given, relative, contact.slip_displacement);
-    let repeat = format!(" --amplitude {} --points {}", format_list(&amplitudes), options.points);
     if options.normal_amplitude.is_some() {
-        return varying_load::swinging_loop(options, spec, &amplitudes, &repeat);
+        return varying_load::swinging_loop(options, spec, &amplitudes);
     }
     let (mut rows, mut lines) = (Vec::new(), Vec::new());
     for (stroke, amplitude) in amplitudes.into_iter().enumerate() {
@@ -276,18 +283,15 @@ pub fn hysteresis_loop(options: &Loop, spec: &ContactSpec) -> Result<Report> {
     }
     let columns = [("amplitude", Length), ("displacement", Length), ("force", Force), ("dissipated", Energy)];
     let panels = vec![Panel { x: DISPLACEMENT, y: FORCE, lines }.into()];
-    let report = Report::new("loop", spec, &repeat, Table::of_numbers(&columns, units, &rows), panels);
+    let report = Report::new(spec, Table::of_numbers(&columns, units, &rows), panels);
     Ok(report.with_remark("dissipated: energy per cycle"))
 }
 
 impl Amplitudes {
-    /// The amplitudes, and the options that repeat them.
-    fn values(&self, contact: &Contact) -> Result<(Vec<f64>, String)> {
+    fn values(&self, contact: &Contact) -> Result<Vec<f64>> {
         let unit = contact.slip_displacement;
         if !self.amplitude.is_empty() {
-            let amplitudes = scaled(&self.amplitude, self.relative, unit);
-            let repeat = format!(" --amplitude {}", format_list(&amplitudes));
-            return Ok((amplitudes, repeat));
+            return Ok(scaled(&self.amplitude, self.relative, unit));
         }
         if unit == 0.0 && (self.relative || self.from.is_none() || self.to.is_none()) {
             return input(
@@ -303,19 +307,18 @@ impl Amplitudes {
             let error = |error| CliError::in_option(option, amplitude, error);
             contact.complex_stiffness(amplitude).map_err(error)?;
         }
-        let [from_text, to_text] = [from, to].map(format_number);
         if !(from > 0.0 && from <= to) {
+            let [from_text, to_text] = [from, to].map(format_number);
             return usage(format!("0 < --from <= --to is required, not {from_text} and {to_text}"));
         }
         // Uniform in the logarithm; both ends are exact.
         let amplitude = |part: f64| from.powf(1.0 - part) * to.powf(part);
-        let repeat = format!(" --from {from_text} --to {to_text} --points {}", self.points);
-        Ok((grid(1.0, self.points).into_iter().map(amplitude).collect(), repeat))
+        Ok(grid(1.0, self.points).into_iter().map(amplitude).collect())
     }
 }
 
 pub fn stiffness(options: &Amplitudes, spec: &ContactSpec) -> Result<Report> {
-    let (amplitudes, repeat) = options.values(&spec.contact)?;
+    let amplitudes = options.values(&spec.contact)?;
     let row = |amplitude: f64| {
         let k = spec
             .contact
@@ -334,7 +337,7 @@ pub fn stiffness(options: &Amplitudes, spec: &ContactSpec) -> Result<Report> {
     ];
     let lines = vec![line_over(0, "K′", pairs(&rows, 0, 1)), line_over(1, "K″", pairs(&rows, 0, 2))];
     let panels = vec![Panel { x: AMPLITUDE, y: Axis::linear("complex stiffness", Stiffness), lines }.into()];
-    let report = Report::new("stiffness", spec, &repeat, Table::of_numbers(&columns, spec.units, &rows), panels);
+    let report = Report::new(spec, Table::of_numbers(&columns, spec.units, &rows), panels);
     Ok(report.with_remark("dk_real, dk_imag: derivatives by the amplitude; dissipated: energy per cycle"))
 }
 
@@ -365,33 +368,18 @@ pub fn history(options: &History, spec: &ContactSpec) -> Result<Report> {
     ];
     let table =
         parse_columns(&read_table(path)?, options.skip, &specs).map_err(|reason| CliError::in_file(path, reason))?;
-    let columns = specs.map(|column| {
-        column.selected.map_or(String::new(), |selected| format!(" {} {}", column.option, quoted(selected)))
-    });
-    let relative = if options.relative { " --relative" } else { "" };
-    let repeat = format!(
-        " --displacements {}{}{}{relative}",
-        quoted(&path.to_string_lossy()),
-        columns.concat(),
-        skipped(options.skip)
-    );
     let inputs = [(2, NormalInput::Approach), (3, NormalInput::Force)];
     let input = inputs.into_iter().find(|(column, _)| table.has(*column)).map(|(_, input)| input);
     let mut report = match input {
-        _ if table.has(1) => varying_load::history_in_two_directions(options, spec, input, &table, &repeat),
-        None => constant_load_history(options, spec, &table, &repeat),
-        Some(input) => varying_load::history(options, spec, input, &table, &repeat),
+        _ if table.has(1) => varying_load::history_in_two_directions(options, spec, input, &table),
+        None => constant_load_history(options, spec, &table),
+        Some(input) => varying_load::history(options, spec, input, &table),
     }?;
     report.warnings.extend(table.warning);
     Ok(report)
 }
 
-/// The option that leaves out lines, if any.
-pub fn skipped(lines: usize) -> String {
-    if lines > 0 { format!(" --skip {lines}") } else { String::new() }
-}
-
-fn constant_load_history(options: &History, spec: &ContactSpec, table: &InputTable, repeat: &str) -> Result<Report> {
+fn constant_load_history(options: &History, spec: &ContactSpec, table: &InputTable) -> Result<Report> {
     let (contact, path, count) = (&spec.contact, &options.displacements, table.rows.len());
     // A history has no more reversals than rows: none is merged, and the results are exact.
     let mut state = vec![0.0; state_length(count)];
@@ -418,7 +406,7 @@ fn constant_load_history(options: &History, spec: &ContactSpec, table: &InputTab
     let columns = [&columns[..], &ENERGIES].concat();
     let line = Line { stroke: 0, name: String::new(), points };
     let panels = vec![Panel { x: DISPLACEMENT, y: FORCE, lines: vec![line] }.into()];
-    let report = Report::new("history", spec, repeat, Table::of_numbers(&columns, spec.units, &rows), panels);
+    let report = Report::new(spec, Table::of_numbers(&columns, spec.units, &rows), panels);
     Ok(report.with_remark(ENERGIES_REMARK))
 }
 
@@ -432,7 +420,7 @@ pub fn quoted(word: &str) -> String {
 }
 
 pub fn jenkins_equivalent(options: &Amplitudes, spec: &ContactSpec) -> Result<Report> {
-    let (amplitudes, repeat) = options.values(&spec.contact)?;
+    let amplitudes = options.values(&spec.contact)?;
     let row = |amplitude: f64| {
         let slider =
             jenkins(&spec.contact, amplitude).map_err(|error| CliError::in_option("--amplitude", amplitude, error))?;
@@ -444,7 +432,7 @@ pub fn jenkins_equivalent(options: &Amplitudes, spec: &ContactSpec) -> Result<Re
         panel(AMPLITUDE, STIFFNESS, pairs(&rows, 0, 1)),
         panel(AMPLITUDE, Axis::linear("slip force", Force), pairs(&rows, 0, 2)),
     ];
-    Ok(Report::new("jenkins", spec, &repeat, Table::of_numbers(&columns, spec.units, &rows), panels))
+    Ok(Report::new(spec, Table::of_numbers(&columns, spec.units, &rows), panels))
 }
 
 pub fn iwan_equivalent(options: &Iwan, spec: &ContactSpec) -> Result<Report> {
@@ -471,6 +459,6 @@ pub fn iwan_equivalent(options: &Iwan, spec: &ContactSpec) -> Result<Report> {
         panel(DISPLACEMENT, Axis::linear("force error of the sliders", Force), points(&difference)),
     ];
     let table = Table::of_numbers(&columns, spec.units, &rows);
-    let report = Report::new("iwan", spec, &format!(" --count {}", options.count), table, panels);
+    let report = Report::new(spec, table, panels);
     Ok(report.with_remark(&format!("largest error of the force over mu N: {}", format_number(error))))
 }

@@ -2,16 +2,15 @@
 
 use crate::args::{Fit, Fixable, ShapeOption};
 use crate::columns::{ColumnSpec, parse_columns, read_table};
-use crate::commands::{Report, panel, quoted, skipped};
+use crate::commands::{Report, panel};
 use crate::contact_spec::ContactSpec;
 use crate::error::{CliError, Result, usage};
 use crate::files::{check_outputs, write_file};
-use crate::number::{format_list, format_number};
+use crate::number::format_number;
 use crate::plot::{Axis, Line, Panel, Row, rounded};
 use crate::table::Table;
 use crate::units::Quantity::{Energy, Force, Length, Number, Stiffness, Time};
 use crate::units::Units;
-use clap::ValueEnum;
 use microslip_fit::{CauseKind, Estimate, FittedLoop, Measurement, Misfit, NormalForce, Options, ShapeParameter};
 use std::path::{Path, PathBuf};
 
@@ -39,7 +38,7 @@ pub fn fit(options: &Fit, spec: &ContactSpec) -> Result<Report> {
         write_file(path, &json)?;
     }
 
-    let mut report = Report::new("fit", spec, &repeat(options), table(&found, spec.units), panels(&found));
+    let mut report = Report::new(spec, table(&found, spec.units), panels(&found));
     for sentence in &found.verdict {
         report = report.with_remark(sentence);
     }
@@ -117,37 +116,6 @@ fn fixed(options: &Fit, spec: &ContactSpec) -> Options {
             ShapeOption::EdgeRadius => ShapeParameter::EdgeRadius,
         },
     }
-}
-
-/// The options that repeat the fit.
-fn repeat(options: &Fit) -> String {
-    let files: Vec<_> = options.measured.iter().map(|path| path.to_string_lossy()).collect();
-    let mut text = format!(" --measured {}", quoted(&files.join(",")));
-    let columns = [
-        ("--column", &options.column),
-        ("--force-column", &options.force_column),
-        ("--normal-force-column", &options.normal_force_column),
-        ("--time-column", &options.time_column),
-    ];
-    for (option, selected) in columns {
-        text += &selected.as_ref().map_or(String::new(), |selected| format!(" {option} {}", quoted(selected)));
-    }
-    text += &skipped(options.skip);
-    if !options.loads.is_empty() {
-        text += &format!(" --loads {}", format_list(&options.loads));
-    }
-    if let Some(units) = options.data_units {
-        text += &format!(" --data-units {units}");
-    }
-    for (parameter, value) in &options.fix {
-        let value = value.map_or(String::new(), |value| format!("={}", format_number(value)));
-        let name = parameter.to_possible_value().map_or(String::new(), |value| value.get_name().to_owned());
-        text += &format!(" --fix {name}{value}");
-    }
-    if options.shape == ShapeOption::EdgeRadius {
-        text += " --shape edge_radius";
-    }
-    text
 }
 
 fn table(found: &microslip_fit::Report, units: Units) -> Table {

@@ -4,7 +4,7 @@ use crate::args::LayerOptions;
 use crate::commands::Report;
 use crate::contact_spec::ContactSpec;
 use crate::error::{Result, input, usage};
-use crate::number::{format_list, format_number};
+use crate::number::format_number;
 use crate::table::Table;
 use crate::units::Quantity::{Force, Length};
 use microslip::Layer;
@@ -72,13 +72,7 @@ pub fn layer(options: &LayerOptions, spec: &ContactSpec) -> Result<Report> {
         loads.iter().map(|(name, value)| format!("{name},{},,,{}", format_number(*value), spec.units.unit(Force))),
     );
     let numbers = compliances.iter().chain(&loads).map(|(_, value)| format!("{value:e}_wp")).collect::<Vec<_>>();
-    let report = Report::new(
-        "layer",
-        spec,
-        &options.text(),
-        Table::of_text("quantity,value,lower,upper,unit", rows),
-        Vec::new(),
-    );
+    let report = Report::new(spec, Table::of_text("quantity,value,lower,upper,unit", rows), Vec::new());
     let report = compliances
         .iter()
         .chain(&loads)
@@ -146,24 +140,6 @@ fn measured(options: &LayerOptions, spec: &ContactSpec, normal_force: f64, ratio
         stiffening_load,
         reference_load: load,
     })
-}
-
-impl LayerOptions {
-    /// The options that repeat the command.
-    fn text(&self) -> String {
-        let lists = [("measured-stiffness", &self.measured_stiffness), ("at", &self.at)];
-        let options = [
-            ("secant-force", self.secant_force),
-            ("rms-height", self.rms_height),
-            ("asperity-radius", self.asperity_radius),
-            ("asperity-density", self.asperity_density),
-            ("height-deviation", self.height_deviation),
-        ];
-        let lists = lists.into_iter().filter(|(_, values)| !values.is_empty());
-        let lists = lists.map(|(name, values)| format!(" --{name} {}", format_list(values)));
-        let given = options.into_iter().filter_map(|(name, value)| Some((name, value?)));
-        lists.chain(given.map(|(name, value)| format!(" --{name} {}", format_number(value)))).collect()
-    }
 }
 
 fn positive(option: &str, value: f64) -> Result<f64> {

@@ -256,10 +256,10 @@ impl Graph<'_> {
 const MAX_NAMES: usize = DASHES.len() * COLOURS.len();
 
 /// Points of the lines of a panel; more could not be distinguished.
-const MAX_POINTS: usize = 40_000;
+const MAX_POINTS: usize = 20_000;
 
 /// The visible parts of a line in pixels: without segments between two places, of 0.25, 0.5, 1 ... pixels, that are the same or already
-/// joined, until few enough remain or 8 pixels are one place.
+/// joined, until few enough remain.
 fn thinned(points: &[Point], limit: usize) -> Vec<Vec<Point>> {
     let mut place = 0.25;
     loop {
@@ -282,7 +282,7 @@ fn thinned(points: &[Point], limit: usize) -> Vec<Vec<Point>> {
         if lines.is_empty() {
             return vec![vec![points[0]]];
         }
-        if lines.iter().map(Vec::len).sum::<usize>() <= limit.max(2) || place > 8.0 {
+        if lines.iter().map(Vec::len).sum::<usize>() <= limit.max(2) {
             return lines;
         }
         place *= 2.0;

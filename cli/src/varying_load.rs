@@ -8,7 +8,7 @@ use crate::commands::{
 };
 use crate::contact_spec::ContactSpec;
 use crate::error::{CliError, Result};
-use crate::number::{Amount, format_list, format_number};
+use crate::number::{Amount, format_number};
 use crate::plot::{Axis, Line, Panel, Row, rounded};
 use crate::table::Table;
 use crate::units::Quantity::{Angle, Energy, Force, Length, Stiffness};
@@ -35,18 +35,13 @@ pub fn normal(options: &Normal, spec: &ContactSpec) -> Result<Report> {
     };
     let forces = scaled(&options.force, options.relative, element.normal_force);
     let mut approaches = scaled(&options.approach, options.relative, element.approach);
-    let repeat = if !forces.is_empty() {
-        format!(" --force {}", format_list(&forces))
-    } else if !approaches.is_empty() {
-        format!(" --approach {}", format_list(&approaches))
-    } else {
+    if forces.is_empty() && approaches.is_empty() {
         let factor = if options.relative { element.approach } else { 1.0 };
         let end = options.to.map_or(element.approach, |to| to * factor);
         at_approach("--to", end)?;
         check_range("--to", end, 0.0..=f64::INFINITY)?;
         approaches = grid(end, options.points);
-        format!(" --to {} --points {}", format_number(end), options.points)
-    };
+    }
     let approaches = approaches.into_iter().map(|approach| at_approach("--approach", approach));
     let rows = forces.iter().map(at_force).chain(approaches).collect::<Result<Vec<_>>>()?;
     let columns = [("approach", Length), ("normal_force", Force), ("stiffness", Stiffness), ("half_width", Length)];
@@ -59,7 +54,7 @@ pub fn normal(options: &Normal, spec: &ContactSpec) -> Result<Report> {
         panel(approach, STIFFNESS, of_closed(2)),
         panel(approach, Axis::linear("half-width", Length), of_closed(3)),
     ];
-    Ok(Report::new("normal", spec, &repeat, Table::of_numbers(&columns, spec.units, &rows), panels))
+    Ok(Report::new(spec, Table::of_numbers(&columns, spec.units, &rows), panels))
 }
 
 /// The state of an open contact at displacement 0.
@@ -75,13 +70,7 @@ const PIECES_OF_PICTURE: usize = 256;
 /// A step in two directions takes longer than one in one direction: fewer points are drawn.
 const TRIALS_PER_POINT: usize = 5;
 
-pub fn history(
-    options: &History,
-    spec: &ContactSpec,
-    input: NormalInput,
-    table: &InputTable,
-    repeat: &str,
-) -> Result<Report> {
+pub fn history(options: &History, spec: &ContactSpec, input: NormalInput, table: &InputTable) -> Result<Report> {
     let (element, path, count) = (spec.element(Directions::One, input)?, &options.displacements, table.rows.len());
     let by_approach = input == NormalInput::Approach;
     let of_normal = if by_approach { element.approach } else { element.normal_force };
@@ -130,7 +119,7 @@ pub fn history(
         Panel { x: DISPLACEMENT, y: NORMAL_FORCE, lines: vec![line(0, 1)] }.into(),
         Panel { x: NORMAL_FORCE, y: FORCE, lines: vec![line(1, 2), cone] }.into(),
     ];
-    let report = Report::new("history", spec, repeat, Table::of_numbers(&columns, spec.units, &rows), panels);
+    let report = Report::new(spec, Table::of_numbers(&columns, spec.units, &rows), panels);
     let range = format!("{} to {}", rounded(least, Force, spec.units), rounded(largest, Force, spec.units));
     Ok(report.under(spec, &range).with_remark(&format!("stiffness: by the displacement; {ENERGIES_REMARK}")))
 }
@@ -144,7 +133,6 @@ pub fn history_in_two_directions(
     spec: &ContactSpec,
     input: Option<NormalInput>,
     table: &InputTable,
-    repeat: &str,
 ) -> Result<Report> {
     let element = spec.element(Directions::Two, input.unwrap_or(NormalInput::Force))?;
     let (path, by_approach) = (&options.displacements, input == Some(NormalInput::Approach));
@@ -209,7 +197,7 @@ pub fn history_in_two_directions(
         Panel { x: DISPLACEMENT, y: FORCE, lines: loops.into() }.into(),
         Panel { x: NORMAL_FORCE, y: magnitude, lines: magnitudes }.into(),
     ];
-    let report = Report::new("history", spec, repeat, Table::of_numbers(&columns, spec.units, &rows), panels);
+    let report = Report::new(spec, Table::of_numbers(&columns, spec.units, &rows), panels);
     let report = report.with_remark(ENERGIES_REMARK);
     if input.is_none() {
         return Ok(report);
@@ -244,7 +232,7 @@ fn normal_between(element: &Element, from: f64, to: f64, fraction: f64) -> f64 {
 const STEPS_OF_PERIOD: usize = 4096;
 
 /// Loops under `N (1 + a cos(ωt + φ))`, or 0 where that is negative, for `u = û cos ωt`.
-pub fn swinging_loop(options: &Loop, spec: &ContactSpec, amplitudes: &[f64], repeat: &str) -> Result<Report> {
+pub fn swinging_loop(options: &Loop, spec: &ContactSpec, amplitudes: &[f64]) -> Result<Report> {
     let (element, units) = (spec.element(Directions::One, NormalInput::Force)?, spec.units);
     let (mean, n) = (element.normal_force, options.points as usize);
     let given = match options.normal_amplitude {
@@ -305,9 +293,7 @@ pub fn swinging_loop(options: &Loop, spec: &ContactSpec, amplitudes: &[f64], rep
         Panel { x: DISPLACEMENT, y: FORCE, lines: forces }.into(),
         Panel { x: DISPLACEMENT, y: NORMAL_FORCE, lines: loads }.into(),
     ];
-    let phases = format_list(&options.phase);
-    let repeat = format!("{repeat} --normal-amplitude {} --phase {phases}", format_number(given));
-    let report = Report::new("loop", spec, &repeat, Table::of_numbers(&columns, units, &rows), panels);
+    let report = Report::new(spec, Table::of_numbers(&columns, units, &rows), panels);
     let load = [mean, given].map(|force| rounded(force, Force, units)).join(" ± ");
     let remark = "dissipated: energy per cycle; dissipated_constant: under the constant normal force";
     Ok(report.under(spec, &load).with_remark(remark))
