@@ -106,12 +106,6 @@ impl Bitmap {
         Some(Bitmap { pixels, font: Face::parse(dejavu::sans::regular(), 0).ok()? })
     }
 
-    /// Red, green, blue and opacity of each pixel.
-    #[cfg(test)]
-    pub fn pixels(&self) -> &[u8] {
-        self.pixels.data()
-    }
-
     /// The file; `None` if it is too large for the format.
     pub fn finish(&self) -> Option<Vec<u8>> {
         self.pixels.encode_png().ok()

@@ -292,7 +292,8 @@ impl<'a> Source<'a> {
         }
         let is_wanted = |cells: &[String]| specs.iter().any(|spec| !spec.named(cells).is_empty());
         let headers = above.iter().filter_map(|&(number, line)| {
-            let line = if line.to_uppercase().starts_with("REM ") { &line[4..] } else { line };
+            let remark = line.get(..4).filter(|mark| mark.eq_ignore_ascii_case("rem "));
+            let line = remark.map_or(line, |mark| &line[mark.len()..]);
             let unmarked = line.trim_start_matches(MARKS).trim_start();
             let found = [line, unmarked].into_iter().filter_map(|line| header(line, separator, count, &is_wanted));
             Some((number, found.max_by_key(|cells| is_wanted(cells))?))
@@ -400,19 +401,15 @@ pub fn parse_columns(text: &str, skipped: usize, specs: &[ColumnSpec]) -> std::r
 
 /// The decimal mark of a table: the only one with which some cell is a number.
 fn decimal_mark(source: &Source) -> std::result::Result<char, String> {
-    let of_row = |&(line, row): &(usize, &'_ str)| {
-        let cells = source.form.split(row).into_iter().filter(|cell| cell.contains([',', '.']));
-        cells
-            .map(|cell| (line, cell.to_owned(), ['.', ','].map(|mark| number(cell, mark).is_some())))
-            .collect::<Vec<_>>()
-    };
     let mut comma = None;
-    for (line, cell, are_numbers) in source.rows.iter().flat_map(of_row) {
-        match are_numbers {
-            [true, false] => return Ok('.'),
-            [false, true] => return Ok(','),
-            _ if cell.contains(',') && are_numbers[0] => comma = comma.or(Some((line, cell))),
-            _ => {}
+    for &(line, row) in &source.rows {
+        for cell in source.form.split(row) {
+            match ['.', ','].map(|mark| number(cell, mark).is_some()) {
+                [true, false] => return Ok('.'),
+                [false, true] => return Ok(','),
+                [true, true] if cell.contains(',') => comma = comma.or(Some((line, cell))),
+                _ => {}
+            }
         }
     }
     comma.map_or(Ok('.'), |(line, cell)| {
@@ -439,8 +436,8 @@ fn seconds(cell: &str, mark: char) -> Option<f64> {
     let mut words = cell.split([' ', 'T', 'Z', '+']);
     let Some(clock) = words.clone().find(|word| word.contains(':')) else { return number(words.next()?, mark) };
     let mut parts = clock.split(':').map(|part| number(&part.replace(',', "."), '.')).collect::<Option<Vec<_>>>()?;
-    if let [.., fraction] = &mut parts[3..] {
-        *fraction *= 60e-3; // Milliseconds as a fourth part.
+    if let [_, _, _, milliseconds] = &mut parts[..] {
+        *milliseconds *= 60e-3;
     }
     if cell.ends_with('M') {
         parts[0] = parts[0] % 12.0 + if cell.ends_with("PM") { 12.0 } else { 0.0 };

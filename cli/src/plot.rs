@@ -541,34 +541,4 @@ mod tests {
             }
         }
     }
-
-    /// Dark pixels of polylines.
-    fn ink(lines: &[Vec<Point>]) -> Vec<bool> {
-        let mut bitmap = Bitmap::new((600, 400)).unwrap();
-        bitmap.lines(lines, &Stroke { width: 2.0, ..AXIS });
-        bitmap.pixels().chunks(4).map(|pixel| pixel[0] < 128).collect()
-    }
-
-    #[test]
-    fn long_lines_are_thinned_without_a_visible_change() {
-        let ellipse = |size_x: f64, size_y: f64, turns: f64| {
-            let angle = turns * std::f64::consts::TAU;
-            (300.0 + 200.0 * size_x * angle.cos(), 200.0 + 150.0 * size_y * angle.sin())
-        };
-        let histories: [(&str, &dyn Fn(f64) -> Point); 2] = [
-            ("many cycles", &|t| ellipse(1.0, 1.0, 39.7 * t)),
-            ("cycles of growing amplitude", &|t| ellipse(t, t, 12.0 * t)),
-        ];
-        for (name, point) in histories {
-            let points: Vec<_> = (0..8_000).map(|i| point(f64::from(i) / 8e3)).collect();
-            let lines = thinned(&points, 4_000);
-            let count = lines.iter().map(Vec::len).sum::<usize>();
-            let (all, thinned) = (ink(&[points]), ink(&lines));
-            let [changed, total] = [
-                all.iter().zip(&thinned).filter(|(all, thinned)| all != thinned).count(),
-                all.iter().filter(|all| **all).count(),
-            ];
-            assert!(count <= 4_000 && changed * 50 <= total, "{name}: {changed} of {total} pixels, {count} points");
-        }
-    }
 }

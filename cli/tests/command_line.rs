@@ -561,11 +561,11 @@ fn a_fit_recovers_the_contact_of_its_loops() {
     // The same in other units, without header, with a normal force for each table, and parameters that are fixed.
     for amplitude in ["0.7", "1.5"] {
         shell.stdout(&format!(
-            "grep '^[0-9]' {amplitude}.csv | awk -F, '{{print $3 \",\" 1e6*$2}}' > um{amplitude}.csv"
+            "grep '^[0-9]' {amplitude}.csv | awk -F, '{{printf \"%s,%s,1:00:%06.3f PM\\n\", $3, 1e6*$2, NR/10}}' > um{amplitude}.csv"
         ));
     }
     let fixed = "--fix contact_compliance,shape --fix series_compliance=0";
-    let columns = "--column 2 --force-column 1 --data-units um,N --loads 150,150";
+    let columns = "--column 2 --force-column 1 --time-column 3 --data-units um,N --loads 150,150";
     let same = shell.stdout(&format!("microslip fit flat.toml --measured um0.7.csv,um1.5.csv {columns} {fixed}"));
     assert!((quantity(&same, "friction_coefficient").0 / 0.4 - 1.0).abs() < 1e-4, "{same}");
     for name in ["series_compliance", "contact_compliance", "flat_half_width_over_half_width"] {
@@ -576,7 +576,7 @@ fn a_fit_recovers_the_contact_of_its_loops() {
         ("--measured 0.7.csv --data-units um,N", 1, "column displacement is in m, not in um"),
         ("--measured 0.7.csv --fix shape=1", 2, "shape has no value"),
         ("--measured 0.7.csv --loads 1,2", 2, "--loads has 2 values for 1 tables"),
-        ("--measured um0.7.csv --column 2", 1, "line 1: no column is named force; the 2 columns have no names: select"),
+        ("--measured um0.7.csv --column 2", 1, "line 1: no column is named force; the 3 columns have no names: select"),
         ("--measured 0.7.csv --fitted 0.7.csv", 2, "is an input and is not overwritten"),
         ("--measured 0.7.csv --fitted same --json same", 2, "cannot be the same file"),
         ("--measured 0.7.csv --column force --force-column displacement", 1, "column force is in N, not in m"),

@@ -5,7 +5,8 @@
 //! explains most first. The direction is that at the fit, so that sizes of large effects are estimates.
 
 use crate::cycles::{Loop, Sample};
-use crate::least_squares::Fit;
+use crate::error::Error;
+use crate::least_squares::{Fit, Free};
 use crate::model::{FRICTION, Prediction};
 use crate::report::{Cause, CauseKind, CauseKind::*};
 use nalgebra::{DMatrix, DVector};
@@ -19,6 +20,12 @@ pub(crate) struct Effect {
 
 /// A direction of which the parameters of the fit take all but this part is not distinguished from them.
 const DISTINCT: f64 = 0.03;
+
+/// A cause of residuals that noise does not explain is named if it explains this part of their squares, of which noise has a
+/// quarter at most.
+pub(crate) const LEAST_SHARE: f64 = 0.1;
+/// Samples of a loop that a play leaves at least.
+const LEAST_SAMPLES: usize = 20;
 
 /// The model at a sample.
 struct At<'a> {
@@ -119,4 +126,63 @@ pub(crate) fn causes(fit: &Fit, kinds: &[CauseKind], least_share: f64) -> Vec<Ef
         directions.iter_mut().for_each(|(_, other, _)| remove(other, &unit));
         found.push(effect);
     }
+}
+
+/// The causes after a play, if its removal from the loops and another fit explain more than this share of the residuals: near a fit
+/// that a large play has bent, the direction of another cause may explain more.
+pub(crate) fn play(fit: &Fit, others: Free, least_share: f64) -> Result<Option<Vec<Cause>>, Error> {
+    let largest = fit.loops().iter().max_by(|one, other| one.amplitude.total_cmp(&other.amplitude));
+    let Some((size, forces)) = largest.and_then(Loop::play) else { return Ok(None) };
+    let loops = fit.loops().iter().map(|one| one.without_play(size, forces));
+    let loops: Vec<_> = loops.filter(|one| one.amplitude > 0.0 && one.samples.len() >= LEAST_SAMPLES).collect();
+    if loops.is_empty() {
+        return Ok(None);
+    }
+    let mean_square = |loops: &[Loop], fit: &Fit| {
+        let of_loop = |(one, forces): (&Loop, Vec<[f64; 2]>)| {
+            forces.into_iter().map(|[measured, law]| ((measured - law) / one.height()).powi(2)).collect::<Vec<_>>()
+        };
+        let squares: Vec<_> = loops.iter().zip(fit.forces()).flat_map(of_loop).collect();
+        squares.iter().sum::<f64>() / squares.len() as f64
+    };
+    let mut rest = fit.of_loops(&loops, others)?;
+    let share = 1.0 - mean_square(&loops, &rest) / mean_square(fit.loops(), fit);
+    if share <= least_share {
+        return Ok(None);
+    }
+    let kinds: Vec<_> = KINDS.into_iter().filter(|kind| *kind != Play).collect();
+    rest.release(others);
+    let rest = causes(&rest, &kinds, LEAST_SHARE / (1.0 - share).max(LEAST_SHARE));
+    let rest = rest.iter().map(|effect| Cause { share: effect.cause.share * (1.0 - share), ..effect.cause });
+    Ok(Some([Cause { kind: Play, size, share }].into_iter().chain(rest).collect()))
+}
+
+/// A cause in a sentence.
+pub(crate) fn sentence(cause: &Cause) -> String {
+    let percent = 100.0 * cause.size.abs();
+    let changes = if cause.size > 0.0 { "grows" } else { "falls" };
+    let what = match cause.kind {
+        DifferentPlateaus => {
+            let side = if cause.size > 0.0 { "positive" } else { "negative" };
+            format!("different plateaus: the force is larger on the {side} side by {percent:.1} % (offset or wear)")
+        }
+        Amplitude => {
+            format!("a force that {changes} by {percent:.1} % from the smallest to the largest amplitude")
+        }
+        Cycle => format!("a force that {changes} by {percent:.1} % from the first to the last cycle (wear)"),
+        Speed => {
+            format!("plateaus with a slope in speed: the force {changes} by {percent:.1} % up to the largest speed")
+        }
+        Lag => {
+            let column = if cause.size > 0.0 { "force" } else { "displacement" };
+            format!("a lag between the columns: the {column} is late by {:.1} samples", cause.size.abs())
+        }
+        Play => format!("play around zero force: {:.2e} of the displacement", cause.size),
+        Viscous => format!("a viscous part: {percent:.1} % of mu N at the largest speed"),
+        ParallelSpring => {
+            let sign = if cause.size > 0.0 { "" } else { "-" };
+            format!("plateaus with a slope in displacement: {sign}{percent:.1} % of mu N at the largest amplitude")
+        }
+    };
+    format!("The residuals show {what}; this explains {:.0} % of their squares.", 100.0 * cause.share)
 }

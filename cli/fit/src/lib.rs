@@ -13,6 +13,7 @@ mod misfit;
 mod model;
 mod plausibility;
 mod report;
+mod sentences;
 mod verdict;
 
 pub use error::Error;
@@ -93,7 +94,7 @@ pub fn fit(contact: &Contact, measurements: &[Measurement], options: &Options) -
         explanation: solution.explanation.clone(),
         law: Misfit::new(&loops, &forces),
         spring_slider,
-        verdict: verdict::sentences(&solution, range, contact.normal_force),
+        verdict: sentences::sentences(&solution, range, contact.normal_force),
         profile: solution.profile,
         warnings,
         contact_toml: report::contact_toml(contact, &geometry, &determined.parameters, &neutral),

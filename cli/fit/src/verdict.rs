@@ -8,14 +8,13 @@
 //! they show more than a spring and a slider. The last two compare the best fit with the best one without a plateau, or without
 //! microslip.
 
-use crate::causes::{KINDS, causes};
-use crate::cycles::Loop;
+use crate::causes::{KINDS, LEAST_SHARE, causes, play};
 use crate::error::Error;
 use crate::input::Options;
 use crate::least_squares::{Fit, Free};
 use crate::misfit::{FACTOR, LoopMisfit};
 use crate::model::{CONTACT, FRICTION, MOST_STIFFENING, PARALLEL, PARAMETERS, Prediction, SERIES, SHAPE, STIFFENING};
-use crate::report::{Cause, CauseKind, Estimate, Explanation, ProfilePoint, Status, stiffening_load};
+use crate::report::{CauseKind, Estimate, Explanation, ProfilePoint, Status};
 
 /// 97.5 % quantile of the normal distribution; its square is the 95 % quantile of chi squared.
 const QUANTILE: f64 = 1.96;
@@ -90,15 +89,10 @@ const FRICTION_STEPS: [f64; 7] = [1.02, 1.05, 1.1, 1.2, 1.4, 2.0, 3.0];
 /// A cause is significant if it explains the square of this times what a direction of no effect explains, one over the number of
 /// independent residuals: by chance in one of 2000 fits, each of the eight causes in one of 16,000.
 const SIGNIFICANT: f64 = 4.0;
-/// A cause of residuals that noise does not explain is named if it explains this part of their squares, of which noise has a
-/// quarter at most.
-const LEAST_SHARE: f64 = 0.1;
 /// Passes that remove what the causes explain from the forces, and fit the rest: their sizes are estimates at first.
 const CORRECTIONS: usize = 3;
 /// A cause that explains more than this share leaves nothing for a play.
 const CLEAR: f64 = 0.9;
-/// Samples of a loop that a play leaves at least.
-const LEAST_SAMPLES: usize = 20;
 /// A plateau is seen if the displacement exceeds that of gross slip by this part. A shorter one is not distinguished from the bend
 /// before it.
 const SHORTEST_PLATEAU: f64 = 0.02;
@@ -320,37 +314,8 @@ fn solve_with<'a>(
     })
 }
 
-/// The causes after a play, if its removal from the loops and another fit explain more than this share of the residuals: near a fit
-/// that a large play has bent, the direction of another cause may explain more.
-fn play(fit: &Fit, others: Free, least_share: f64) -> Result<Option<Vec<Cause>>, Error> {
-    let largest = fit.loops().iter().max_by(|one, other| one.amplitude.total_cmp(&other.amplitude));
-    let Some((size, forces)) = largest.and_then(Loop::play) else { return Ok(None) };
-    let loops = fit.loops().iter().map(|one| one.without_play(size, forces));
-    let loops: Vec<_> = loops.filter(|one| one.amplitude > 0.0 && one.samples.len() >= LEAST_SAMPLES).collect();
-    if loops.is_empty() {
-        return Ok(None);
-    }
-    let mean_square = |loops: &[Loop], fit: &Fit| {
-        let of_loop = |(one, forces): (&Loop, Vec<[f64; 2]>)| {
-            forces.into_iter().map(|[measured, law]| ((measured - law) / one.height()).powi(2)).collect::<Vec<_>>()
-        };
-        let squares: Vec<_> = loops.iter().zip(fit.forces()).flat_map(of_loop).collect();
-        squares.iter().sum::<f64>() / squares.len() as f64
-    };
-    let mut rest = fit.of_loops(&loops, others)?;
-    let share = 1.0 - mean_square(&loops, &rest) / mean_square(fit.loops(), fit);
-    if share <= least_share {
-        return Ok(None);
-    }
-    let kinds: Vec<_> = KINDS.into_iter().filter(|kind| *kind != CauseKind::Play).collect();
-    rest.release(others);
-    let rest = causes(&rest, &kinds, LEAST_SHARE / (1.0 - share).max(LEAST_SHARE));
-    let rest = rest.iter().map(|effect| Cause { share: effect.cause.share * (1.0 - share), ..effect.cause });
-    Ok(Some([Cause { kind: CauseKind::Play, size, share }].into_iter().chain(rest).collect()))
-}
-
 /// Whether the contact, as it is given, has a small part of the total compliance.
-fn is_hidden(law: f64, total: f64) -> bool {
+pub(crate) fn is_hidden(law: f64, total: f64) -> bool {
     law < SMALL_PART * total
 }
 
@@ -559,156 +524,4 @@ fn correlation(residuals: &[Vec<f64>]) -> f64 {
     };
     let (variance, longest) = (sum(0).max(f64::MIN_POSITIVE), residuals.iter().map(Vec::len).max().unwrap_or(0));
     1.0 + 2.0 * (1..longest).map(|lag| sum(lag) / variance).take_while(|part| *part > 0.0).sum::<f64>()
-}
-
-/// The verdict in sentences.
-pub(crate) fn sentences(solution: &Solution, range: Option<[f64; 2]>, normal_force: f64) -> Vec<String> {
-    let ([friction, series, contact, shape, share, spring], explanation) = (&solution.estimates, &solution.explanation);
-    let interval = |&Estimate { lower, upper, .. }: &Estimate| match upper {
-        Some(upper) => format!("{lower:.4} to {upper:.4}"),
-        None => format!("at least {lower:.4}"),
-    };
-    let mut sentences = Vec::new();
-    if !explanation.explained {
-        let Explanation { name, misfit, relative_misfit, noise, .. } = explanation;
-        let percent = 100.0 * relative_misfit;
-        sentences.push(format!(
-            "The law does not explain these loops: the misfit of {name} is {misfit:.3e} N, {percent:.2} % of mu N, and noise \
-             explains {noise:.3e} N. No parameter is determined."
-        ));
-        if explanation.causes.is_empty() {
-            sentences.push("The residuals show none of the causes that are looked for.".to_owned());
-        }
-    }
-    sentences.extend(explanation.causes.iter().map(cause));
-    if explanation.explained && !explanation.causes.is_empty() {
-        // Beside a plateau that is too short, the size of this cause is only an estimate.
-        let is_spring = explanation.causes.iter().any(|cause| cause.kind == CauseKind::ParallelSpring);
-        let include = if is_spring { "do not include" } else { "include" };
-        sentences.push(format!("That is below twice the noise; the intervals {include} its effect."));
-    }
-    match friction.status {
-        Status::Fixed => {}
-        Status::LowerBound => {
-            let bound = friction.lower;
-            sentences.push(format!(
-                "No loop has a plateau of gross slip: the friction coefficient has only a lower bound, {bound:.4}."
-            ));
-        }
-        Status::Determined => {
-            sentences.push(format!("The friction coefficient is determined: {}.", interval(friction)));
-        }
-        _ if explanation.explained => {
-            sentences.push(format!("The friction coefficient is only bounded: {}.", interval(friction)));
-        }
-        _ => {}
-    }
-    if !explanation.explained {
-        return sentences;
-    }
-    let total = &solution.total_compliance;
-    let part = (1.0 - series.value / total.value).max(0.0);
-    let percent = 100.0 * part;
-    sentences.push(match total.status {
-        Status::Determined | Status::Fixed => {
-            let stiffness = 1.0 / total.value;
-            format!("The initial stiffness of contact, rig and bodies together is determined: {stiffness:.4e}.")
-        }
-        _ => "The initial stiffness of contact, rig and bodies together is not determined.".to_owned(),
-    });
-    sentences.push(format!("In the best fit the contact has {percent:.1} % of the compliance."));
-    for (name, estimate) in [("series compliance", series), ("compliance of the contact", contact)] {
-        match estimate.status {
-            Status::Fixed => {}
-            Status::Determined => sentences.push(format!("The {name} is determined.")),
-            Status::Bounded => sentences.push(format!("The {name} is known only roughly.")),
-            _ => sentences.push(format!("The {name} is not determined.")),
-        }
-    }
-    sentences.extend(of_stiffening(share, normal_force));
-    sentences.extend(of_spring(spring, solution.fit.plateau_slope()));
-    let hides = is_hidden(solution.fit.law_compliance()[0], total.value);
-    if solution.is_spring_slider && !hides {
-        sentences.push("No microslip is seen: a spring and a slider fit as well.".to_owned());
-    }
-    if let Some([low, high]) = range {
-        sentences.push(match shape.status {
-            Status::Determined => format!("The shape is determined: a/b is {}.", interval(shape)),
-            Status::NotDetermined if hides => {
-                format!(
-                    "The series compliance hides the microslip: every shape, a/b from {low} to {high}, fits equally."
-                )
-            }
-            Status::NotDetermined => format!("The shape is not determined: a/b from {low} to {high} fit equally."),
-            _ => format!("The shape is only bounded: a/b is {}.", interval(shape)),
-        });
-    }
-    sentences
-}
-
-/// Whether the stiffness in series grows with the load; none if there is one load only.
-fn of_stiffening(share: &Estimate, normal_force: f64) -> Option<String> {
-    let [low, high] = [share.upper.unwrap_or(1.0), share.lower].map(|share| stiffening_load(share, normal_force));
-    Some(match (share.lower > 0.0, share.upper.is_none_or(|upper| upper < 1.0)) {
-        _ if share.status == Status::Fixed => return None,
-        (true, true) => {
-            format!("The series stiffness grows in proportion to N + N_c, N_c = {low:.3e} to {high:.3e} N.")
-        }
-        (true, false) => format!("The series stiffness grows in proportion to N + N_c, N_c at most {high:.3e} N."),
-        (false, true) => {
-            format!(
-                "A constant series stiffness explains all loads; if it is proportional to N + N_c, N_c exceeds {low:.3e} N."
-            )
-        }
-        (false, false) => {
-            "The loads do not show whether the series stiffness grows with the load: it is taken as constant."
-                .to_owned()
-        }
-    })
-}
-
-/// Whether there is a spring in parallel; none if it is given.
-fn of_spring(spring: &Estimate, plateau_slope: f64) -> Option<String> {
-    let [low, high] =
-        [spring.lower, spring.upper.unwrap_or(f64::NAN)].map(|stiffness| 100.0 * stiffness / plateau_slope);
-    Some(match spring.upper {
-        _ if spring.status == Status::Fixed => return None,
-        None => "Without a longer plateau of gross slip a spring in parallel is not distinguished from the contact: no interval \
-                 contains its effect."
-            .to_owned(),
-        _ if low > 0.0 => format!(
-            "A spring in parallel is seen: its force is {low:.2} to {high:.2} % of mu N at the largest amplitude, beside friction."
-        ),
-        _ => format!("No spring in parallel is seen: its force is at most {high:.2} % of mu N at the largest amplitude."),
-    })
-}
-
-/// A cause of the residuals in a sentence.
-fn cause(cause: &Cause) -> String {
-    let percent = 100.0 * cause.size.abs();
-    let changes = if cause.size > 0.0 { "grows" } else { "falls" };
-    let what = match cause.kind {
-        CauseKind::DifferentPlateaus => {
-            let side = if cause.size > 0.0 { "positive" } else { "negative" };
-            format!("different plateaus: the force is larger on the {side} side by {percent:.1} % (offset or wear)")
-        }
-        CauseKind::Amplitude => {
-            format!("a force that {changes} by {percent:.1} % from the smallest to the largest amplitude")
-        }
-        CauseKind::Cycle => format!("a force that {changes} by {percent:.1} % from the first to the last cycle (wear)"),
-        CauseKind::Speed => {
-            format!("plateaus with a slope in speed: the force {changes} by {percent:.1} % up to the largest speed")
-        }
-        CauseKind::Lag => {
-            let column = if cause.size > 0.0 { "force" } else { "displacement" };
-            format!("a lag between the columns: the {column} is late by {:.1} samples", cause.size.abs())
-        }
-        CauseKind::Play => format!("play around zero force: {:.2e} of the displacement", cause.size),
-        CauseKind::Viscous => format!("a viscous part: {percent:.1} % of mu N at the largest speed"),
-        CauseKind::ParallelSpring => {
-            let sign = if cause.size > 0.0 { "" } else { "-" };
-            format!("plateaus with a slope in displacement: {sign}{percent:.1} % of mu N at the largest amplitude")
-        }
-    };
-    format!("The residuals show {what}; this explains {:.0} % of their squares.", 100.0 * cause.share)
 }
