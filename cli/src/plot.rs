@@ -258,7 +258,7 @@ const MAX_NAMES: usize = DASHES.len() * COLOURS.len();
 /// Points of the lines of a panel; more could not be distinguished.
 const MAX_POINTS: usize = 20_000;
 
-/// The visible parts of a line in pixels: without segments between two places, of 0.25, 0.5, 1 ... pixels, that are the same or already
+/// The visible parts of a line in pixels: without segments between places of 0.25, 0.5, 1 ... pixels that are the same or already
 /// joined, until few enough remain.
 fn thinned(points: &[Point], limit: usize) -> Vec<Vec<Point>> {
     let mut place = 0.25;

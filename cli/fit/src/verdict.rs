@@ -191,34 +191,7 @@ fn solve_with<'a>(
     if spring && !has_plateau {
         return solve_with(given, options, range, [is_growing, false]);
     }
-    let mut explanation = explanation(&fit);
-    // Residuals below the noise that digitiser and model explain are no evidence.
-    let evidence = (explanation.noise / explanation.misfit).powi(2).max(1.0);
-    let significant = SIGNIFICANT.powi(2) / independent * evidence;
-    let least_share = if explanation.explained { significant } else { LEAST_SHARE };
-    let found = |fit: &Fit, kinds: &[CauseKind], least_share: f64| {
-        let mut released = fit.clone();
-        released.release(free);
-        causes(&released, kinds, least_share)
-    };
-    let (mut effects, mut corrected) = (found(&fit, &KINDS, least_share), fit.clone());
-    explanation.causes = effects.iter().map(|effect| effect.cause).collect();
-    if !explanation.explained {
-        let share = explanation.causes.first().map_or(0.0, |first| first.share);
-        let free = std::array::from_fn(|i| if i == PARALLEL { parallel_stiffness.is_none() } else { others[i] });
-        let found = if share < CLEAR { play(&fit, free, share)? } else { None };
-        explanation.causes = found.unwrap_or(explanation.causes);
-    }
-    if explanation.explained && !effects.is_empty() {
-        let kinds: Vec<_> = effects.iter().map(|effect| effect.cause.kind).collect();
-        let weakest = effects.iter().map(|effect| effect.cause.share).fold(1.0, f64::min);
-        for _ in 0..CORRECTIONS {
-            effects.iter().for_each(|effect| corrected.remove(&effect.residuals));
-            corrected.minimize(free);
-            effects = found(&corrected, &kinds, 0.0);
-        }
-        corrected.extrapolate(&fit.parameters, QUANTILE / (weakest * independent).sqrt())?;
-    }
+    let (explanation, corrected) = explain(&fit, [others, free], parallel_stiffness.is_none(), independent)?;
 
     let mut estimates = fit.parameters.map(fixed);
     let mut of_shapes = vec![(fit.clone(), others)];
@@ -312,6 +285,44 @@ fn solve_with<'a>(
         slider: slider.fit,
         is_spring_slider,
     })
+}
+
+/// Whether the law explains the loops, with the causes of what it does not, and the fit without the effect of small ones.
+fn explain<'a>(
+    fit: &Fit<'a>,
+    [others, free]: [Free; 2],
+    with_spring: bool,
+    independent: f64,
+) -> Result<(Explanation, Fit<'a>), Error> {
+    let mut explanation = explanation(fit);
+    // Residuals below the noise that digitiser and model explain are no evidence.
+    let evidence = (explanation.noise / explanation.misfit).powi(2).max(1.0);
+    let significant = SIGNIFICANT.powi(2) / independent * evidence;
+    let least_share = if explanation.explained { significant } else { LEAST_SHARE };
+    let found = |fit: &Fit, kinds: &[CauseKind], least_share: f64| {
+        let mut released = fit.clone();
+        released.release(free);
+        causes(&released, kinds, least_share)
+    };
+    let (mut effects, mut corrected) = (found(fit, &KINDS, least_share), fit.clone());
+    explanation.causes = effects.iter().map(|effect| effect.cause).collect();
+    if !explanation.explained {
+        let share = explanation.causes.first().map_or(0.0, |first| first.share);
+        let free = std::array::from_fn(|i| if i == PARALLEL { with_spring } else { others[i] });
+        let found = if share < CLEAR { play(fit, free, share)? } else { None };
+        explanation.causes = found.unwrap_or(explanation.causes);
+    }
+    if explanation.explained && !effects.is_empty() {
+        let kinds: Vec<_> = effects.iter().map(|effect| effect.cause.kind).collect();
+        let weakest = effects.iter().map(|effect| effect.cause.share).fold(1.0, f64::min);
+        for _ in 0..CORRECTIONS {
+            effects.iter().for_each(|effect| corrected.remove(&effect.residuals));
+            corrected.minimize(free);
+            effects = found(&corrected, &kinds, 0.0);
+        }
+        corrected.extrapolate(&fit.parameters, QUANTILE / (weakest * independent).sqrt())?;
+    }
+    Ok((explanation, corrected))
 }
 
 /// Whether the contact, as it is given, has a small part of the total compliance.
