@@ -12,8 +12,13 @@
 
 mod calls;
 #[cfg(not(miri))]
+mod common;
+#[cfg(not(miri))]
 #[path = "ffi/memory.rs"]
 mod memory;
+#[cfg(not(miri))]
+#[path = "ffi/random.rs"]
+mod random;
 #[cfg(not(miri))]
 #[path = "ffi/values.rs"]
 mod values;
@@ -192,30 +197,6 @@ fn valid_arguments() {
             }
         }
     }
-}
-
-/// The results at several points are those at each alone.
-#[test]
-fn points_are_independent() {
-    for_each_call(|call, law| {
-        let of_points = |place: &usize| call.arguments[*place].extents == "n";
-        let (Some(count), false) = (call.place(Count), call.has(State) || !call.has(Input)) else { return };
-        let arrays: Vec<usize> = places(call, Input).chain(places(call, Output)).collect();
-        if call.has(Index) || !arrays.iter().all(of_points) {
-            return;
-        }
-        let all = Arguments::new(call, law, Before::Filled);
-        assert_eq!(call.make(&all.slots), MSLIP_OK, "{}", call.name);
-        let expected = results(call, &all);
-        for i in 0..calls::N {
-            let mut slots = all.slots.clone();
-            slots[count] = Slot::Size(1);
-            let one = |place: usize| Slot::Pointer(all.memory(place).start.wrapping_add(8 * i));
-            arrays.iter().for_each(|place| slots[*place] = one(*place));
-            assert_eq!(call.make(&slots), MSLIP_OK, "{}", call.name);
-        }
-        assert_eq!(results(call, &all), expected, "{}", call.name);
-    });
 }
 
 /// The sizes and choices that a call has found.

@@ -116,8 +116,7 @@ processors() {
     for cpu in native x86-64-v3 x86-64; do
         CPU=$cpu tools/archive.sh "$work/archive.a" &&
             program application -Iverification/embedding verification/embedding/all_calls.c verification/embedding/application.c &&
-            "$work/application" > "$work/$cpu" && cmp "$work/native" "$work/$cpu" &&
-            program extremes -Ic_tests c_tests/extremes.c && "$work/extremes" 1 200 | tail -n 1 | grep ' 0 failed' || return
+            "$work/application" > "$work/$cpu" && cmp "$work/native" "$work/$cpu" || return
     done
 }
 [ "$(uname -m)" != x86_64 ] || ! grep -qw avx2 /proc/cpuinfo || check 'every processor: the same bits, and no exceptions' processors

@@ -352,7 +352,7 @@ pub fn contact(p: &Parameters) -> Law {
     law_of_contact(false, |contact| unsafe { mslip_contact_init(p, contact) })
 }
 
-fn law_of_contact(is_elliptic: bool, init: impl Fn(*mut mslip_contact) -> i32) -> Law {
+pub fn law_of_contact(is_elliptic: bool, init: impl Fn(*mut mslip_contact) -> i32) -> Law {
     let (memory, bytes) = initialised(init);
     let c: &mslip_contact = &memory.values()[0];
     Law {
