@@ -124,7 +124,7 @@ verify:
 
 ## bench: run time against error of the library and of what one would use instead; QUICK=1 for fewer cases
 bench: all
-	@tools/dependencies.sh bench verify
+	@tools/dependencies.sh bench
 	$(MAKE) -C verification/benches run PREFIX=../../dist QUICK=$(QUICK)
 
 ## figures: compute the figures of the paper and of the validation into docs/, draw them, and check the claims

@@ -15,8 +15,8 @@ gfortran        demo test check host parallel                         : command 
 liblapack-dev   demo test check host parallel                         : library lapack
 libblas-dev     demo test check host parallel                         : library blas
 gnuplot-nox     demo check bench figures host                         : command gnuplot
-libgmp-dev      test check bench figures verify                       : header gmp.h
-libmpfr-dev     test check bench figures verify                       : header mpfr.h
+libgmp-dev      test check figures verify                             : header gmp.h
+libmpfr-dev     test check figures verify                             : header mpfr.h
 pkg-config      test check                                            : command pkg-config
 g++             test check fuzz                                       : command g++
 shellcheck      check                                                 : command shellcheck

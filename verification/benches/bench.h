@@ -49,13 +49,13 @@ typedef double work(void *context);
 
 /* One method at one call of a task. */
 typedef struct entry {
-    const char *task, *motion, *method;
+    const char *task, *method;
     double shape, amplitude;          /* a/b, and displacement over that of gross slip */
     int harmonics, samples, jacobian;
-    double parameter;                 /* sliders or items; 0: none */
-    double error;                     /* relative, against multi-precision; harmonic force: against exact integrals; or -1 */
-    double sample_error;              /* harmonic force: against the reference with the same samples; or -1 */
-    double time, logarithms;          /* median over the rounds of one item [ns], and over that of a logarithm */
+    double parameter;                 /* sliders; 0: none */
+    double error;                     /* relative, against the library; harmonic force: against far more samples; or -1 */
+    double sample_error;              /* harmonic force: against the library with the same samples; or -1 */
+    double time;                      /* median over the rounds of one item [ns] */
     work *run;
     void *context;
     double items;                     /* points, steps, contacts in one run */
@@ -63,9 +63,9 @@ typedef struct entry {
 
 extern entry entries[];
 extern size_t entry_count;
-extern int rounds; /* per entry; the slowest have fewer; 0: nothing is timed */
+extern int rounds; /* per entry; the slowest have fewer */
 
-/* Adds an entry whose error is 0 and runs it once. The entry keeps its own copy of the context, of the given number of bytes. */
+/* Adds an entry and runs it once. The entry keeps its own copy of the context, of the given number of bytes. */
 entry *entry_add(entry e, const void *context, size_t bytes);
 void measure(size_t first); /* times all entries from `first` on, interleaved */
 
@@ -87,8 +87,6 @@ typedef struct extent {
     const double *shape, *amplitude; /* a/b; displacement over that of gross slip */
     int least_samples, most_samples; /* powers of 2 */
     int most_sliders;                /* powers of 4 */
-    int decades;                     /* of items in a batch, from 100 */
-    int grid;                        /* amplitudes of complex stiffness */
 } extent;
 
 /* A steel contact of half-width 0.5 mm under 800 N, and what competitors derive from it. */
@@ -101,19 +99,12 @@ typedef struct test_case {
 } test_case;
 test_case case_of(double shape);
 
-/* Adds the entries of one amplitude or motion, whose number is k. */
+/* Adds the entries of one amplitude or number of harmonics, whose number is k. */
 typedef void set_up(const test_case *c, const extent *x, int k);
-set_up set_up_force, set_up_initialisation, set_up_stiffness, set_up_range, set_up_near_slip, set_up_step, set_up_batch;
-set_up set_up_harmonic, set_up_element, set_up_element_step, set_up_plane, set_up_plane_step;
-enum { LINE_MOTIONS = 7, PLANE_MOTIONS = 7, DECADES_TO_SLIP = 15 };
-
-/* Values of the multi-precision reference; NaN while `truth_rows` only lists its input. */
-void truth(const mslip_parameters *p, const char *task, int n, const double *arguments, int values, double *value);
-extern FILE *truth_rows, *truth_values; /* its input and, unless NULL, its output */
+set_up set_up_force, set_up_initialisation, set_up_stiffness, set_up_harmonic, set_up_step, set_up_element, set_up_plane;
 
 void check_errors(void);
 void write_tables(FILE *file);
-void write_details(FILE *file); /* of all calls: times over those of a logarithm, a spring-slider and a bank of them */
 void write_entries(FILE *file);
 
 #endif

@@ -1,11 +1,7 @@
-/* cases.c: contacts from the cylinder to nearly flat, and the exact values. */
+/* cases.c: contacts from the cylinder to nearly flat. */
 #include "bench.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
-FILE *truth_rows, *truth_values;
 
 test_case case_of(double shape)
 {
@@ -26,34 +22,4 @@ test_case case_of(double shape)
         c.bank[k] = sliders_fitted(&c.contact, (size_t)1 << 2 * k, 0.0);
     }
     return c;
-}
-
-void truth(const mslip_parameters *p, const char *task, int n, const double *arguments, int values, double *value)
-{
-    char row[8192], expected[8192];
-    int end = snprintf(row, sizeof row, "%s,%.17g,%.17g,%.17g,%.17g,%.17g", task, p->flat_half_width, p->edge_radius, p->length,
-                       p->normal_force, p->friction_coefficient);
-    for (int i = 0; i < 2; ++i) {
-        end += sprintf(row + end, ",%.17g,%.17g", p->material[i].young_modulus, p->material[i].poisson_ratio);
-    }
-    for (int i = 0; i < n; ++i) {
-        end += sprintf(row + end, ",%.17g", arguments[i]);
-    }
-    sprintf(row + end, "\n");
-    if (!truth_values) {
-        fputs(row, truth_rows);
-        for (int i = 0; i < values; ++i) {
-            value[i] = NAN;
-        }
-        return;
-    }
-    char text[8192], *next = text;
-    if (!fgets(expected, sizeof expected, truth_rows) || strcmp(expected, row) || !fgets(text, sizeof text, truth_values)) {
-        fprintf(stderr, "The reference was evaluated for other rows, not %s", row);
-        exit(1);
-    }
-    for (int i = 0; i < values; ++i) {
-        value[i] = strtod(next, &next);
-        next += *next == ',';
-    }
 }

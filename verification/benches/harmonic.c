@@ -1,10 +1,11 @@
-/* harmonic.c: harmonic force of a contact and of elements with one and two tangential directions, and steps of elements. */
+/* harmonic.c: harmonic force of a contact and of elements with one and two tangential directions. */
 #include "bench.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { MOST = 38, COMPARED = 128 }; /* coefficients; samples at which sliders are compared at equal samples */
+/* Coefficients; samples at which sliders are compared at equal samples; nodes of a converged quadrature. */
+enum { MOST = 38, COMPARED = 128, CONVERGED = 4096 };
 
 typedef struct {
     const mslip_contact *contact;
@@ -43,32 +44,6 @@ static double first_harmonic(const job *j, const double *exact)
     return difference / size;
 }
 
-/* Largest difference between the Jacobian and central differences of the force, over the largest entry of the block of columns. */
-static double jacobian_error(job j)
-{
-    const int c = 2 * j.harmonics + 1, n = j.blocks * c;
-    double error = 0.0, largest = 0.0, difference = 0.0, forces[2][MOST];
-    run(&j);
-    j.jacobian_requested = 0;
-    for (int k = 0; k < n; ++k) {
-        const double middle = j.displacement[k], *block = j.displacement + k / c * c;
-        const double h = 1e-7 * fmax(fabs(block[0]), hypot(block[1], block[2]));
-        for (int side = 0; side < 2; ++side) {
-            j.displacement[k] = side ? middle + h : middle - h;
-            run(&j);
-            memcpy(forces[side], j.force, sizeof j.force);
-        }
-        j.displacement[k] = middle;
-        for (int i = 0; i < n; ++i) {
-            const double exact = j.jacobian[i + k * n];
-            largest = fmax(fabs(exact), k % c || i ? largest : 0.0);
-            difference = fmax(fabs((forces[1][i] - forces[0][i]) / (2.0 * h) - exact), k % c || i ? difference : 0.0);
-        }
-        error = fmax(error, k % c == c - 1 ? difference / largest : 0.0);
-    }
-    return error;
-}
-
 static double *workspace_of(const job *j, int samples, int32_t rule)
 {
     const size_t h = (size_t)j->harmonics, n = (size_t)samples, directions = (size_t)j->blocks - 1,
@@ -93,9 +68,6 @@ static void add(const entry *call, const char *method, double parameter, const j
     entry *added = entry_add(e, j, sizeof *j);
     added->error = first_harmonic(added->context, exact);
     added->sample_error = sums ? first_harmonic(added->context, sums) : -1.0;
-    if (j->aft && j->jacobian_requested && e.samples == 64 && parameter <= 64.0) {
-        check_below("Jacobian of spring-sliders by differences", jacobian_error(*j), 1e-6);
-    }
 }
 
 /* Coefficients [mean, cos 1, sin 1, ...] of a motion with half range `size`, whose maximum lies a third of a step from a sample for
@@ -127,78 +99,33 @@ void set_up_harmonic(const test_case *t, const extent *x, int k)
 {
     const double amplitude = x->amplitude[k / 3], size = amplitude * t->contact.slip_displacement;
     const sliders jenkins = sliders_fitted(&t->contact, 1, size);
-    const int harmonics = 1 + k % 3 * 4, coefficients = 2 * harmonics + 1;
-    double arguments[1 + MOST] = { 0.0 }, exact[MOST], sums[MOST];
-    motion_of(harmonics, size, arguments + 1);
-    truth(&t->parameters, "harmonic", 1 + coefficients, arguments, coefficients, exact);
-    arguments[0] = COMPARED;
-    truth(&t->parameters, "harmonic", 1 + coefficients, arguments, coefficients, sums);
+    const int harmonics = 1 + k % 3 * 4;
+    job exact = { .contact = &t->contact, .harmonics = harmonics, .blocks = 1 }, sums = exact;
+    motion_of(harmonics, size, exact.displacement);
+    motion_of(harmonics, size, sums.displacement);
+    exact.workspace = workspace_of(&exact, CONVERGED, MSLIP_EVENT_DRIVEN);
+    sums.workspace = workspace_of(&sums, COMPARED, MSLIP_UNIFORM_SAMPLING);
+    run(&exact);
+    run(&sums);
     entry call = { .task = "harmonic", .amplitude = amplitude };
     for (call.samples = x->least_samples; call.samples <= x->most_samples; call.samples *= 2) {
         const int n = call.samples;
         job j = { .contact = &t->contact, .harmonics = harmonics, .blocks = 1 };
-        memcpy(j.displacement, arguments + 1, sizeof(double) * (size_t)coefficients);
+        memcpy(j.displacement, exact.displacement, sizeof j.displacement);
         for (; n > 2 * harmonics && j.jacobian_requested <= 1; ++j.jacobian_requested) {
-            const double *at_samples = n == COMPARED ? sums : NULL;
+            const double *at_samples = n == COMPARED ? sums.force : NULL;
             j.aft = NULL;
             j.workspace = workspace_of(&j, n, MSLIP_EVENT_DRIVEN);
-            add(&call, "microslip event-driven", 0.0, &j, exact, at_samples);
+            add(&call, "microslip event-driven", 0.0, &j, exact.force, at_samples);
             j.workspace = workspace_of(&j, n, MSLIP_UNIFORM_SAMPLING);
-            add(&call, "microslip", 0.0, &j, exact, at_samples);
+            add(&call, "microslip", 0.0, &j, exact.force, at_samples);
             for (int b = 0; b == 0 || (n == COMPARED && b < BANKS && (int)t->bank[b].n <= x->most_sliders); ++b) {
                 const sliders *bank = b ? &t->bank[b] : &jenkins;
                 j.aft = aft_of(1, 0.0, harmonics, n, bank);
-                add(&call, b ? "sliders" : "spring-slider", b ? (double)bank->n : 0.0, &j, exact, at_samples);
+                add(&call, b ? "sliders" : "spring-slider", b ? (double)bank->n : 0.0, &j, exact.force, at_samples);
             }
         }
     }
-}
-
-/* One direction. Amplitudes: u over mu S of the largest load, mean and swing of the approach over its largest value, and parts of
-   the swing in phase with u and a quarter of a period later. */
-static const struct { const char *name; double u, mean, swing, in_phase, quadrature; } line[LINE_MOTIONS] = {
-    { "varying load", 0.2, 0.45, 0.35, 0.32, 0.7 },
-    { "load varying by 5 %", 0.2, 0.45, 0.05, 0.32, 0.7 },
-    { "in phase, half stuck", 0.2, 0.45, 0.35, 0.792, 0.1 },
-    { "separation", 0.5, 0.35, 0.6, 0.32, 0.7 },
-    { "gross slip", 1.2, 0.45, 0.35, 0.32, 0.7 },
-    { "gross slip and separation", 1.2, 0.35, 0.6, 0.32, 0.7 },
-    { "constant load", 0.3, 1.0, 0.0, 0.0, 0.0 },
-};
-
-static void line_motion(const test_case *t, const mslip_element *element, int motion, int harmonics, double *displacement)
-{
-    const double u = line[motion].u * t->contact.slip_displacement, w = element->approach;
-    double *normal = displacement + 2 * harmonics + 1;
-    displacement[0] = 0.03 * u;
-    displacement[1] = u;
-    displacement[2] = 0.11 * u;
-    normal[0] = line[motion].mean * w;
-    normal[1] = line[motion].in_phase * line[motion].swing * w;
-    normal[2] = line[motion].quadrature * line[motion].swing * w;
-    for (int k = 2; k <= harmonics; ++k) {
-        displacement[2 * k - 1] = 0.3 * u / (k * k);
-        displacement[2 * k] = -0.13 * u / (k * k);
-        normal[2 * k - 1] = 0.1 * line[motion].swing * w / (k * k);
-        normal[2 * k] = 0.07 * line[motion].swing * w / (k * k);
-    }
-}
-
-/* Two directions. Amplitudes over the slip displacement of the mean load, the part of it along y, and the swing of the approach
-   over its mean. */
-static const struct { const char *name; double u, along_y, swing; } plane[PLANE_MOTIONS] = {
-    { "circle, nearly stuck", 0.001, 1.0, 0.0 }, { "circle, 0.3", 0.3, 1.0, 0.0 }, { "circle, 0.6", 0.6, 1.0, 0.0 },
-    { "circle, 0.9", 0.9, 1.0, 0.0 }, { "circle, gross slip", 1.3, 1.0, 0.0 },
-    { "circle, varying load", 0.6, 1.0, 0.3 }, { "along x", 0.6, 0.0, 0.0 },
-};
-enum { VARYING_LOAD = 5 };
-
-/* u, v, w at a phase, from the slip displacement and the approach of the mean load. */
-static void plane_motion(int motion, double slip, double approach, double t, double *d)
-{
-    d[0] = plane[motion].u * slip * cos(t);
-    d[1] = plane[motion].along_y * plane[motion].u * slip * sin(t);
-    d[2] = approach * (1.0 + plane[motion].swing * cos(t - 1.0));
 }
 
 static const mslip_element *element_of(const test_case *t, int directions, double load)
@@ -210,8 +137,8 @@ static const mslip_element *element_of(const test_case *t, int directions, doubl
     return element;
 }
 
-/* Microslip and sliders at the same samples; errors are those against 16 times as many. */
-static void add_elements(entry call, job j, const sliders *slider, const sliders *bank)
+/* Microslip and a slider at the same samples; errors are those against 16 times as many. */
+static void add_elements(entry call, job j, const sliders *slider)
 {
     const double normal_stiffness = j.element->normal_force / j.element->approach;
     job exact = j;
@@ -219,140 +146,53 @@ static void add_elements(entry call, job j, const sliders *slider, const sliders
     run(&exact);
     j.workspace = workspace_of(&j, call.samples, MSLIP_UNIFORM_SAMPLING);
     add(&call, "microslip", 0.0, &j, exact.force, NULL);
-    for (; slider; slider = slider == bank ? NULL : bank) {
-        j.aft = aft_of(j.blocks - 1, normal_stiffness, j.harmonics, call.samples, slider);
-        add(&call, slider->n > 1 ? "sliders" : "spring-slider", slider->n > 1 ? (double)slider->n : 0.0, &j, exact.force, NULL);
-    }
+    j.aft = aft_of(j.blocks - 1, normal_stiffness, j.harmonics, call.samples, slider);
+    add(&call, "spring-slider", 0.0, &j, exact.force, NULL);
 }
 
-void set_up_element(const test_case *t, const extent *x, int motion)
+/* Microslip in one direction under a load that varies, with a phase. */
+void set_up_element(const test_case *t, const extent *x, int k)
 {
     const mslip_element *element = element_of(t, 1, 1.0);
     const sliders slider = sliders_of(1, &element->tangential_stiffness, &element->friction_coefficient);
+    const double u = 0.2 * t->contact.slip_displacement, w = element->approach, swing = 0.35 * w;
     for (int harmonics = 1; harmonics <= 9; harmonics += 4) {
-        const entry call = { .task = "element", .motion = line[motion].name, .amplitude = line[motion].u,
-                             .samples = harmonics < 5 ? 64 : harmonics < 9 ? 128 : 256 };
-        for (int jacobian = 0; jacobian <= 1; ++jacobian) {
-            job j = { .element = element, .harmonics = harmonics, .blocks = 2, .jacobian_requested = jacobian };
-            line_motion(t, element, motion, harmonics, j.displacement);
-            add_elements(call, j, &slider, NULL);
+        const entry call = { .task = "element", .amplitude = 0.2, .samples = harmonics < 5 ? 64 : harmonics < 9 ? 128 : 256 };
+        job j = { .element = element, .harmonics = harmonics, .blocks = 2, .jacobian_requested = 1 };
+        double *tangential = j.displacement, *normal = tangential + 2 * harmonics + 1;
+        tangential[0] = 0.03 * u;
+        tangential[1] = u;
+        tangential[2] = 0.11 * u;
+        normal[0] = 0.45 * w;
+        normal[1] = 0.32 * swing;
+        normal[2] = 0.7 * swing;
+        for (int h = 2; h <= harmonics; ++h) {
+            tangential[2 * h - 1] = 0.3 * u / (h * h);
+            tangential[2 * h] = -0.13 * u / (h * h);
+            normal[2 * h - 1] = 0.1 * swing / (h * h);
+            normal[2 * h] = 0.07 * swing / (h * h);
         }
+        add_elements(call, j, &slider);
     }
 }
 
-/* The circle with varying load. One spring-slider: with the K' and K'' of the contact at this amplitude and the mean load. 64: with
-   its stiffness and friction, and slip displacements uniformly distributed from 0. */
+/* A circle in the plane under a load that varies by 30 %, beside the spring-slider with the K' and K'' of the contact at this amplitude
+   and the mean load. */
 void set_up_plane(const test_case *t, const extent *x, int k)
 {
-    enum { BANK = 64 };
-    const mslip_element *element = element_of(t, 2, 1.6); /* the largest load of the swing */
-    const double slip = t->contact.slip_displacement;
-    double stiffness[BANK], friction[BANK], approach, one_stiffness, one_friction, at[2][3];
+    const mslip_element *element = element_of(t, 2, 1.6); /* the largest load */
+    const double amplitude = 0.6 * t->contact.slip_displacement;
+    double approach, stiffness, friction;
     require(mslip_normal_approach(element, 1, &t->parameters.normal_force, &approach, NULL, NULL));
-    require(mslip_jenkins_equivalent(&t->contact, plane[VARYING_LOAD].u * slip, &one_stiffness, &one_friction));
-    one_friction /= t->parameters.normal_force;
-    for (int s = 0; s < BANK; ++s) {
-        stiffness[s] = element->tangential_stiffness / BANK;
-        friction[s] = (2 * s + 1) / (double)(BANK * BANK) * element->friction_coefficient;
-    }
-    const sliders one = sliders_of(1, &one_stiffness, &one_friction), bank = sliders_of(BANK, stiffness, friction);
+    require(mslip_jenkins_equivalent(&t->contact, amplitude, &stiffness, &friction));
+    friction /= t->parameters.normal_force;
+    const sliders one = sliders_of(1, &stiffness, &friction);
     job j = { .element = element, .harmonics = 1 + 4 * k, .blocks = 3, .jacobian_requested = 1 };
     const int c = 2 * j.harmonics + 1;
-    plane_motion(VARYING_LOAD, slip, approach, 0.0, at[0]);
-    plane_motion(VARYING_LOAD, slip, approach, 0.5 * PI, at[1]);
-    for (int m = 0; m < 3; ++m) {
-        j.displacement[m * c] = m < 2 ? 0.0 : approach;
-        j.displacement[m * c + 1] = at[0][m] - j.displacement[m * c];
-        j.displacement[m * c + 2] = at[1][m] - j.displacement[m * c];
-    }
-    const entry call = { .task = "two directions", .motion = plane[VARYING_LOAD].name, .amplitude = plane[VARYING_LOAD].u,
-                         .samples = 64 };
-    add_elements(call, j, &one, &bank);
-}
-
-enum { STEPS = 256, PLANE_STEPS = 64 };
-
-typedef struct {
-    const mslip_element *element;
-    size_t state_length;
-    double stiffness, normal_stiffness; /* of the slider */
-    double path[2 * STEPS], displacement[3], *from, *state, force[3], tangent[9];
-    int tangent_requested;
-} step_job;
-
-static double run_steps(void *context)
-{
-    step_job *j = context;
-    require(mslip_element_state_init(1, j->state_length, j->state));
-    for (int i = 0; i < STEPS; ++i) {
-        mslip_element_update(j->element, j->state_length, j->state, j->path + 2 * i, j->state, j->force, j->tangent, NULL);
-    }
-    return j->force[0] + j->tangent[0];
-}
-
-static double run_slider_steps(void *context)
-{
-    step_job *j = context;
-    const double friction = j->element->friction_coefficient;
-    double u = 0.0, force = 0.0, *tangent = j->tangent;
-    for (int i = 0; i < STEPS; ++i) {
-        const double w = j->path[2 * i + 1], load = w > 0.0 ? j->normal_stiffness * w : 0.0;
-        jenkins_step(j->stiffness, friction * load, &force, j->path[2 * i] - u, &tangent[0]);
-        u = j->path[2 * i];
-        tangent[3] = w > 0.0 ? j->normal_stiffness : 0.0;
-        tangent[2] = tangent[0] > 0.0 ? 0.0 : (force > 0.0 ? friction : -friction) * tangent[3];
-    }
-    return force + tangent[0] + tangent[2] + tangent[3];
-}
-
-void set_up_element_step(const test_case *t, const extent *x, int motion)
-{
-    const mslip_element *element = element_of(t, 1, 1.0);
-    step_job j = { .element = element, .state_length = mslip_element_state_length(1, STEPS),
-                   .stiffness = element->tangential_stiffness, .normal_stiffness = element->normal_force / element->approach };
-    double d[6];
-    line_motion(t, element, motion, 1, d);
-    j.state = doubles(j.state_length);
-    for (int i = 0; i < STEPS; ++i) {
-        const double angle = 2.0 * PI * i / STEPS;
-        j.path[2 * i] = d[0] + d[1] * cos(angle) + d[2] * sin(angle);
-        j.path[2 * i + 1] = d[3] + d[4] * cos(angle) + d[5] * sin(angle);
-    }
-    entry e = { .task = "element step", .motion = line[motion].name, .method = "microslip", .amplitude = line[motion].u,
-                .run = run_steps, .items = STEPS };
-    entry_add(e, &j, sizeof j);
-    e.method = "spring-slider";
-    e.run = run_slider_steps;
-    entry_add(e, &j, sizeof j);
-}
-
-static double run_step(void *context)
-{
-    step_job *j = context;
-    double *tangent = j->tangent_requested ? j->tangent : NULL;
-    mslip_element_update(j->element, j->state_length, j->from, j->displacement, j->state, j->force, tangent, NULL);
-    return j->force[0] + j->tangent[0];
-}
-
-/* Each step of the second period, after the element is pressed. */
-void set_up_plane_step(const test_case *t, const extent *x, int motion)
-{
-    const double slip = t->contact.slip_displacement;
-    step_job j = { .element = element_of(t, 2, 1.6), .state_length = mslip_element_state_length(2, 0) };
-    double approach, *now = doubles(j.state_length);
-    require(mslip_normal_approach(j.element, 1, &t->parameters.normal_force, &approach, NULL, NULL));
-    j.state = doubles(j.state_length);
-    plane_motion(motion, 0.0, approach, 0.0, j.displacement);
-    require(mslip_element_state_init(2, j.state_length, now));
-    require(mslip_element_update(j.element, j.state_length, now, j.displacement, now, NULL, NULL, NULL));
-    for (int i = 0; i < 2 * PLANE_STEPS; ++i) {
-        plane_motion(motion, slip, approach, 2.0 * PI * (i + 1) / PLANE_STEPS, j.displacement);
-        j.from = memcpy(doubles(j.state_length), now, j.state_length * sizeof *now);
-        for (j.tangent_requested = 0; j.tangent_requested <= 1 && i >= PLANE_STEPS; ++j.tangent_requested) {
-            entry_add((entry) { .task = "step in two directions", .motion = plane[motion].name, .method = "microslip",
-                                .run = run_step, .amplitude = plane[motion].u, .jacobian = j.tangent_requested, .items = 1 },
-                      &j, sizeof j);
-        }
-        require(mslip_element_update(j.element, j.state_length, now, j.displacement, now, NULL, NULL, NULL));
-    }
+    j.displacement[1] = amplitude;
+    j.displacement[c + 2] = amplitude;
+    j.displacement[2 * c] = approach;
+    j.displacement[2 * c + 1] = 0.3 * approach * cos(1.0);
+    j.displacement[2 * c + 2] = 0.3 * approach * sin(1.0);
+    add_elements((entry) { .task = "two directions", .amplitude = 0.6, .samples = 64 }, j, &one);
 }

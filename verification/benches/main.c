@@ -1,7 +1,6 @@
-/* main.c: run time against error of microslip and of what one would use instead.
+/* main.c: run time against error of microslip and of the spring-sliders that one would use instead.
  *
- *   bench [--quick] rows DIRECTORY    writes rows.csv, the input of the multi-precision reference
- *   bench [--quick] run DIRECTORY     reads its output truth.csv, measures, and writes bench.csv, tables.md and details.csv */
+ *   bench [--quick] DIRECTORY    measures, and writes bench.csv and tables.md */
 #include "bench.h"
 
 #include <stdlib.h>
@@ -10,42 +9,25 @@
 static const double shapes[] = { 0.0, 0.3, 0.9, 0.999 }, amplitudes[] = { 0.01, 0.5, 0.95, 3.0 };
 
 static const extent full = { .shapes = 4, .amplitudes = 4, .shape = shapes, .amplitude = amplitudes, .least_samples = 16,
-    .most_samples = 1024, .most_sliders = 4096, .decades = 5, .grid = 200 };
+    .most_samples = 1024, .most_sliders = 4096 };
 static const extent quick = { .shapes = 2, .amplitudes = 1, .shape = shapes + 1, .amplitude = amplitudes + 2, .least_samples = 64,
-    .most_samples = 128, .most_sliders = 1024, .decades = 3, .grid = 20 };
+    .most_samples = 128, .most_sliders = 1024 };
 
 /* A new task is a line here and its set-up. */
-enum { AMPLITUDES = -1, AMPLITUDES_AND_HARMONICS = -2, GRID = -3, DECADES = -4 };
+enum { AMPLITUDES = -1, AMPLITUDES_AND_HARMONICS = -2 };
 static const struct { const char *name; set_up *set_up; int cases, one_shape; } tasks[] = {
     { "force", set_up_force, AMPLITUDES, 0 },
     { "initialisation", set_up_initialisation, 1, 0 },
     { "stiffness", set_up_stiffness, AMPLITUDES, 0 },
-    { "stiffness over amplitude", set_up_range, GRID, 0 },
-    { "stiffness near gross slip", set_up_near_slip, 2 * DECADES_TO_SLIP, 0 },
     { "harmonic force", set_up_harmonic, AMPLITUDES_AND_HARMONICS, 0 },
     { "time step", set_up_step, AMPLITUDES, 0 },
-    { "element", set_up_element, LINE_MOTIONS, 0 },
-    { "step of an element", set_up_element_step, LINE_MOTIONS, 0 },
-    { "batch", set_up_batch, DECADES, 1 },
+    { "element", set_up_element, 1, 0 },
     { "two directions", set_up_plane, 2, 1 },
-    { "step in two directions", set_up_plane_step, PLANE_MOTIONS, 1 },
 };
-
-static FILE *open_file(const char *directory, const char *name, const char *mode)
-{
-    char path[1024];
-    snprintf(path, sizeof path, "%s/%s", directory, name);
-    FILE *file = fopen(path, mode);
-    if (!file) {
-        perror(path);
-        exit(1);
-    }
-    return file;
-}
 
 static void run_tasks(const extent *x)
 {
-    const int numbers[] = { 0, x->amplitudes, 3 * x->amplitudes, x->grid, x->decades };
+    const int numbers[] = { 0, x->amplitudes, 3 * x->amplitudes };
     for (int i = 0; i < x->shapes; ++i) {
         const size_t mark = memory_mark();
         const test_case c = case_of(x->shape[i]);
@@ -60,9 +42,7 @@ static void run_tasks(const extent *x)
                 measure(first);
                 free_to(task_mark);
             }
-            if (rounds > 0) {
-                fprintf(stderr, "a/b = %g: %s\n", c.shape, tasks[t].name);
-            }
+            fprintf(stderr, "a/b = %g: %s\n", c.shape, tasks[t].name);
         }
         free_to(mark);
     }
@@ -71,27 +51,23 @@ static void run_tasks(const extent *x)
 int main(int argc, char **argv)
 {
     const int is_quick = argc > 1 && !strcmp(argv[1], "--quick");
-    if (argc != 3 + is_quick || (strcmp(argv[argc - 2], "rows") && strcmp(argv[argc - 2], "run"))) {
-        fprintf(stderr, "usage: %s [--quick] rows|run DIRECTORY\n", argv[0]);
+    if (argc != 2 + is_quick) {
+        fprintf(stderr, "usage: %s [--quick] DIRECTORY\n", argv[0]);
         return 2;
     }
-    const int run = !strcmp(argv[argc - 2], "run");
-    const char *directory = argv[argc - 1];
-    const extent *x = is_quick ? &quick : &full;
-    truth_rows = open_file(directory, "rows.csv", run ? "r" : "w");
-    if (!run) {
-        rounds = 0;
-        run_tasks(x);
-        return fclose(truth_rows) != 0;
-    }
-    truth_values = open_file(directory, "truth.csv", "r");
     rounds = is_quick ? 7 : 15;
-    run_tasks(x);
+    run_tasks(is_quick ? &quick : &full);
     check_errors();
     static const struct { const char *name; void (*write)(FILE *); } files[] = {
-        { "bench.csv", write_entries }, { "tables.md", write_tables }, { "details.csv", write_details } };
-    for (int k = 0; k < 3; ++k) {
-        FILE *file = open_file(directory, files[k].name, "w");
+        { "bench.csv", write_entries }, { "tables.md", write_tables } };
+    for (int k = 0; k < 2; ++k) {
+        char path[1024];
+        snprintf(path, sizeof path, "%s/%s", argv[argc - 1], files[k].name);
+        FILE *file = fopen(path, "w");
+        if (!file) {
+            perror(path);
+            return 1;
+        }
         files[k].write(file);
         fclose(file);
     }

@@ -1,4 +1,4 @@
-# Time against error: one picture per task, one panel per contact or number of harmonics. `from`: bench.csv; `to`: directory.
+# Time against error of the harmonic force, one panel per number of harmonics. `from`: bench.csv; `to`: directory.
 set datafile separator ','
 set encoding utf8
 
@@ -21,24 +21,6 @@ set key at screen 0.53, screen 0.11 center top maxrows 2 Left reverse samplen 2 
 rows(task, shape, harmonics, jacobian, method) = sprintf( \
   "< awk -F, -v OFS=, '$1 == \"%s\" && $2 == %g && $3 == 0.95 && $4 == %d && $6 == %d && $7 == \"%s\" { \
   print ($9 > 1e-17 ? $9 : 1e-17), $11 }' %s", task, shape, harmonics, jacobian, method, from)
-shape_title(shape) = sprintf('a/b = %g%s', shape, shape == 0 ? ' (cylinder)' : '')
-
-do for [name in 'force stiffness'] {
-  set terminal svg size 1120, 520 dynamic background rgb 'white' font 'Helvetica,14'
-  set output sprintf('| python3 ../../tools/svg.py > %s/%s.svg', to, name)
-  set xlabel name eq 'force' ? 'largest error of the force, relative' : 'largest error of stiffness and derivatives, relative'
-  set ylabel name eq 'force' ? 'time of one point (ns)' : 'time of one amplitude (ns)'
-  set yrange [name eq 'force' ? 0.1 : 1 : name eq 'force' ? 1e6 : 1e7]
-  set multiplot layout 1, 2 margins 0.075, 0.985, 0.24, 0.925 spacing 0.085, 0
-  do for [panel = 1:2] {
-    shape = panel == 1 ? 0 : 0.9
-    set title shape_title(shape)
-    plot rows(name, shape, 0, 0, 'microslip')     with linespoints ls 1 title panel == 1 ? 'microslip' : '', \
-         rows(name, shape, 0, 0, 'sliders')       with linespoints ls 4 title panel == 1 ? 'parallel sliders, 4 to 4096' : '', \
-         rows(name, shape, 0, 0, 'spring-slider') with linespoints ls 5 title panel == 1 ? 'one spring-slider' : ''
-  }
-  unset multiplot
-}
 
 set terminal svg size 1280, 540 dynamic background rgb 'white' font 'Helvetica,14'
 set output sprintf('| python3 ../../tools/svg.py > %s/harmonic.svg', to)
