@@ -5,7 +5,6 @@
 //! and the energy from the events on the way: ends of pieces, and the contact size overtaking the edge of the slip zone.
 
 use crate::family::{Family, Given, Size};
-use crate::harmonic::{basis_at_samples, dot};
 use crate::{Input, Real};
 
 /// Bits of a difference that are taken as 0: those that rounding leaves.
@@ -387,40 +386,4 @@ fn cut(pieces: &mut Vec<Piece>, size: &Size) {
             return;
         }
     }
-}
-
-/// Harmonic coefficients \[N\] of the steady force, component after component (T, then N), for the coefficients of displacement and
-/// normal input in the same order, and the work of T per period. By its definition at uniformly spaced samples: the
-/// contact is pressed at the (first) sample of the largest load without tangential displacement, displaced to that sample, and
-/// goes through two periods from there, of which the second counts.
-pub fn harmonic_force(element: &Element, coefficients: &[Real], samples: usize) -> (Vec<Real>, Real) {
-    let width = coefficients.len() / 2;
-    let rows = basis_at_samples(element.family.bits, width / 2, samples);
-    let path: Vec<[Real; 2]> = rows
-        .iter()
-        .map(|row| [&coefficients[..width], &coefficients[width..]].map(|component| dot(row, component)))
-        .collect();
-    let first = (1..samples).fold(0, |first, i| if path[i][1] > path[first][1] { i } else { first });
-    let mut state = element.open();
-    let [displacement, input] = &path[first];
-    element.step(&mut state, &element.real(0.0), input);
-    element.step(&mut state, displacement, input);
-    let mut sums = vec![element.real(0.0); 2 * width];
-    for i in (first + 1..).take(2 * samples) {
-        let [displacement, input] = &path[i % samples];
-        let step = element.step(&mut state, displacement, input);
-        if i <= first + samples {
-            continue;
-        }
-        for (k, wave) in rows[i % samples].iter().enumerate() {
-            let weight = wave * if k == 0 { 1.0 } else { 2.0 } / samples as f64;
-            sums[k] = &sums[k] + &weight * &step.force;
-            sums[width + k] = &sums[width + k] + weight * &step.load;
-        }
-    }
-    let pairs = coefficients[1..width].chunks(2).zip(sums[1..width].chunks(2));
-    let work = pairs.zip(1..).fold(element.real(0.0), |work, ((motion, force), order)| {
-        work + (&force[0] * &motion[1] - &force[1] * &motion[0]) * f64::from(order)
-    });
-    (sums, work * Real::pi(element.family.bits))
 }

@@ -4,12 +4,13 @@
 mod table;
 
 use microslip::{EllipticParameters, Material, Parameters};
-use reference::element::{Element, harmonic_force};
+use reference::element::Element;
 use reference::family::{Family, Given};
+use reference::harmonic::sampled;
 use reference::history::History;
 use reference::law::Shape;
 use reference::stiffness::{complex_stiffness, cycle_energy};
-use reference::{Input, Real, Reference, harmonic};
+use reference::{Input, Real, Reference};
 use table::{Row, ellipse, flat, geometry, table};
 
 fn contacts() -> Vec<Reference> {
@@ -138,37 +139,10 @@ fn histories_and_harmonics() {
     }
     for row in table("harmonic_force").iter().step_by(4) {
         let column = |kind, k| format!("{kind}{k}");
-        let u: Vec<f64> = (0..7).map(|k| row[&column("u", k)]).collect();
-        let contact = of(&contacts, row);
-        for (k, force) in harmonic::force(contact, &u, row["samples"] as usize).iter().enumerate() {
-            agree(1e-24, row, &[(&column("f", k), force)], Some(&contact.law(0).slip_force));
-        }
-    }
-}
-
-/// The exact harmonic force: limit of very many samples, and K' and K'' of one harmonic.
-#[test]
-fn exact_harmonics() {
-    let contacts = contacts();
-    for (contact, size) in contacts.iter().step_by(3).zip([0.6, 2.0, 0.9]) {
-        let law = contact.law(50);
-        let slip = (&law.displacement_unit * &law.x_slip).f64();
-        let amplitude = size * slip;
-        let [real, imaginary, ..] = complex_stiffness(contact, amplitude);
-        let force = harmonic::force(contact, &[0.0, 0.6 * amplitude, 0.8 * amplitude], 0);
-        for (found, expected) in force.iter().zip([
-            law.real(0.0),
-            amplitude * (0.6 * &real + 0.8 * &imaginary),
-            amplitude * (0.8 * &real - 0.6 * &imaginary),
-        ]) {
-            let off = ((found - expected) / &law.slip_force).abs().f64();
-            assert!(off < 1e-15, "one harmonic: {off:e}"); // of 0.6² + 0.8² in doubles
-        }
-        let u = [0.1 * slip, 0.7 * amplitude, 0.0, 0.2 * slip, 0.5 * amplitude];
-        let (exact, sampled) = (harmonic::force(contact, &u, 0), harmonic::force(contact, &u, 2000));
-        for (exact, sampled) in exact.iter().zip(sampled) {
-            let off = ((exact - sampled) / &law.slip_force).abs().f64();
-            assert!(off < 1e-5, "two harmonics: {off:e}");
+        let law = of(&contacts, row).law(50);
+        let u: Vec<Real> = (0..7).map(|k| law.x(row[&column("u", k)])).collect();
+        for (k, force) in sampled(&law, &u, row["samples"] as usize, |_| ()).force.iter().enumerate() {
+            agree(1e-24, row, &[(&column("f", k), &(force * &law.slip_force))], Some(&law.slip_force));
         }
     }
 }
@@ -243,41 +217,4 @@ fn varying_load() {
             agree(2e-21, row, &[("dT_ddelta", &step.tangent[0])], scale);
         }
     }
-}
-
-/// At a constant load the harmonic force of an element is that of the contact, in microslip and in gross slip; a load that opens the
-/// contact for half of the period leaves it closed and stuck, or open, for the other.
-#[test]
-fn harmonic_force_of_an_element() {
-    let input = &contacts()[3].input;
-    let Input::Flat(parameters) = input else { panic!() };
-    let (contact, element) = (Reference::new(*input), Element::new(input, true));
-    let law = contact.law(0);
-    let (slip, samples) = ((&law.displacement_unit * &law.x_slip).f64(), 48);
-    for amplitude in [0.7 * slip, 1.6 * slip] {
-        let u = [0.1 * slip, amplitude, 0.3 * slip];
-        let coefficients = [u[0], u[1], u[2], parameters.normal_force, 0.0, 0.0].map(|value| element.real(value));
-        let (force, work) = harmonic_force(&element, &coefficients, samples);
-        let u: Vec<Real> = u.iter().map(|u| law.x(*u)).collect();
-        let expected = harmonic::sampled(&law, &u, samples, |_| ());
-        for (force, expected) in force.iter().zip(&expected.force) {
-            let off = (force / &law.slip_force - expected).abs().f64();
-            assert!(off < 1e-24, "{off:e}");
-        }
-        // The difference is the error of the samples.
-        let off = (work / law.energy_unit() / &expected.dissipated.energy - 1.0).abs().f64();
-        assert!(off < 1e-2, "work: {off:e}");
-    }
-    // N = N0 cos t (0 in the mean: open for half of the period) and no motion: T = 0 and the mean of max(N, 0).
-    let element = Element::new(input, false);
-    let approach = element.family.find(Given::Load, &element.real(parameters.normal_force)).approach.f64();
-    let coefficients = [0.0, 0.0, 0.0, 0.0, approach, 0.0].map(|value| element.real(value));
-    let (force, work) = harmonic_force(&element, &coefficients, samples);
-    assert!(force[..3].iter().all(Real::is_zero) && work.is_zero());
-    let mean = (0..samples).fold(element.real(0.0), |sum, i| {
-        let w = approach * (2.0 * Real::pi(element.family.bits) * (i as f64) / samples as f64).sin_cos().1;
-        if w.is_positive() { sum + element.size_of_input(&w).load / samples as f64 } else { sum }
-    });
-    // The samples at w = 0 are rounded.
-    assert!(((&force[3] - &mean) / mean).abs().f64() < 1e-60);
 }

@@ -15,6 +15,7 @@ mod histories;
 mod rebound;
 mod springs;
 mod strips;
+#[allow(dead_code, reason = "parametric curves are drawn by the other program")]
 #[path = "../../paper/src/table.rs"]
 mod table;
 mod two_directions;
@@ -224,7 +225,7 @@ fn main() -> ExitCode {
     documents.results.extend(opening_results);
     let rebound = rebound::Comparison::new();
     documents.results.extend(rebound.results());
-    [directions.drawings()].iter().chain(&rebound.drawings()).for_each(|table| documents.data(table));
+    rebound.drawings().iter().for_each(|table| documents.data(table));
     let mut tables = Vec::from(directions.tables());
     tables.push(("equations in two directions", springs.table()));
     let [measured, computed] = rebound.tables();

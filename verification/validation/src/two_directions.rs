@@ -3,7 +3,6 @@
 //! steps.
 
 use crate::golden;
-use crate::table::Table;
 use microslip::element::{Directions, Element, NormalInput};
 use microslip::law::{StepOf, StepResult};
 use microslip::two_directions::{Law, TwoDirections};
@@ -27,12 +26,6 @@ struct Row {
     dissipated: f64,
 }
 
-impl Path {
-    fn solved(&self) -> Vec<Point> {
-        self.rows.iter().map(|row| Point { force: row.force, dissipated: row.dissipated }).collect()
-    }
-}
-
 /// Force and dissipated energy after a step.
 #[derive(Clone, Copy)]
 pub struct Point {
@@ -49,12 +42,10 @@ impl From<StepOf<TwoDirections>> for Point {
 /// The errors of a path.
 struct Errors {
     path: Path,
-    law: Vec<Point>,
     /// Largest error of the force over the largest mu N, and error of the dissipated energy over its value.
     of_law: [f64; 2],
     /// The same for two elements at right angles, each moved in one direction.
     of_two: [f64; 2],
-    two: Vec<Point>,
 }
 
 fn paths() -> Vec<Path> {
@@ -138,10 +129,11 @@ fn compare(path: Path) -> Errors {
         dissipated: x.dissipated + y.dissipated,
     };
     let two: Vec<Point> = across.iter().zip(&lengthwise).map(sum).collect();
-    let solved = path.solved();
+    let solved: Vec<Point> =
+        path.rows.iter().map(|row| Point { force: row.force, dissipated: row.dissipated }).collect();
     let slip_force = path.parameters.friction_coefficient * path.parameters.normal_force;
     let [of_law, of_two] = [&law, &two].map(|points| difference(points, &solved, slip_force));
-    Errors { of_law, of_two, law, two, path }
+    Errors { of_law, of_two, path }
 }
 
 impl Errors {
@@ -263,33 +255,5 @@ impl Comparison {
         let head = format!("| steps |{amplitudes}\n|---:|{}\n", "---:|".repeat(AMPLITUDES.len()));
         let steps = head + &STEPS.map(steps_row).concat();
         [("paths in two directions", paths), ("steps in two directions", steps)]
-    }
-
-    /// The data of the figure: forces over mu N and energy over mu N times the displacement of gross slip, all at the largest load.
-    pub fn drawings(&self) -> Table {
-        let mut table = Table::new("two_directions");
-        for name in ["circle0.9", "circle0.4_nearseparation"] {
-            let errors = self
-                .0
-                .iter()
-                .find(|errors| (errors.path.shape, errors.path.name) == ("cylinder", name))
-                .expect("a path");
-            let element = element(&errors.path.parameters);
-            let slip_force = element.friction_coefficient * element.normal_force;
-            let slip_energy = slip_force * element.friction_coefficient * element.shift_under(element.normal_force);
-            let solved = errors.path.solved();
-            for (by, points) in [("law", &errors.law), ("boundary elements", &solved), ("two elements", &errors.two)] {
-                let component = |k: usize| points.iter().map(|point| point.force[k] / slip_force).collect();
-                let mut sum = 0.0;
-                let energy = points.iter().map(|point| {
-                    sum += point.dissipated / slip_energy;
-                    sum
-                });
-                table = table
-                    .curve(&format!("{by} {name}"), component(0), component(1))
-                    .column(format!("energy of {by} {name}"), energy.collect());
-            }
-        }
-        table
     }
 }

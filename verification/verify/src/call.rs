@@ -142,7 +142,8 @@ pub fn hysteresis_loop(contact: &mslip_contact, amplitude: f64, n: usize) -> [Ve
 }
 
 /// Force, Jacobian and dissipated energy.
-pub fn harmonic(contact: &mslip_contact, samples: usize, rule: i32, displacement: &[f64]) -> (Vec<f64>, Vec<f64>, f64) {
+pub fn harmonic(contact: &mslip_contact, samples: usize, displacement: &[f64]) -> (Vec<f64>, Vec<f64>, f64) {
+    let rule = MSLIP_UNIFORM_SAMPLING;
     let (n, u) = (displacement.len(), displacement.as_ptr());
     let mut workspace = vec![0.0; mslip_harmonic_workspace_length(n / 2, samples, rule)];
     let (length, memory) = (workspace.len(), workspace.as_mut_ptr());

@@ -162,49 +162,6 @@ pub fn sensitivity(case: &Case, displacement: f64, range: &'static str, tally: &
     }
 }
 
-/// Neighbouring doubles around every switch of formula: by how much a monotonic quantity steps back.
-pub fn neighbours(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
-    let contact = &case.contact;
-    let half = half_share(case);
-    let intervals = (0..6).map(|j| 1.0 - 0.6 * 0.25f64.powi(j));
-    let places: Vec<f64> = [0.4, 0.8, 0.97, 0.999, 1.0, half, sampler.unit()].into_iter().chain(intervals).collect();
-    for place in places {
-        let start = (place * contact.slip_displacement).to_bits() - 64;
-        let share = (place.min(1.0) * contact.slip_force).to_bits() - 64;
-        let at = |step| [start, share].map(|bits| f64::from_bits(bits + step));
-        (1..129).for_each(|step| of_neighbours(case, at(step - 1), at(step), tally));
-    }
-}
-
-/// The same between two displacements and forces.
-fn of_neighbours(case: &Case, last: [f64; 2], now: [f64; 2], tally: &mut Tally) {
-    let Case { contact, reference, kind } = case;
-    let at = |[displacement, load]: [f64; 2]| {
-        let load = load.min(contact.slip_force);
-        let [force, stiffness, stick] = call::force(contact, displacement);
-        let [displaced, _, _] = call::displacement(contact, load);
-        [
-            ("force_steps_back", force),
-            ("stiffness_steps_back", -stiffness),
-            ("stick_half_width_steps_back", -stick),
-            ("displacement_steps_back", displaced),
-            ("energy_steps_back", call::energy(contact, load)),
-        ]
-    };
-    let soft = 1.0 / reference.law(0).full_stick.f64();
-    let [displacement, load] = now;
-    let inputs = || format!("{} u {displacement:e} T {load:e}", text(&reference.input));
-    for ((name, now), (_, last)) in at(now).into_iter().zip(at(last)) {
-        let exact = Real::new(64, if now < last { last } else { now });
-        tally.check((name, kind, "switches"), now, &exact, soft, inputs);
-    }
-}
-
-/// The same between a displacement and a force, and the doubles below them.
-pub fn steps_back(case: &Case, now: [f64; 2], tally: &mut Tally) {
-    of_neighbours(case, now.map(f64::next_down), now, tally);
-}
-
 /// The error reported for parallel spring-sliders, against the largest distance between their polygon and the curve.
 pub fn sliders(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
     of_sliders(case, 1 + sampler.below(12), tally);

@@ -3,7 +3,6 @@
 use crate::call;
 use crate::sampler::{Case, Sampler, text};
 use crate::tally::Tally;
-use microslip::ffi::MSLIP_UNIFORM_SAMPLING;
 use reference::harmonic::sampled;
 
 /// Coefficients, in displacements of gross slip.
@@ -38,7 +37,7 @@ pub fn uniform_sampling(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
 pub fn at(case: &Case, samples: usize, displacement: &[f64], range: &'static str, tally: &mut Tally) {
     let Case { contact, reference, kind } = case;
     let law = reference.law(50);
-    let (force, jacobian, dissipated) = call::harmonic(contact, samples, MSLIP_UNIFORM_SAMPLING, displacement);
+    let (force, jacobian, dissipated) = call::harmonic(contact, samples, displacement);
     let u: Vec<_> = displacement.iter().map(|u| law.x(*u)).collect();
     let total: f64 = u.iter().map(|u| u.abs().f64()).sum();
     let (mut condition, mut jumps) = (0.0f64, false);

@@ -44,7 +44,7 @@ enum Measurement {
 use Measurement::{Contact, Element};
 
 /// Names, measurements, about how many points each counts as, and how many are one job.
-const MEASUREMENTS: [(&str, Measurement, f64, usize); 19] = [
+const MEASUREMENTS: [(&str, Measurement, f64, usize); 17] = [
     ("curve::fields", Contact(curve::fields), 1.0, 4000),
     ("curve::at_forces", Contact(curve::at_forces), 50.0, 200),
     ("curve::at_displacements", Contact(curve::at_displacements), 50.0, 200),
@@ -54,10 +54,8 @@ const MEASUREMENTS: [(&str, Measurement, f64, usize); 19] = [
     ("history::along_a_path", Contact(history::along_a_path), 48.0, 80),
     ("history::closed_loop", Contact(history::closed_loop), 48.0, 120),
     ("harmonic::uniform_sampling", Contact(harmonic::uniform_sampling), 200.0, 100),
-    ("curve::neighbours", Contact(curve::neighbours), 2e4, 10),
     ("curve::sliders", Contact(curve::sliders), 1e5, 10),
     ("stiffness::at_amplitudes", Contact(stiffness::at_amplitudes), 500.0, 10),
-    ("stiffness::event_driven", Contact(stiffness::event_driven), 200.0, 25),
     ("element::normal_law", Element(element::normal_law), 25.0, 200),
     ("element::along_a_path", Element(element::along_a_path), 32.0, 80),
     ("steps::of_contact", Contact(steps::of_contact), 20.0, 50),

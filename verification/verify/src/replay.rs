@@ -83,14 +83,10 @@ fn of_contact(row: &Row, input: Input, arguments: &str, tally: &mut Tally) -> bo
         (Some("u"), 1, &[displacement]) if row.output.starts_with("sensitivity") => {
             curve::sensitivity(case, displacement, range, tally);
         }
-        (Some("u"), 2, &[displacement, force]) => curve::steps_back(case, [displacement, force], tally),
         (Some("u"), 1, &[displacement]) => curve::at_displacement(case, displacement, range, tally),
         (Some("A"), 1, &[amplitude]) => stiffness::at_amplitude(case, amplitude, range, tally),
         (Some("A"), _, &[amplitude, _, n]) => history::of_amplitude(case, amplitude, n as usize, range, tally),
         (Some("path"), _, path) => drop(history::updates(case, path, tally)),
-        (Some("samples"), _, &[samples, a, b, c]) if row.output.starts_with("event_driven") => {
-            stiffness::of_cosine(case, samples as usize, [a, b, c], tally);
-        }
         (Some("samples"), _, [samples, u @ ..]) => harmonic::at(case, *samples as usize, u, range, tally),
         (Some("sliders"), _, &[n]) => curve::of_sliders(case, n as usize, tally),
         _ => return false,
