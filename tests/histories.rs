@@ -429,59 +429,10 @@ fn negative_normal_forces_are_rejected_but_for_rounding() {
     }
 }
 
-/// A step may be divided: on the way of a contact, and on the straight line of an element in (S, u). Only reversals are stored.
+/// Under static forces in each direction an element has the curve of a contact under that normal force, also under less load than that of
+/// its layer.
 #[test]
-fn steps_may_be_divided() {
-    let mut random = Random(seed());
-    // The energy of an element is exact to 1e-12 for N_c of a hundredth of the normal force and above.
-    for (number, input) in inputs(&LAYERS[..5]).into_iter().enumerate() {
-        let (contact, element) = (input.contact(), input.element(Directions::One, NormalInput::Force));
-        let unit = contact.slip_displacement;
-        for _ in 0..40 {
-            let (mut whole, mut divided) = (unloaded(64), unloaded(64));
-            let (mut one, mut other) = (History::new(&element, 64), History::new(&element, 64));
-            let (parts, mut from) = (2 + random.below(4), [0.0; 2]);
-            for _ in 0..20 {
-                let far = if random.below(5) == 0 { 3.0 } else { 1.0 };
-                let to = [
-                    far * unit * random.signed(),
-                    (NORMAL_FORCE * (1.5 * random.next() - 0.3)).clamp(0.0, NORMAL_FORCE),
-                ];
-                let (force, _, energy) = advance(&contact, &mut whole, to[0]);
-                let step = one.step(to[0], to[1]);
-                let shifts = [from, to].map(|[_, load]| element.shift_under(load));
-                let (mut last, mut end, mut sums) = (0.0, step, [0.0; 2]);
-                for part in 1..=parts {
-                    let along = |from: f64, to: f64| {
-                        if part == parts { to } else { from + (to - from) * part as f64 / parts as f64 }
-                    };
-                    let u = along(from[0], to[0]);
-                    let load = if part == parts { to[1] } else { element.load_under(along(shifts[0], shifts[1])) };
-                    let (now, _, dissipated) = advance(&contact, &mut divided, u);
-                    end = other.step(u, load);
-                    last = now;
-                    sums = [sums[0] + dissipated, sums[1] + end.dissipated];
-                }
-                assert!((last - force).abs() <= 1e-13 * contact.slip_force, "{input:?}");
-                assert!((end.force[0] - step.force[0]).abs() < 1e-13 * SLIP_FORCE, "{input:?}");
-                // In units of mu N and the farthest displacement. Each step has an error of up to 1e-12 with a layer, and they add up.
-                let of_layer = if number < SHAPES { 1.0 } else { 1.0 + parts as f64 };
-                for ((sum, energy), allowed) in sums.into_iter().zip([energy, step.dissipated]).zip([1e-13, 1e-12]) {
-                    let off = (sum - energy).abs() / (contact.slip_force * 3.0 * unit);
-                    assert!(off <= of_layer * allowed, "{off:e} {input:?}");
-                }
-                from = to;
-            }
-            let used = 6 + 3 * whole[1] as usize;
-            assert_eq!(whole[..used], divided[..used]);
-        }
-    }
-}
-
-/// At a constant normal force an element has the law of a contact under that force: along a history, and under static forces in each
-/// direction, also under less load than that of its layer.
-#[test]
-fn elements_under_a_constant_normal_force_are_contacts() {
+fn static_displacements_of_elements_are_those_of_contacts() {
     let static_forces = |element: &Element, direction: usize, contact: &Contact, normal_force: f64| {
         for part in [1e-12, -1e-3, 0.1, 0.24, 0.26, -0.7, 0.99, 1.0, -1.0] {
             let force = part * contact.slip_force;
@@ -501,24 +452,11 @@ fn elements_under_a_constant_normal_force_are_contacts() {
     for input in shapes.into_iter().chain(shapes.map(|input| input.with_layer(layer))) {
         for normal_input in [NormalInput::Approach, NormalInput::Force] {
             let (contact, element) = (input.contact(), input.element(Directions::One, normal_input));
-            let whole = if normal_input == NormalInput::Force { NORMAL_FORCE } else { element.approach };
             // A rise of the load that is mostly rounding.
+            let whole = if normal_input == NormalInput::Force { NORMAL_FORCE } else { element.approach };
             let mut memory = History::new(&element, 64);
             let stuck = [1.0 - 1e-12, 1.0].map(|share| memory.step(0.0, share * whole).tangent[0]);
             assert!((stuck[1] / contact.initial_stiffness - 1.0).abs() < 1e-9, "{input:?} {stuck:?}");
-            let mut memory = History::new(&element, 64);
-            memory.step(0.0, whole);
-            let (mut state, mut phase) = (unloaded(64), 0.7_f64);
-            for _ in 0..500 {
-                phase = (phase * 997.0).sin();
-                let u = 1.3 * phase * contact.slip_displacement;
-                let step = memory.step(u, whole);
-                let (force, stiffness, dissipated) = advance(&contact, &mut state, u);
-                // Both laws store and invert with rounding errors of a few units, with a layer and by approach of a few more.
-                assert!((step.force[0] - force).abs() < 2e-13 * contact.slip_force);
-                assert!((step.tangent[0] - stiffness).abs() < 1e-9 * contact.initial_stiffness, "{input:?}");
-                assert!((step.dissipated - dissipated).abs() < 1e-12 * contact.slip_force * contact.slip_displacement);
-            }
             static_forces(&element, 0, &contact, NORMAL_FORCE);
             assert_eq!(element.check_direction(1), Err(Error::BadDirections));
             match input {
@@ -646,19 +584,18 @@ fn the_load_of_the_parameters_is_accepted() {
     }
 }
 
-/// The tractions of an element carry its forces, and the state has them too, also if pieces were merged.
+/// The tractions of an element whose pieces were merged carry its forces, and the state has them too.
 #[test]
 fn tractions_integrate_to_the_forces() {
-    const VARYING: [(f64, f64); 6] = [(0.1, 0.4), (0.3, 0.9), (0.7, 0.8), (0.5, 1.1), (-0.2, 0.9), (0.3, 1.0)];
     // Six pieces in a state of four, and slip zones that cut back to knots beyond the merged ones.
     const MERGED: [(f64, f64); 9] =
         [(0.1, 0.4), (0.2, 0.5), (0.4, 0.6), (0.5, 0.9), (0.75, 1.0), (0.8, 1.2), (0.75, 1.2), (0.6, 1.2), (0.3, 1.2)];
     const POINTS: u32 = 20_000;
     let elements = [0.0, 6e-5, 5e-4].map(|a| Input::flat(a).element(Directions::One, NormalInput::Force));
-    for (element, (pieces, path)) in elements.iter().flat_map(|one| [(one, (64, &VARYING[..])), (one, (4, &MERGED))]) {
+    for element in &elements {
         let unit = SLIP_FORCE / element.tangential_stiffness;
-        let mut memory = History::new(element, pieces);
-        for &(u, w) in path {
+        let mut memory = History::new(element, 4);
+        for (u, w) in MERGED {
             let step = memory.step(u * unit, w * NORMAL_FORCE);
             // Forces of a step are those before a merge; a restart from the state has those of the merged pieces.
             let again = memory.step(u * unit, w * NORMAL_FORCE);

@@ -120,15 +120,6 @@ fn tangents_are_derivatives() {
             at = next;
             contact.to(at);
             TwoDirections::state_check(&contact.state).unwrap();
-            // At rest nothing slips, whatever did before, unless the force is at its bound.
-            let (rest, mut stuck) = (contact.trial(at), Contact::new(element));
-            stuck.to([0.0, 0.0, at[2]]);
-            let stuck = stuck.trial([0.0, 0.0, at[2]]).tangent;
-            let bound = (1.0 - 1e-12) * element.friction_coefficient * rest.force[2];
-            for i in [0, 1, 3, 4] {
-                let error = (rest.tangent[i] - stuck[i]).abs() / element.tangential_stiffness;
-                assert!(error < 1e-3 || rest.force[0].hypot(rest.force[1]) >= bound, "{k} {i}: {error:e}");
-            }
         }
     }
 }
@@ -210,66 +201,6 @@ fn motion_along_x_is_that_of_one_direction() {
             assert!(worst < line_error(element, k) && energy.abs() < 0.04, "{k}: {worst:e} {energy:e}");
         }
     }
-}
-
-/// A linear layer is a spring that carries the force of the contact: the displacements add up. Within a step both move on straight paths,
-/// which differ; and the springs of the fine correction have limits of their own, with and without a layer.
-#[test]
-fn a_linear_layer_is_a_spring_in_series() {
-    const PARTS: usize = 64;
-    let mut random = Random(7);
-    for (k, contact) in without_layer(Directions::Two, NormalInput::Force).iter().enumerate() {
-        for share in [0.3, 3.0] {
-            let layer = layer_of(contact, (share, 0.0));
-            let both = match HALF_WIDTHS.get(k) {
-                Some(half_width) => flat_with(*half_width, layer, NormalInput::Force, Directions::Two),
-                None => ellipse_with([1e-3, 3e-3][k - 3], layer, Directions::Two, NormalInput::Force),
-            };
-            let (mut both, mut contact) = (Contact::new(&both), Contact::new(contact));
-            let (unit, slip_force) = (unit(both.element), slip_force(both.element));
-            let (mut at, mut from, mut energies) = ([0.0; 2], [0.0; 3], [0.0; 2]);
-            for to in history(both.element, 60, &mut random) {
-                for part in 1..=PARTS {
-                    let [u, v, load] = [0, 1, 2].map(|i| from[i] + (to[i] - from[i]) * part as f64 / PARTS as f64);
-                    let step = both.to([u, v, load]);
-                    at = in_series(&contact, layer.tangential_compliance, [u, v, load], at, 1e-12 * unit);
-                    let alone = contact.to([at[0], at[1], load]);
-                    // On flats it falls with the length of the parts: 1.2e-2 with 16 of them, 3e-4 with 256. The fine springs of spheres
-                    // leave 4e-3.
-                    let error = apart(&step, &alone) / slip_force;
-                    assert!(error < if k < HALF_WIDTHS.len() { 3e-3 } else { 4.5e-3 }, "{k} {share}: {error:e}");
-                    energies = [energies[0] + step.dissipated, energies[1] + alone.dissipated];
-                }
-                from = to;
-            }
-            let error = energies[0] / energies[1] - 1.0;
-            assert!(error.abs() < 1e-3, "{k} {share}: {energies:?}, {error:e}");
-        }
-    }
-}
-
-/// The displacement of a contact with a spring in series: Newton's method, with shorter steps as long as the residual rises.
-fn in_series(contact: &Contact, compliance: f64, to: [f64; 3], mut at: [f64; 2], tolerance: f64) -> [f64; 2] {
-    let (mut last, mut by) = (f64::INFINITY, [0.0; 2]);
-    for _ in 0..200 {
-        let trial = contact.trial([at[0], at[1], to[2]]);
-        let [x, y] = [0, 1].map(|i| to[i] - at[i] - compliance * trial.force[i]);
-        let residual = x.hypot(y);
-        if residual < tolerance {
-            return at;
-        }
-        if residual > last {
-            by = by.map(|by| 0.5 * by);
-            at = [0, 1].map(|i| at[i] - by[i]);
-            continue;
-        }
-        last = residual;
-        let [xx, yx, xy, yy] = [0, 1, 3, 4].map(|i| compliance * trial.tangent[i]);
-        let determinant = (1.0 + xx) * (1.0 + yy) - xy * yx;
-        by = [((1.0 + yy) * x - xy * y) / determinant, ((1.0 + xx) * y - yx * x) / determinant];
-        at = [0, 1].map(|i| at[i] + by[i]);
-    }
-    panic!("no solution: {to:?}, {last:e}");
 }
 
 /// A line contact has another compliance along y, an ellipse that of its swapped axes along x.
@@ -360,35 +291,6 @@ fn mirror_images_and_other_units_give_the_same_bits() {
     }
 }
 
-/// Random histories: Coulomb's bound, energy, restart, trial and repeated steps.
-#[test]
-fn steps_satisfy_coulomb_and_states_restart() {
-    let mut random = Random(6);
-    for input in [NormalInput::Force, NormalInput::Approach] {
-        for element in &shapes(Directions::Two, input) {
-            let mut contact = Contact::new(element);
-            for to in history(element, 400, &mut random) {
-                // The state as text of 17 digits.
-                let text: Vec<String> = contact.state.iter().map(|value| format!("{value:.16e}")).collect();
-                let state = text.iter().map(|value| value.parse().unwrap()).collect();
-                let mut restarted = Contact { element, state };
-                let step = contact.to(to);
-                assert_eq!(restarted.to(to), step);
-                assert!(restarted.state.iter().zip(&contact.state).all(|(one, two)| one.to_bits() == two.to_bits()));
-                let [x, y, load] = step.force;
-                // The force is divided by its excess: some roundings.
-                assert!(x.hypot(y) <= element.friction_coefficient * load * (1.0 + 4e-16), "{step:?}");
-                assert!(step.dissipated >= 0.0);
-                TwoDirections::state_check(&contact.state).unwrap();
-                // An overload is forgotten if the force is as near to Coulomb's bound as this.
-                let again = contact.trial(to);
-                assert!(apart(&again, &step) <= 1e-10 * slip_force(element), "{again:?} {step:?}");
-                assert!(again.dissipated <= 1e-10 * slip_force(element) * unit(element), "{again:?}");
-            }
-        }
-    }
-}
-
 /// The springs of another element relax where they are: elements of the same normal force differ in any one parameter.
 #[test]
 fn springs_of_another_element_relax() {
@@ -410,45 +312,6 @@ fn springs_of_another_element_relax() {
         new.to(place);
         let next = [-place[0], place[1], 0.5 * place[2]];
         assert_eq!(relaxed.to(next), new.to(next));
-    }
-}
-
-/// Work and dissipation in the last of 20 periods of n steps: u = A (cos, sin), or an ellipse; both over `mu N` times the unit.
-fn orbit(element: &Element, n: usize, [a, b]: [f64; 2], swing: f64) -> [f64; 2] {
-    let unit = unit(element);
-    let at = |k: usize| {
-        let (y, x) = (TAU * (k % n) as f64 / n as f64).sin_cos();
-        [a * unit * x, b * unit * y, normal_input(element, 1.0 - swing * (0.5 - 0.5 * x))]
-    };
-    let period: Vec<f64> = (0..=n).flat_map(at).collect();
-    let mut contact = Contact::new(element);
-    contact.to([period[0], period[1], 0.0]);
-    let (mut force, mut dissipated) = (vec![0.0; 3 * n + 3], vec![0.0; n + 1]);
-    for _ in 0..20 {
-        for (k, displacement) in period.as_chunks().0.iter().enumerate() {
-            let step = contact.to(*displacement);
-            force[3 * k..][..3].copy_from_slice(&step.force);
-            dissipated[k] = step.dissipated;
-        }
-    }
-    let chord = |k: usize| (0..2).map(move |i| [3 * k + i, 3 * k + 3 + i]);
-    let work: f64 = (0..n).flat_map(chord).map(|[i, j]| 0.5 * (force[i] + force[j]) * (period[j] - period[i])).sum();
-    [work, dissipated.iter().sum()].map(|energy| energy / slip_force(element) / unit)
-}
-
-#[test]
-fn a_closed_orbit_dissipates_its_work() {
-    // Trapezia of the forces over chords, and slip with the mean of the tractions at both ends of a step: second order in the step;
-    // after 20 periods the orbit is closed to 0.3 %. In 24 steps a load that falls to 3 % changes up to threefold in one of them.
-    for (n, bounds) in [(24, [0.012, 0.02, 0.04]), (96, [0.005, 0.005, 0.012])] {
-        for (swing, bound) in [0.0, 0.6, 0.97].into_iter().zip(bounds) {
-            for element in &without_layer(Directions::Two, NormalInput::Force) {
-                for axes in [[0.3, 0.3], [0.9, 0.9], [0.6, 0.3]] {
-                    let [work, dissipated] = orbit(element, n, axes, swing);
-                    assert!((dissipated / work - 1.0).abs() < bound, "{n} {swing} {axes:?}: {work} {dissipated}");
-                }
-            }
-        }
     }
 }
 
@@ -646,35 +509,4 @@ fn rough_flats(input: NormalInput) -> Vec<Element> {
     let with =
         |(half_width, bare)| shares.concat().into_iter().map(move |share| of(half_width, layer_of(&bare, share)));
     bare.flat_map(with).collect()
-}
-
-/// Of rough flats at angles with the x axis, in the step that closes the contact and in one in which its load rises tenfold.
-#[test]
-fn a_long_slide_dissipates_as_much_as_in_short_steps() {
-    for element in rough_flats(NormalInput::Force) {
-        let [unit, end] = [unit(&element), normal_input(&element, 0.7)];
-        for angle in [1e-9, 0.3, 0.8, FRAC_PI_2] {
-            for length in [3.0, 30.0, 1000.0, 1e12].map(|length| length * unit) {
-                for load in [0.0, 0.07].map(|share| normal_input(&element, share)) {
-                    let mut contact = Contact::new(&element);
-                    let (from, to) = ([0.0, 0.0, load], [length * angle.cos(), length * angle.sin(), end]);
-                    contact.to(from);
-                    let error = contact.trial(to).dissipated / contact.along(from, to, 64) - 1.0;
-                    assert!(error.abs() < 0.07, "{to:?}: {error:e}, half-width {}", element.half_width);
-                }
-            }
-        }
-    }
-}
-
-#[test]
-fn a_step_of_a_rough_flat_beside_the_x_axis_is_that_along_it() {
-    for element in rough_flats(NormalInput::Approach) {
-        for length in [0.1, 0.3, 0.7, 1.5, 4.0, 30.0].map(|length| length * unit(&element)) {
-            let [along, beside] =
-                [0.0, 1e-9].map(|tilt| Contact::new(&element).to([length, tilt * length, normal_input(&element, 0.7)]));
-            let error = apart(&along, &beside) / slip_force(&element);
-            assert!(error < 1e-8, "{length}: {error:e}, half-width {}", element.half_width);
-        }
-    }
 }

@@ -292,18 +292,10 @@ contains
     workspace = spread(untouched, 1, int(mslip_element_workspace_length(one, h, samples)))
     call mslip_element_workspace_init(one, h, samples, periods, workspace(:size(workspace) - 1), status)
     call check_status('initialisation of a short workspace of an element', status, MSLIP_WORKSPACE_TOO_SHORT)
-    call mslip_element_workspace_init(one, h, samples, -1_mslip_size, workspace, status)
-    call check_status('a negative number of periods', status, MSLIP_BAD_PERIODS)
-    call mslip_element_workspace_init(one, h, samples, periods, workspace, status, 2_mslip_int)
-    call check_status('an unknown rule', status, MSLIP_BAD_RULE)
     call mslip_element_workspace_init(one, h, samples, periods, workspace, status)
     call mslip_element_workspace_size(workspace(:size(workspace) - 1), kinds(1), found(1), found(2), kinds(2), found(3), status)
     call check_status('size of a short workspace of an element', status, MSLIP_WORKSPACE_TOO_SHORT)
     call check('nothing is written', is_untouched([error]) .and. all(found == -1) .and. all(kinds == -1))
-    call check('no length for invalid sizes', all([mslip_harmonic_workspace_length(h, samples, 2_mslip_int), &
-      mslip_harmonic_workspace_length(0_mslip_size, samples), mslip_harmonic_workspace_length(-1_mslip_size, -1_mslip_size), &
-      mslip_element_workspace_length(one, h, samples, 2_mslip_int), &
-      mslip_element_workspace_length(one, -1_mslip_size, -1_mslip_size)] == 0))
   end subroutine test_short_memory
 
 end program bad_input
