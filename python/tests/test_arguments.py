@@ -88,13 +88,6 @@ def test_constants_are_given_by_number_or_word():
     assert microslip.Element(**FLAT, normal_input="normal_force").normal_input == microslip.INPUT_NORMAL_FORCE
 
 
-def test_numbers_of_numpy_are_numbers():
-    converted = {name: np.float64(value) for name, value in FLAT.items() if isinstance(value, float)}
-    assert microslip.Contact(**FLAT | converted | {"young_modulus": np.array([2e11, 1.1e11])}) == contact
-    assert microslip.Workspace(np.int64(1), np.array(8)) == workspace
-    assert contact.hysteresis_loop(np.array(1e-7), np.uint8(3)).force.shape == (3,)
-
-
 @pytest.mark.parametrize("one", [contact, element])
 def test_read_only_states_are_not_written(one, tmp_path):
     kind, to = (microslip.State, 1e-7) if one is contact else (microslip.ElementState, [1e-7, 1e-6])

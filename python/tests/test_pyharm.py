@@ -57,17 +57,6 @@ def test_jacobian_is_the_derivative_of_the_residual(directions):
     assert_allclose(jacobian, expected, rtol=0, atol=1e-4 * abs(jacobian).max())
 
 
-def test_a_mean_displacement_loads_the_contact_as_pyharms_jenkins_element():
-    own, unknowns = connector(contact)
-    jenkins = {"type": "Jenkins", "dirs": [0], "mu": 0.4, "N0": 150.0, "k": contact.initial_stiffness}
-    other = next(e for e in Maestro(two_masses(jenkins, [300.0, 900.0])).system.LE if e.name == "contact")
-    x = np.zeros(unknowns)
-    x[1], x[3] = 0.02 * SLIP / LENGTH, 0.01 * SLIP / LENGTH  # mean and cosine of the second mass
-    # Small displacements: the contact is hardly softer than its initial stiffness.
-    assert_allclose(own.evalResidual(x, 1.0)[:2], other.evalResidual(x, 1.0)[:2], rtol=0.02)
-    assert own.evalResidual(x, 1.0)[0] > 0
-
-
 def test_element_with_a_varying_normal_force():
     """Masses that move in a plane, the second one pressed against an inclined face by 150 N: undeformed in equilibrium."""
     element = microslip.Element(**CONTACT)

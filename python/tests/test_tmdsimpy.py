@@ -41,15 +41,6 @@ def test_aft_has_the_published_shapes_and_derivatives(law, h, unloaded_at_mean):
     assert force.nl_force_type() == 1
 
 
-def test_wrong_shapes_are_rejected():
-    with pytest.raises(ValueError, match="T must have"):
-        MicroslipForce(np.ones((1, 5)), np.ones((1, 5)), contact)
-    with pytest.raises(ValueError, match="rows for each element"):
-        MicroslipForce(np.ones((3, 5)), np.ones((5, 3)), elements[0])
-    with pytest.raises(ValueError, match="must be INPUT_APPROACH"):
-        MicroslipForce(np.ones((2, 5)), np.ones((5, 2)), microslip.Element(**CONTACT, normal_input=microslip.INPUT_NORMAL_FORCE))
-
-
 def test_mean_displacement():
     U = SLIP * np.array([0.5, 0.2, 0.1])
     h = np.array([0, 1])
