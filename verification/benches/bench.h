@@ -19,13 +19,6 @@ sliders sliders_of(size_t n, const double *stiffness, const double *slip);
 /* One: with K' and K'' of the contact at that amplitude, or for 0 and where none has them with its initial stiffness and slip force. */
 sliders sliders_fitted(const mslip_contact *contact, size_t n, double amplitude);
 
-/* Force and stiffness on the initial loading curve. */
-void sliders_curve(const void *sliders, size_t n, const double *displacement, double *force, double *stiffness);
-/* K', K'' and their derivatives with respect to the amplitude, in closed form for each slider. */
-void sliders_stiffness(const void *sliders, double amplitude, double result[4]);
-/* One time step under a load that multiplies the slip forces, which updates the forces of the sliders. */
-double sliders_step(const sliders *s, double load, double *forces, double du, double *stiffness);
-
 /* One slider. */
 static inline double jenkins_step(double stiffness, double slip, double *force, double du, double *tangent)
 {
@@ -53,8 +46,7 @@ typedef struct entry {
     double shape, amplitude;          /* a/b, and displacement over that of gross slip */
     int harmonics, samples, jacobian;
     double parameter;                 /* sliders; 0: none */
-    double error;                     /* relative, against the library; harmonic force: against far more samples; or -1 */
-    double sample_error;              /* harmonic force: against the library with the same samples; or -1 */
+    double error;                     /* of the first harmonic, relative, against far more samples; or -1 */
     double time;                      /* median over the rounds of one item [ns] */
     work *run;
     void *context;
@@ -75,9 +67,6 @@ double *doubles(size_t n);
 size_t memory_mark(void);
 void free_to(size_t mark);
 
-/* Counts a check that a value is below a bound, and prints it if not. */
-void check_below(const char *what, double value, double bound);
-extern int checks_passed, checks_failed;
 double median_of(double *values, size_t n); /* sorts them */
 void require(int32_t status);               /* MSLIP_OK, or prints the message and exits */
 
@@ -101,9 +90,8 @@ test_case case_of(double shape);
 
 /* Adds the entries of one amplitude or number of harmonics, whose number is k. */
 typedef void set_up(const test_case *c, const extent *x, int k);
-set_up set_up_force, set_up_initialisation, set_up_stiffness, set_up_harmonic, set_up_step, set_up_element, set_up_plane;
+set_up set_up_initialisation, set_up_harmonic, set_up_step, set_up_element, set_up_plane;
 
-void check_errors(void);
 void write_tables(FILE *file);
 void write_entries(FILE *file);
 

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Coefficients; samples at which sliders are compared at equal samples; nodes of a converged quadrature. */
+/* Coefficients; samples of parallel sliders; nodes of a converged quadrature. */
 enum { MOST = 38, COMPARED = 128, CONVERGED = 4096 };
 
 typedef struct {
@@ -56,7 +56,7 @@ static double *workspace_of(const job *j, int samples, int32_t rule)
     return workspace;
 }
 
-static void add(const entry *call, const char *method, double parameter, const job *j, const double *exact, const double *sums)
+static void add(const entry *call, const char *method, double parameter, const job *j, const double *exact)
 {
     entry e = *call;
     e.method = method;
@@ -67,7 +67,6 @@ static void add(const entry *call, const char *method, double parameter, const j
     e.items = 1;
     entry *added = entry_add(e, j, sizeof *j);
     added->error = first_harmonic(added->context, exact);
-    added->sample_error = sums ? first_harmonic(added->context, sums) : -1.0;
 }
 
 /* Coefficients [mean, cos 1, sin 1, ...] of a motion with half range `size`, whose maximum lies a third of a step from a sample for
@@ -100,29 +99,25 @@ void set_up_harmonic(const test_case *t, const extent *x, int k)
     const double amplitude = x->amplitude[k / 3], size = amplitude * t->contact.slip_displacement;
     const sliders jenkins = sliders_fitted(&t->contact, 1, size);
     const int harmonics = 1 + k % 3 * 4;
-    job exact = { .contact = &t->contact, .harmonics = harmonics, .blocks = 1 }, sums = exact;
+    job exact = { .contact = &t->contact, .harmonics = harmonics, .blocks = 1 };
     motion_of(harmonics, size, exact.displacement);
-    motion_of(harmonics, size, sums.displacement);
     exact.workspace = workspace_of(&exact, CONVERGED, MSLIP_EVENT_DRIVEN);
-    sums.workspace = workspace_of(&sums, COMPARED, MSLIP_UNIFORM_SAMPLING);
     run(&exact);
-    run(&sums);
     entry call = { .task = "harmonic", .amplitude = amplitude };
     for (call.samples = x->least_samples; call.samples <= x->most_samples; call.samples *= 2) {
         const int n = call.samples;
         job j = { .contact = &t->contact, .harmonics = harmonics, .blocks = 1 };
         memcpy(j.displacement, exact.displacement, sizeof j.displacement);
         for (; n > 2 * harmonics && j.jacobian_requested <= 1; ++j.jacobian_requested) {
-            const double *at_samples = n == COMPARED ? sums.force : NULL;
             j.aft = NULL;
             j.workspace = workspace_of(&j, n, MSLIP_EVENT_DRIVEN);
-            add(&call, "microslip event-driven", 0.0, &j, exact.force, at_samples);
+            add(&call, "microslip event-driven", 0.0, &j, exact.force);
             j.workspace = workspace_of(&j, n, MSLIP_UNIFORM_SAMPLING);
-            add(&call, "microslip", 0.0, &j, exact.force, at_samples);
+            add(&call, "microslip", 0.0, &j, exact.force);
             for (int b = 0; b == 0 || (n == COMPARED && b < BANKS && (int)t->bank[b].n <= x->most_sliders); ++b) {
                 const sliders *bank = b ? &t->bank[b] : &jenkins;
                 j.aft = aft_of(1, 0.0, harmonics, n, bank);
-                add(&call, b ? "sliders" : "spring-slider", b ? (double)bank->n : 0.0, &j, exact.force, at_samples);
+                add(&call, b ? "sliders" : "spring-slider", b ? (double)bank->n : 0.0, &j, exact.force);
             }
         }
     }
@@ -145,9 +140,9 @@ static void add_elements(entry call, job j, const sliders *slider)
     exact.workspace = workspace_of(&j, 16 * call.samples, MSLIP_UNIFORM_SAMPLING);
     run(&exact);
     j.workspace = workspace_of(&j, call.samples, MSLIP_UNIFORM_SAMPLING);
-    add(&call, "microslip", 0.0, &j, exact.force, NULL);
+    add(&call, "microslip", 0.0, &j, exact.force);
     j.aft = aft_of(j.blocks - 1, normal_stiffness, j.harmonics, call.samples, slider);
-    add(&call, "spring-slider", 0.0, &j, exact.force, NULL);
+    add(&call, "spring-slider", 0.0, &j, exact.force);
 }
 
 /* Microslip in one direction under a load that varies, with a phase. */

@@ -11,7 +11,6 @@ enum { MOST_ENTRIES = 1 << 14, MOST_ROUNDS = 15 };
 entry entries[MOST_ENTRIES];
 size_t entry_count;
 int rounds = 15;
-int checks_passed, checks_failed;
 
 static void *blocks[65536];
 static size_t block_count;
@@ -53,20 +52,10 @@ void free_to(size_t mark)
     }
 }
 
-void check_below(const char *what, double value, double bound)
-{
-    const int passed = value >= 0.0 && value < bound;
-    checks_passed += passed;
-    checks_failed += !passed;
-    if (!passed) {
-        printf("%s: %g, not below %g\n", what, value, bound);
-    }
-}
-
 entry *entry_add(entry e, const void *context, size_t bytes)
 {
     assert(entry_count < MOST_ENTRIES);
-    e.error = e.sample_error = -1.0;
+    e.error = -1.0;
     e.context = memcpy(allocate(bytes), context, bytes);
     sink = e.run(e.context);
     entries[entry_count] = e;

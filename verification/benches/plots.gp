@@ -20,7 +20,7 @@ set key at screen 0.53, screen 0.11 center top maxrows 2 Left reverse samplen 2 
 # Error, and median time in ns, of one method; errors of 0 are drawn at 1e-17.
 rows(task, shape, harmonics, jacobian, method) = sprintf( \
   "< awk -F, -v OFS=, '$1 == \"%s\" && $2 == %g && $3 == 0.95 && $4 == %d && $6 == %d && $7 == \"%s\" { \
-  print ($9 > 1e-17 ? $9 : 1e-17), $11 }' %s", task, shape, harmonics, jacobian, method, from)
+  print ($9 > 1e-17 ? $9 : 1e-17), $10 }' %s", task, shape, harmonics, jacobian, method, from)
 
 set terminal svg size 1280, 540 dynamic background rgb 'white' font 'Helvetica,14'
 set output sprintf('| python3 ../../tools/svg.py > %s/harmonic.svg', to)

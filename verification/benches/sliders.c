@@ -1,4 +1,4 @@
-/* sliders.c: spring-sliders on the initial loading curve, in harmonic motion and in a time step.
+/* sliders.c: spring-sliders in harmonic motion.
  *
  * Alternating frequency/time steps through every sample of two periods, as solvers do; the second one counts. A slider j with a
  * limit that may vary, in one direction or in the plane by radial return:
@@ -39,54 +39,9 @@ sliders sliders_fitted(const mslip_contact *contact, size_t n, double amplitude)
     return sliders_of(n, stiffness, slip);
 }
 
-/* Two passes, so that both are vectorised. */
-void sliders_curve(const void *context, size_t n, const double *displacement, double *force, double *stiffness)
+static double sliders_step(const sliders *s, double load, double *restrict forces, double du)
 {
-    const sliders *s = context;
-    for (size_t i = 0; i < n; ++i) {
-        double t[LANES] = { 0 }, k[LANES] = { 0 };
-        for (size_t j = 0; j < s->padded; j += LANES) {
-            for (int l = 0; l < LANES; ++l) {
-                const double trial = s->stiffness[j + l] * displacement[i], slip = s->slip[j + l];
-                t[l] += trial < slip ? trial : slip;
-            }
-        }
-        for (size_t j = 0; j < s->padded; j += LANES) {
-            for (int l = 0; l < LANES; ++l) {
-                k[l] += s->stiffness[j + l] * displacement[i] < s->slip[j + l] ? s->stiffness[j + l] : 0.0;
-            }
-        }
-        force[i] = sum_of(t);
-        stiffness[i] = sum_of(k);
-    }
-}
-
-void sliders_stiffness(const void *context, double amplitude, double result[4])
-{
-    const sliders *s = context;
-    double stick = 0.0, real = 0.0, imaginary = 0.0, d_real = 0.0, d_imaginary = 0.0;
-    for (size_t i = 0; i < s->n; ++i) {
-        const double k = s->stiffness[i];
-        if (s->slip[i] >= k * amplitude) {
-            stick += k;
-            continue;
-        }
-        /* cos(theta) = 1 - 2y; y: the displacement at which it slips over the amplitude. */
-        const double y = s->slip[i] / k / amplitude, cosine = 1.0 - 2.0 * y, sine = 2.0 * sqrt(y * (1.0 - y));
-        real += k * (acos(cosine) - sine * cosine);
-        imaginary += k * sine * sine;
-        d_real -= k * y * sine;
-        d_imaginary -= k * y * cosine;
-    }
-    result[0] = stick + real / PI;
-    result[1] = imaginary / PI;
-    result[2] = 4.0 * d_real / (PI * amplitude);
-    result[3] = 4.0 * d_imaginary / (PI * amplitude);
-}
-
-double sliders_step(const sliders *s, double load, double *restrict forces, double du, double *stiffness)
-{
-    double t[LANES] = { 0 }, k[LANES] = { 0 };
+    double t[LANES] = { 0 };
     for (size_t j = 0; j < s->padded; j += LANES) {
         for (int l = 0; l < LANES; ++l) {
             const double slip = load * s->slip[j + l], trial = forces[j + l] + s->stiffness[j + l] * du;
@@ -96,12 +51,6 @@ double sliders_step(const sliders *s, double load, double *restrict forces, doub
             t[l] += f;
         }
     }
-    for (size_t j = 0; j < s->padded; j += LANES) {
-        for (int l = 0; l < LANES; ++l) {
-            k[l] += fabs(forces[j + l]) < load * s->slip[j + l] ? s->stiffness[j + l] : 0.0;
-        }
-    }
-    *stiffness = sum_of(k);
     return sum_of(t);
 }
 
@@ -234,7 +183,7 @@ static inline __attribute__((always_inline)) void harmonic(aft *a, const double 
         } else if (sliders == 1) {
             total[0] = jenkins_step(*a->sliders.stiffness, load * *a->sliders.slip, a->force[0], motion[0], &tangent);
         } else {
-            total[0] = sliders_step(&a->sliders, load, a->force[0], motion[0], &tangent);
+            total[0] = sliders_step(&a->sliders, load, a->force[0], motion[0]);
         }
         if (jacobian) {
             for (int j = 0; j < stride; ++j) {
