@@ -35,7 +35,8 @@ fn is_available(call: &Call, law: &Law) -> bool {
     !(call.flat && law.is_elliptic || call.one_direction && law.directions == 2)
 }
 
-/// Each call with the first law of each number of directions and rule of a workspace: what is rejected depends on no more.
+/// Each call with the first law of each number of directions and rule of a workspace: what is rejected depends on no more. Under Miri with
+/// the first one.
 fn for_each_call(test: impl Fn(&Call, &Law)) {
     for call in CALLS {
         let laws = Law::all(call);
@@ -43,7 +44,8 @@ fn for_each_call(test: impl Fn(&Call, &Law)) {
             laws[..*place].iter().all(|other| (other.directions, other.rule) != (law.directions, law.rule))
         };
         let first = laws.iter().enumerate().filter(is_first).map(|(_, law)| law);
-        first.filter(|law| is_available(call, law)).for_each(|law| test(call, law));
+        let few = if cfg!(miri) { 1 } else { usize::MAX };
+        first.filter(|law| is_available(call, law)).take(few).for_each(|law| test(call, law));
     }
 }
 
@@ -375,35 +377,18 @@ fn skipped_items() {
     });
 }
 
-/// Two items are at fault, each in one of its arguments: the first one is reported.
-#[test]
-fn first_item_at_fault() {
-    for_each_call(|call, law| {
-        let Some(index) = call.place(Index) else { return };
-        let of_item = |place: &usize| matches!(call.arguments[*place].kind, Index | Contact | Element | State | Input);
-        let places: Vec<usize> = (0..call.arguments.len()).filter(of_item).collect();
-        for (first, second) in places.iter().flat_map(|first| places.iter().map(move |second| (*first, *second))) {
-            let mut arguments = Arguments::new(call, law, Before::Filled);
-            arguments.memory_mut(index).values_mut().copy_from_slice(&[0, 1, 2]);
-            for (item, place) in [(1, first), (2, second)] {
-                let memory = arguments.memory_mut(place);
-                let share = memory.bytes / N;
-                memory.values_mut::<u8>()[share * item..share * (item + 1)].fill(u8::MAX);
-            }
-            rejected_as(call, &arguments, call.arguments[first].status, "two items at fault");
-        }
-    });
-}
-
 #[test]
 fn versions_and_messages() {
+    const MOST_STATUS: i32 = 200;
     // SAFETY: static strings.
     let text = |pointer: *const _| unsafe { CStr::from_ptr(pointer) }.to_str().unwrap().to_owned();
     assert_eq!(text(mslip_version()), env!("CARGO_PKG_VERSION"));
     assert_eq!(mslip_abi_version(), MSLIP_ABI_VERSION);
-    let messages: HashSet<String> = (0..1000).map(|status| text(mslip_status_text(status))).collect();
+    let messages: HashSet<String> = (0..MOST_STATUS).map(|status| text(mslip_status_text(status))).collect();
     assert_eq!(messages.len(), microslip::Error::ALL.len() + 2);
-    assert!([-1, 1000, i32::MIN, i32::MAX].iter().all(|status| messages.contains(&text(mslip_status_text(*status)))));
+    assert!(
+        [-1, MOST_STATUS, i32::MIN, i32::MAX].iter().all(|status| messages.contains(&text(mslip_status_text(*status))))
+    );
 }
 
 /// These have no status and write to any address; the parameters are unset then.

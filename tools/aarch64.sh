@@ -59,7 +59,7 @@ drivers() {
 application() {
     compiler=$1 library=$2 program=$3
     shift 3
-    "$compiler" -O1 -ffp-contract=off -I"$library/include" -Iverification/embedding verification/embedding/all_calls.c \
+    "$compiler" -O1 -ffp-contract=off -I"$library/include" -Iverification/embedding verification/embedding/calls.c \
         verification/embedding/application.c "$library/lib/libmicroslip.a" "$@" -lm -o "$work/$program"
 }
 # With the same mathematical functions for both the results are the same.

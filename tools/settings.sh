@@ -115,7 +115,7 @@ program() {
 processors() {
     for cpu in native x86-64-v3 x86-64; do
         CPU=$cpu tools/archive.sh "$work/archive.a" &&
-            program application -Iverification/embedding verification/embedding/all_calls.c verification/embedding/application.c &&
+            program application -Iverification/embedding verification/embedding/calls.c verification/embedding/application.c &&
             "$work/application" > "$work/$cpu" && cmp "$work/native" "$work/$cpu" || return
     done
 }

@@ -362,6 +362,26 @@ fn invalid_items() {
     });
 }
 
+/// Two items are at fault, each in one of its arguments: the first one is reported.
+#[test]
+fn first_item_at_fault() {
+    for_each_call(|call, law| {
+        let Some(index) = call.place(Index) else { return };
+        let of_item = |place: &usize| matches!(call.arguments[*place].kind, Index | Contact | Element | State | Input);
+        let places: Vec<usize> = (0..call.arguments.len()).filter(of_item).collect();
+        for (first, second) in places.iter().flat_map(|first| places.iter().map(move |second| (*first, *second))) {
+            let mut arguments = Arguments::new(call, law, Before::Filled);
+            arguments.memory_mut(index).values_mut().copy_from_slice(&[0, 1, 2]);
+            for (item, place) in [(1, first), (2, second)] {
+                let memory = arguments.memory_mut(place);
+                let share = memory.bytes / N;
+                memory.values_mut::<u8>()[share * item..share * (item + 1)].fill(u8::MAX);
+            }
+            rejected_as(call, &arguments, call.arguments[first].status, "two items at fault");
+        }
+    });
+}
+
 /// Calls with invalid pointers and lengths, arbitrary values and arbitrary memory behind valid tags. `verification/fuzz` makes the
 /// same under AddressSanitizer, guided by coverage.
 #[test]

@@ -2,8 +2,7 @@
 #ifndef BENCH_H
 #define BENCH_H
 
-#include "../../c_tests/outputs.h"
-
+#include <microslip.h>
 #include <stdio.h>
 
 #define PI 3.14159265358979323846

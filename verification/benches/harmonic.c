@@ -23,7 +23,7 @@ static double run(void *context)
     if (j->aft) {
         sliders_harmonic(j->aft, j->displacement, j->force, jacobian);
     } else if (j->element) {
-        mslip_element_harmonic_force(j->element, j->workspace, j->displacement, j->force, jacobian, NULL);
+        mslip_element_harmonic_force(j->element, j->workspace, j->displacement, j->force, jacobian, NULL, NULL);
     } else {
         mslip_harmonic_force(j->contact, j->workspace, j->displacement, j->force, jacobian, NULL);
     }

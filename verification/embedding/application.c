@@ -4,7 +4,7 @@
 #endif
 #include <microslip.h> /* depends on no other header and may be included twice */
 
-#include "all_calls.h"
+#include "calls.h"
 
 #include <errno.h>
 #include <fenv.h>

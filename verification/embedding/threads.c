@@ -1,6 +1,7 @@
-/* threads.c [once]: contacts and elements shared by 1 to 8 threads, each with workspaces of its own, give the results of one
-   thread, bit by bit. The first call is made by several threads at once or, with an argument, before there are any. */
-#include "all_calls.h"
+/* threads.c: contacts and elements shared by 1 to 8 threads, each with workspaces of its own, give the results of one
+   thread, bit by bit. The first call is made by
+   several threads at once. */
+#include "calls.h"
 
 #include <pthread.h>
 #include <stdio.h>
@@ -25,12 +26,9 @@ static void *initialise_some(void *first)
 
 static void *call_some(void *first)
 {
-    struct sequence sequence;
-    begin_sequence(&sequence);
     for (mslip_contact *contact = (mslip_contact *)first; contact < contacts + CONTACTS; contact += threads) {
-        hashes[contact - contacts] = hash_of_one(&sequence, contact, &elements[contact - contacts]);
+        hashes[contact - contacts] = hash_of_one(contact, &elements[contact - contacts]);
     }
-    end_sequence(&sequence);
     return NULL;
 }
 
@@ -47,13 +45,9 @@ static void on_threads(int n, void *(*run)(void *))
     }
 }
 
-int main(int argc, char **argv)
+int main(void)
 {
     uint64_t expected[CONTACTS];
-    (void)argv;
-    if (argc > 1) {
-        initialise(0, contacts, elements);
-    }
     on_threads(MOST, initialise_some);
     for (int i = 0; i < CONTACTS; ++i) {
         static mslip_contact contact;

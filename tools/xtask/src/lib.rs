@@ -16,8 +16,6 @@ const MODULE: &str = "include/microslip.f90";
 const PYTHON: &str = "python/microslip/_core.py";
 const TEST_OF_FORTRAN: [&str; 2] = ["tests/fortran/procedures.f90", "tests/fortran/calls.f90"];
 const CALLS_OF_RUST: &str = "tests/calls/table.rs";
-const CALLS_OF_C: &str = "c_tests/functions.h";
-const OUTPUTS_OF_C: &str = "c_tests/outputs.h";
 const RECORD: &str = "c_tests/abi.h";
 const CHANGELOG: &str = "CHANGELOG.md";
 const INCLUDE_GUARD: &str = "MICROSLIP_H";
@@ -50,7 +48,7 @@ pub fn symbols() -> Vec<String> {
 }
 
 /// The generated files, as paths in the repository, with the texts that they should have.
-fn generated() -> Result<[(&'static str, String); 9], String> {
+fn generated() -> Result<[(&'static str, String); 7], String> {
     let header = header();
     let module = fortran::fill(&read(MODULE)?, &header).map_err(|e| format!("{MODULE}: {e}"))?;
     let python = fortran::python(&read(PYTHON)?, &header).map_err(|e| format!("{PYTHON}: {e}"))?;
@@ -60,11 +58,9 @@ fn generated() -> Result<[(&'static str, String); 9], String> {
     let [procedures, calls] = wrappers::test(&functions);
     let (procedures, calls) = ((TEST_OF_FORTRAN[0], procedures), (TEST_OF_FORTRAN[1], calls));
     let rust = (CALLS_OF_RUST, tables::rust(&functions));
-    let c = (CALLS_OF_C, tables::c(&functions));
-    let outputs = (OUTPUTS_OF_C, tables::outputs(&functions));
     let record = record::record(&header)?;
     record::is_compatible(&read(RECORD).unwrap_or_default(), &record, &read(CHANGELOG)?)?;
-    Ok([(HEADER, header), (RECORD, record), (MODULE, module), (PYTHON, python), rust, c, outputs, procedures, calls])
+    Ok([(HEADER, header), (RECORD, record), (MODULE, module), (PYTHON, python), rust, procedures, calls])
 }
 
 /// Writes the header and the generated blocks of the Fortran module.
