@@ -1,7 +1,6 @@
 //! The law under prescribed forces: the displacement that gives a tangential force, by Newton's method with the law's tangent.
 
-use crate::histories::{History, Row};
-use microslip::constant_load::{ConstantLoad, state as constant_state};
+use crate::histories::History;
 use microslip::element::Element;
 use microslip::one_direction::{self as state, Law, OneDirection};
 
@@ -11,7 +10,6 @@ pub const SUBSTEPS: u32 = 6;
 /// The law at the end of a step.
 #[derive(Debug, Clone, Copy)]
 pub struct Point {
-    pub tangential_force: f64,
     pub displacement: f64,
     /// Energy dissipated so far \[J\].
     pub dissipated: f64,
@@ -44,7 +42,7 @@ pub fn varying(element: &Element, history: &History) -> Vec<Point> {
     OneDirection::state_init(&mut memory).expect("a state");
     // Twice the shift under the largest force: beyond it there is gross slip.
     let reach = 4.0 * element.friction_coefficient * element.shift_under(element.normal_force);
-    let mut now = Point { tangential_force: 0.0, displacement: 0.0, dissipated: 0.0 };
+    let mut now = Point { displacement: 0.0, dissipated: 0.0 };
     let mut last = history.rows[0];
     let mut points = Vec::new();
     for (i, row) in history.rows.iter().enumerate() {
@@ -61,31 +59,10 @@ pub fn varying(element: &Element, history: &History) -> Vec<Point> {
             let displacement = displacement_at(target, start, low, high, trial);
             let step = OneDirection::step(element, &mut memory, [displacement, normal_force]).expect("a step");
             let dissipated = now.dissipated + step.dissipated;
-            now = Point { tangential_force: step.force[0], displacement, dissipated };
+            now = Point { displacement, dissipated };
             points.push(now);
         }
         last = *row;
     }
     points
-}
-
-/// The law of a constant normal force along a history, at its rows.
-pub fn constant(history: &History) -> Vec<Point> {
-    let contact = history.shape.contact(history.shape.normal_force()).expect("a contact");
-    let mut memory = vec![0.0; constant_state::state_length(256)];
-    ConstantLoad::state_init(&mut memory).expect("a state");
-    let reach = 4.0 * contact.slip_displacement;
-    let mut now = Point { tangential_force: 0.0, displacement: 0.0, dissipated: 0.0 };
-    let to_row = |row: &Row| {
-        let trial = |u: f64| {
-            let step = ConstantLoad::step(&contact, &mut memory.clone(), u).expect("a step");
-            (step.force, step.tangent)
-        };
-        let (start, low, high) = (now.displacement, now.displacement - reach, now.displacement + reach);
-        let displacement = displacement_at(row.tangential_force, start, low, high, trial);
-        let step = ConstantLoad::step(&contact, &mut memory, displacement).expect("a step");
-        now = Point { tangential_force: step.force, displacement, dissipated: now.dissipated + step.dissipated };
-        now
-    };
-    history.rows.iter().map(to_row).collect()
 }

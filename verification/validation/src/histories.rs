@@ -2,7 +2,7 @@
 //! MPa and mJ; here everything is in SI units.
 
 use microslip::element::{Directions, Element, NormalInput};
-use microslip::{Contact, EllipticParameters, Error, Material, Parameters};
+use microslip::{EllipticParameters, Error, Material, Parameters};
 
 /// The contacts of the files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -63,15 +63,6 @@ fn rows(shape: Shape, text: &str) -> Vec<Row> {
 }
 
 impl Shape {
-    /// Normal force about which the load swings.
-    pub fn normal_force(self) -> f64 {
-        match self {
-            Shape::Cylinder => 35_780.0,
-            Shape::RoundedFlat => 800.0,
-            Shape::Sphere => 9.1954,
-        }
-    }
-
     pub fn friction_coefficient(self) -> f64 {
         match self {
             Shape::Cylinder => 0.3,
@@ -126,14 +117,6 @@ impl Shape {
         match self {
             Shape::Sphere => Element::elliptic(&self.sphere(normal_force), Directions::One, NormalInput::Force),
             _ => Element::rounded_flat(&self.line(normal_force), Directions::One, NormalInput::Force),
-        }
-    }
-
-    /// The contact under a constant normal force.
-    pub fn contact(self, normal_force: f64) -> Result<Contact, Error> {
-        match self {
-            Shape::Sphere => Contact::elliptic(&self.sphere(normal_force)),
-            _ => Contact::rounded_flat(&self.line(normal_force)),
         }
     }
 }
