@@ -1,8 +1,7 @@
 //! Every call of the C interface, by a table, with memory of exact length: each array is an allocation of its own, and outputs are
 //! uninitialised.
 //!
-//! No call raises a floating-point exception that an application may trap, and a rejected one has the same status in four rounding
-//! modes. Under Miri (`tools/miri.sh`) every access outside an array, read of uninitialised memory, misaligned access and use of
+//! No call raises a floating-point exception that an application may trap. Under Miri (`tools/miri.sh`) every access outside an array, read of uninitialised memory, misaligned access and use of
 //! an invalidated reference is an error.
 
 #![allow(
@@ -28,7 +27,6 @@ use calls::{Arguments, Before, CALLS, Call, FILLED, FLAT, Kind, Law, Memory, N, 
 use microslip::ffi::*;
 use std::collections::HashSet;
 use std::ffi::CStr;
-use std::ops::Range;
 use std::ptr::null_mut;
 
 fn is_available(call: &Call, law: &Law) -> bool {
@@ -107,18 +105,11 @@ fn check_failed_item(call: &Call, arguments: &Arguments, failed: usize, status: 
 
 /// Rejected with this status, and no memory is modified.
 fn rejected_as(call: &Call, arguments: &Arguments, status: i32, what: &str) {
-    rejected_in(0..calls::MODES, call, arguments, status, what);
-}
-
-/// Rejected in these rounding modes.
-fn rejected_in(modes: Range<usize>, call: &Call, arguments: &Arguments, status: i32, what: &str) {
     take_failed_item(call, arguments);
     let before = bytes(arguments);
-    for mode in modes {
-        assert_eq!(call.make_rounding(mode, &arguments.slots), status, "{}: {what}, rounding mode {mode}", call.name);
-        if let Some(failed) = take_failed_item(call, arguments) {
-            check_failed_item(call, arguments, failed, status, what);
-        }
+    assert_eq!(call.make(&arguments.slots), status, "{}: {what}", call.name);
+    if let Some(failed) = take_failed_item(call, arguments) {
+        check_failed_item(call, arguments, failed, status, what);
     }
     // Whether the normal motion of an element is allowed depends on samples in the workspace.
     let by_samples = call.has(Workspace) && matches!(status, MSLIP_LENGTH_TOO_SHORT | MSLIP_BAD_NORMAL_FORCE);

@@ -80,7 +80,7 @@ fn headers_are_checked() {
             let words = arguments.memory(place).values::<u64>().to_vec();
             let mut expect = |words: &[u64]| {
                 arguments.memory_mut(place).values_mut().copy_from_slice(words);
-                rejected_in(0..1, call, &arguments, argument.status, argument.name);
+                rejected_as(call, &arguments, argument.status, argument.name);
             };
             expect(&[&words[1..], &words[..1]].concat());
             match argument.kind {
