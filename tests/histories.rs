@@ -215,59 +215,6 @@ fn work(displacement: &[f64], force: &[f64]) -> f64 {
     PI * (1..).zip(pairs).map(|(k, ([a, b], [of_cos, of_sin]))| f64::from(k) * (of_cos * b - of_sin * a)).sum::<f64>()
 }
 
-/// The definition: the second of two periods from the unloaded state, step by step. The Jacobian by differences.
-#[test]
-fn harmonic_forces_of_the_second_period() {
-    const COEFFICIENTS: usize = 9;
-    let mut random = Random(seed());
-    for input in inputs(&LAYERS) {
-        let contact = input.contact();
-        for case in 0..16 {
-            let (samples, size) = (9 + random.below(61), 0.05 + 3.0 * random.next());
-            let present = |k: usize| case % 2 == 0 || k.div_ceil(2) % 2 == 1;
-            let displacement: Vec<f64> = (0..COEFFICIENTS)
-                .map(|k| if present(k) { size * random.signed() / 3.0 * contact.slip_displacement } else { 0.0 })
-                .collect();
-            let (mut state, u) = (unloaded(64), sampled(&displacement, samples));
-            let (mut forces, mut dissipated) = (vec![0.0; samples], 0.0);
-            for period in 0..2 {
-                for (u, place) in u.iter().zip(&mut forces) {
-                    let (force, _, energy) = advance(&contact, &mut state, *u);
-                    *place = force;
-                    dissipated += if period > 0 { energy } else { 0.0 };
-                }
-            }
-            let (force, jacobian, energy) = harmonic(&contact, Rule::UniformSampling, samples, &displacement);
-            for (k, (mean, force)) in coefficients_of(&forces, COEFFICIENTS).into_iter().zip(&force).enumerate() {
-                // Displacements are summed in another order; near gross slip that changes the force by more than its rounding error.
-                assert!((mean - force).abs() < 1e-11 * contact.slip_force, "{input:?} {samples} {k}: {mean} {force}");
-            }
-            let scale = energy + 1e-3 * contact.slip_energy;
-            assert!((dissipated - energy).abs() < 1e-9 * scale, "{input:?}: {dissipated} {energy}");
-            // Small, as a sample within h of gross slip or of a reversal has another derivative on the other side; rounding errors over h
-            // are 1e-7 of the stiffness.
-            let h = 1e-9 * contact.slip_displacement;
-            let mut wrong = 0;
-            for column in 0..COEFFICIENTS {
-                let at = |step: f64| {
-                    let mut displacement = displacement.clone();
-                    displacement[column] += step;
-                    harmonic(&contact, Rule::UniformSampling, samples, &displacement).0
-                };
-                let derivatives = &jacobian[COEFFICIENTS * column..][..COEFFICIENTS];
-                let differences = at(h).into_iter().zip(at(-h)).map(|(one, other)| (one - other) / (2.0 * h));
-                wrong += differences
-                    .zip(derivatives)
-                    .filter(|(difference, derivative)| {
-                        (difference - *derivative).abs() > 1e-4 * contact.initial_stiffness
-                    })
-                    .count();
-            }
-            assert!(wrong == 0, "{input:?} {samples} {displacement:?}: {wrong} derivatives");
-        }
-    }
-}
-
 /// An element in a history.
 struct History<'a> {
     element: &'a Element,
@@ -328,7 +275,7 @@ const SCENES: [[f64; 3]; 10] = [
     [3.0, 0.7, 0.0],
 ];
 
-/// The same for elements. Every third motion is half-wave symmetric; the normal component of one is 1 + cos t, which is 0 at a sample.
+/// The definition: the second of two periods, step by step. The Jacobian by differences. Every third motion is half-wave symmetric; the normal component of one is 1 + cos t, which is 0 at a sample.
 #[test]
 fn harmonic_forces_of_elements_of_the_second_period() {
     let (mut random, mut columns, mut corners) = (Random(1), 0, 0);

@@ -202,29 +202,6 @@ def test_sensitivities_are_derivatives(parameter):
         assert_allclose(found.sensitivity[..., parameter], expected, rtol=1e-6, atol=1e-8 * contact.slip_force / value)
 
 
-def test_batches_are_single_calls():
-    displacement = np.array([0.3, -0.8, 1.2]) * SLIP
-    index = np.array([1, 0, 0])
-    chosen = [contacts[int(i)] for i in index]
-    states = contacts.states(3)
-    kept = states.copy()
-    force, stiffness, dissipated, new = contacts.update(states, displacement, index=index)
-    assert (states == kept).all()
-    for i, one in enumerate(chosen):
-        step = one.update(microslip.State(), displacement[i])
-        assert (force[i], stiffness[i], dissipated[i]) == step[:3]
-        assert (new[i] == step.state.array).all()
-    stiffness = contacts.complex_stiffness(abs(displacement), index=index, active=[True, False, True])
-    for i, one in enumerate(chosen):
-        expected = one.complex_stiffness(abs(displacement[i])) if i != 1 else (0, 0, 0, 0)
-        assert tuple(values[i] for values in stiffness) == tuple(expected)
-    in_place = contacts.update(states, displacement, index=index, active=[1, 0, 1], out=states)
-    assert in_place[3] is states
-    assert (states[[0, 2]] == new[[0, 2]]).all()
-    assert (states[1] == kept[1]).all()
-    assert [c.slip_force for c in contacts] == [contact.slip_force, elliptic.slip_force]
-
-
 def test_batches_name_the_item_at_fault():
     displacement = [[SLIP, 1e-6], [SLIP, np.nan]]
     with pytest.raises(microslip.Error, match=r"^item 1: a displacement must be finite") as caught:

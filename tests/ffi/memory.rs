@@ -1,7 +1,7 @@
 //! Memory that is not what it should be: flipped, shifted, mixed or foreign contacts, elements, states and workspaces;
 //! states that are not finite or not nested; batches with invalid items; arbitrary bytes.
 
-use super::values::{NON_FINITE, accepted};
+use super::values::NON_FINITE;
 use super::*;
 use calls::mutation::{Bytes, mutated_call};
 
@@ -26,7 +26,7 @@ fn laws() -> impl Iterator<Item = (&'static Call, &'static Law)> {
     contacts.chain(calls::elements().iter().map(|law| (call("mslip_element_check"), law)))
 }
 
-/// Any changed bit of a contact or an element is found, any mixture of two, and text that has changed it, but no copy.
+/// Any changed bit of a contact or an element is found, and text that has changed it, but no copy.
 #[test]
 fn changed_contacts_and_elements() {
     for (check, law) in laws() {
@@ -49,19 +49,6 @@ fn changed_contacts_and_elements() {
                 |word: &u64| format!("{:.*e}", digits - 1, f64::from_bits(*word)).parse::<f64>().unwrap().to_bits();
             let text: Vec<u64> = valid.iter().map(text).collect();
             expect(&text, if text == valid { MSLIP_OK } else { status });
-        }
-        for (_, other) in laws().filter(|(_, other)| other.bytes.len() == law.bytes.len() && other.bytes != law.bytes) {
-            let other = self::words(&other.bytes);
-            for k in 0..=valid.len() {
-                let mixed = [&valid[..k], &other[k..]].concat();
-                let is_valid = mixed == valid || mixed == other;
-                expect(&mixed, if is_valid { MSLIP_OK } else { status });
-            }
-        }
-        let zeros = vec![0; valid.len()];
-        for k in 0..valid.len() {
-            let truncated = [&valid[..k], &zeros[k..]].concat();
-            expect(&truncated, if truncated == valid { MSLIP_OK } else { status });
         }
         expect(&[&valid[1..], &valid[..1]].concat(), status);
         expect(&valid.iter().map(|word| word.swap_bytes()).collect::<Vec<_>>(), status);
@@ -252,33 +239,16 @@ fn unused_memory() {
     });
 }
 
-/// The state of a stronger contact has forces that a weaker one cannot carry; steps with it stay within its bound.
+/// The state of a stronger contact has forces that a weaker one cannot carry.
 #[test]
 fn states_of_other_contacts() {
-    let strong = calls::contact(&FLAT);
-    let (state, _) = filled_state(&strong, false);
-    for friction_coefficient in [0.0, 1e-6, 0.01, 0.2, 0.41, 10.0] {
-        let weak = calls::contact(&microslip::Parameters { friction_coefficient, ..FLAT });
-        for name in ["mslip_masing_tractions", "mslip_masing_update"] {
-            let f = call(name);
-            let mut arguments = Arguments::new(f, &weak, Before::Filled);
-            arguments.slots[1] = Slot::Size(state.bytes / 8);
-            arguments.set(2, Memory::of(state.values::<f64>()));
-            f.place(NewState).inspect(|new| arguments.set(*new, Memory::of(state.values::<f64>())));
-            if f.has(NewState) {
-                for k in -20..=20 {
-                    arguments.slots[3] = Slot::Value(0.05 * f64::from(k) * strong.displacement);
-                    accepted(f, &arguments, "the state of another contact");
-                    let [force, stiffness, energy] = [5, 6, 7].map(|place| arguments.memory(place).values::<f64>()[0]);
-                    assert!(force.abs() <= weak.force && stiffness >= 0.0 && energy >= 0.0);
-                }
-            } else if friction_coefficient < 0.05 {
-                rejected_as(f, &arguments, MSLIP_FORCE_EXCEEDS_SLIP, "the state of a stronger contact");
-            } else {
-                accepted(f, &arguments, "the state of another contact");
-            }
-        }
-    }
+    let (state, _) = filled_state(&calls::contact(&FLAT), false);
+    let weak = calls::contact(&microslip::Parameters { friction_coefficient: 0.01, ..FLAT });
+    let tractions = call("mslip_masing_tractions");
+    let mut arguments = Arguments::new(tractions, &weak, Before::Filled);
+    arguments.slots[1] = Slot::Size(state.bytes / 8);
+    arguments.set(2, state);
+    rejected_as(tractions, &arguments, MSLIP_FORCE_EXCEEDS_SLIP, "the state of a stronger contact");
 }
 
 /// A batch gives the results of its items alone, each with a contact, a state and values of its own.

@@ -1,7 +1,6 @@
 //! Every value of every argument: non-finite, beyond its limit, and extreme but valid ones.
 
 use super::*;
-use calls::HARMONICS;
 use std::iter::once;
 
 /// NaN, quiet and signalling, of either sign, and infinities.
@@ -278,7 +277,6 @@ fn extreme(call: &Call, arguments: &Arguments, what: &str) {
 #[test]
 fn parameters() {
     const EXTREMES: [f64; 11] = [LEAST, 1e-310, 1e-300, 1e-200, 1e-160, 1e-100, 1e100, 1e160, 1e200, 1e300, f64::MAX];
-    const PAIRS: [f64; 5] = [LEAST, 1e-300, 1e-150, 1e150, 1e300];
     for_each_shape(|call, law, fields| {
         let mut arguments = Arguments::new(call, law, Before::Filled);
         for (i, (status, zero_is_valid, largest)) in fields.iter().enumerate() {
@@ -298,16 +296,6 @@ fn parameters() {
                 extreme(call, &arguments, "one value");
                 assert!(value != 0.0 || call.make(&arguments.slots) == MSLIP_OK);
                 arguments.exchange(0, i, before);
-            }
-            for (j, (_, _, largest)) in fields.iter().enumerate().filter(|(j, _)| *j != i) {
-                for value in PAIRS.into_iter().filter(valid) {
-                    for other in PAIRS.into_iter().filter(|other| other <= largest) {
-                        let before = (arguments.exchange(0, i, value), arguments.exchange(0, j, other));
-                        extreme(call, &arguments, "two values");
-                        arguments.exchange(0, i, before.0);
-                        arguments.exchange(0, j, before.1);
-                    }
-                }
             }
         }
         // The first invalid value decides the status.
@@ -387,39 +375,4 @@ fn layers(call: &Call, arguments: &mut Arguments, first: usize) {
     let soft = [1e-9, 1e-9, 0.01 * load, 1e13 * load];
     soft.iter().enumerate().for_each(|(k, value)| _ = arguments.exchange(0, first + k, *value));
     rejected_as(call, arguments, MSLIP_BAD_REFERENCE_LOAD, "a layer of 1e13 times its compliance under the load");
-}
-
-/// Normal motions with an open contact, negative normal forces, and loads from the smallest to beyond the tables.
-#[test]
-fn normal_motions() {
-    let sizes = [0.0, LEAST, 1e-310, 1e-300, 1e-200, 1e-100, 1e-65, 1e-55, 1e-30, 1e-6, 1e-3, 20.0];
-    let calls = CALLS.iter().filter(|call| call.has(Element) && call.has(Workspace) && call.has(Output));
-    for (call, law) in calls.flat_map(|call| Law::all(call).into_iter().map(move |law| (call, law))) {
-        let input = call.place(Input).expect("a motion");
-        let by_force = law.normal_input == MSLIP_INPUT_NORMAL_FORCE;
-        let k = 2 * HARMONICS + 1;
-        for (size, swing) in sizes.iter().flat_map(|size| [0.0, 1.0, 6.0, -1.0].map(|swing| (*size, swing))) {
-            let mut arguments = Arguments::new(call, &law, Before::Filled);
-            for i in 0..arguments.memory(input).bytes / 8 {
-                if law.is_normal(call, &call.arguments[input], i) {
-                    // The mean, and two harmonics of which the first opens the contact.
-                    let value = law.normal * size * [0.5, 0.3 * swing, 0.0][i % k];
-                    arguments.exchange(input, i, value);
-                }
-            }
-            if by_force && swing > 1.0 && size > 1e-300 {
-                rejected_as(call, &arguments, MSLIP_BAD_NORMAL_FORCE, "a negative force");
-            } else if !by_force || swing <= 1.0 {
-                accepted(call, &arguments, &format!("normal motion {size} {swing}"));
-            }
-        }
-        let mut arguments = Arguments::new(call, &law, Before::Filled);
-        let last = arguments.memory(input).bytes / 8 - k;
-        arguments.exchange(input, last, -1e-3);
-        if by_force {
-            rejected_as(call, &arguments, MSLIP_BAD_NORMAL_FORCE, "a negative mean");
-        } else {
-            accepted(call, &arguments, "open for the whole period");
-        }
-    }
 }
