@@ -22,7 +22,7 @@ chmod +x "$build/rustc"
 export RUSTC_WORKSPACE_WRAPPER="$build/rustc" CARGO_TARGET_DIR="$build" LLVM_PROFILE_FILE="$build/profiles/%m-%p.profraw"
 # Threads that count the same lines wait for each other: two take twice the time.
 export RUST_TEST_THREADS=1
-"$CARGO" test --locked --package microslip --lib --test ffi --test histories --test two_directions --test rough_layers > "$build/log" 2>&1 ||
+"$CARGO" test --locked --package microslip --lib --test ffi > "$build/log" 2>&1 ||
     { cat "$build/log"; echo '0 passed, 1 failed'; exit 1; }
 "$tools/llvm-profdata" merge --sparse "$build"/profiles/*.profraw -o "$build/merged.profdata"
 
