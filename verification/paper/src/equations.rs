@@ -69,11 +69,6 @@ impl Tractions<'_> {
         integral(&points, limit, |x| self.at(x) * f(x))
     }
 
-    /// Q/μP.
-    pub fn force(&self) -> f64 {
-        2.0 * self.integral(1.0, 0.0, |_| 1.0)
-    }
-
     /// Eq. 10, for L/b.
     pub fn displacement(&self, length: f64) -> f64 {
         2.0 * self.integral(1.0, 0.0, |x| (length / x).ln() + POISSON / (1.0 - POISSON))
