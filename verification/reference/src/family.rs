@@ -3,7 +3,7 @@
 use crate::law::Change;
 use crate::{Input, Real};
 use microslip::parameters::CENTRE_POINT;
-use microslip::{EllipticParameters, Material, Parameters};
+use microslip::{EllipticParameters, Layer, Material, Parameters};
 use std::f64::consts::PI;
 
 /// Bits of the functions of a size after cancellation. Differences of energies lose up to 210: a slip of one rounding error, cubed, and
@@ -39,6 +39,48 @@ pub struct Family {
     /// N of the parameters.
     pub load: Real,
     kind: Kind,
+    layer: Option<Rough>,
+}
+
+/// A layer in series along the force: its compliance under no load, and N_c unless it is infinite.
+struct Rough {
+    compliance: Real,
+    stiffening: Option<Real>,
+}
+
+impl Rough {
+    /// dS/dN = c N_c/(N_c + N), with the given value under the load of the parameters.
+    fn new(layer: &Layer, load: &Real) -> Option<Rough> {
+        let stiffening = Real::new(load.bits(), layer.stiffening_load);
+        let is_linear = layer.stiffening_load == 0.0 || layer.stiffening_load.is_infinite();
+        let factor = if is_linear { Real::new(load.bits(), 1.0) } else { 1.0 + load / &stiffening };
+        let compliance = factor * layer.tangential_compliance;
+        compliance.is_positive().then(|| Rough { compliance, stiffening: (!is_linear).then_some(stiffening) })
+    }
+
+    /// S, M = ∫ N dS and dS/dN under a load.
+    fn at(&self, load: &Real) -> [Real; 3] {
+        let c = &self.compliance;
+        let stiffening = match &self.stiffening {
+            Some(stiffening) if load.is_positive() => stiffening,
+            _ => return [c * load, c * load.square() / 2.0, c.clone()],
+        };
+        // M loses as many bits as N is below N_c.
+        let bits = load.bits() + (stiffening.exponent() - load.exponent()).clamp(0, 20_000) as u32;
+        let share = load.at(bits) / stiffening;
+        let logarithm = share.ln_1p();
+        let scale = c * stiffening;
+        let slope = c / (1.0 + &share);
+        [&scale * &logarithm, &scale * stiffening * (share - logarithm), slope].map(|value| value.at(load.bits()))
+    }
+
+    /// -d²S/dN².
+    fn curvature(&self, load: &Real) -> Real {
+        match &self.stiffening {
+            None => 0.0 * load,
+            Some(stiffening) => &self.compliance * stiffening / (stiffening + load).square(),
+        }
+    }
 }
 
 enum Kind {
@@ -68,8 +110,8 @@ impl Family {
 
     /// The family of changed parameters. The bodies of an ellipse keep their shapes, but for a common factor R of their radii.
     pub fn changed(input: &Input, bits: u32, change: &Change) -> Family {
-        let (Input::Flat(Parameters { normal_force, friction_coefficient, material, .. })
-        | Input::Ellipse(EllipticParameters { normal_force, friction_coefficient, material, .. })) = input;
+        let (Input::Flat(Parameters { normal_force, friction_coefficient, material, layer, .. })
+        | Input::Ellipse(EllipticParameters { normal_force, friction_coefficient, material, layer, .. })) = input;
         let [by_load, _, _, _, by_modulus] = &change.factors;
         let modulus = by_modulus / (compliance_of(bits, &material[0]) + compliance_of(bits, &material[1]));
         let load = by_load * *normal_force;
@@ -77,7 +119,8 @@ impl Family {
             Input::Flat(p) => Kind::flat(p, &load, &modulus, change),
             Input::Ellipse(p) => Kind::ellipse(p, &load, change),
         };
-        Family { bits, friction: Real::new(bits, *friction_coefficient), composite_modulus: modulus, load, kind }
+        let layer = Rough::new(layer, &load);
+        Family { bits, friction: Real::new(bits, *friction_coefficient), composite_modulus: modulus, load, kind, layer }
     }
 
     pub fn real(&self, value: f64) -> Real {
@@ -132,6 +175,17 @@ impl Family {
 
     /// The size of w.
     pub fn size(&self, w: &Real) -> Size {
+        let mut size = self.without_layer(w);
+        if let Some(layer) = &self.layer {
+            let [shift, potential, slope] = layer.at(&size.load);
+            size.shift = size.shift + shift;
+            size.potential = size.potential + potential;
+            size.tangential_compliance = size.tangential_compliance + slope;
+        }
+        size
+    }
+
+    fn without_layer(&self, w: &Real) -> Size {
         match &self.kind {
             Kind::Flat { a, length, load_scale, compliance_scale, constants, .. } => {
                 let bits = self.bits + spare(a, w);
@@ -199,13 +253,17 @@ impl Family {
     /// d²N/dS², the growth of the stiffness 1/K_t with S.
     pub fn curvature(&self, size: &Size) -> Real {
         let cubed = size.tangential_compliance.square() * &size.tangential_compliance;
-        match &self.kind {
+        let of_contact = match &self.kind {
             Kind::Flat { a, load_scale, compliance_scale, .. } => {
                 let rate = 4.0 * size.half_width.square() * angle(a, &size.w) * load_scale;
-                compliance_scale / rate / cubed
+                compliance_scale / rate
             }
-            Kind::Ellipse { .. } => &size.tangential_compliance / (3.0 * &size.load) / cubed,
-        }
+            Kind::Ellipse { semi_axis, compliances: [_, tangential], .. } => {
+                tangential * semi_axis / &size.w / (3.0 * &size.load)
+            }
+        };
+        let of_layer = self.layer.as_ref().map_or(0.0 * &size.load, |layer| layer.curvature(&size.load));
+        (of_contact + of_layer) / cubed
     }
 
     /// K = ln(2L/s) less its constant, of the approach and of the shift; 1 for an ellipse. The logarithm is known to rounding only, in
@@ -221,6 +279,32 @@ impl Family {
 
     /// The size of a positive load, approach or shift: Newton's iteration.
     pub fn find(&self, given: Given, value: &Real) -> Size {
+        if self.layer.is_none() || given != Given::Shift {
+            return self.size(&self.find_without_layer(given, value));
+        }
+        // Newton's iteration for a shift up to that of the parameters, between 0 and w of these.
+        let whole = self.find_without_layer(Given::Load, &self.load);
+        let mut w = whole.clone();
+        for _ in 0..200 {
+            let size = self.size(&w);
+            let step = (value - &size.shift) / (&size.tangential_compliance * self.load_rate(&w));
+            let (next, relative) = (&w + &step, step.exponent() - w.exponent());
+            w = if !next.is_positive() {
+                w / 4.0
+            } else if next > whole {
+                (w + &whole) / 2.0
+            } else {
+                next
+            };
+            if 2 * relative < -(self.bits as i32) {
+                return self.size(&w);
+            }
+        }
+        panic!("no size of the shift {:e}", value.f64());
+    }
+
+    /// w of a size of the contact alone.
+    fn find_without_layer(&self, given: Given, value: &Real) -> Real {
         let (a, length, load_scale, compliance_scale, constants, reference) = match &self.kind {
             Kind::Flat { a, length, load_scale, compliance_scale, constants, load } => {
                 (a, length, load_scale, compliance_scale, constants, *load)
@@ -231,7 +315,7 @@ impl Family {
                     Given::Approach => (value / (1.5 * normal * load)).sqrt(),
                     Given::Shift => (value / (1.5 * tangential * load)).sqrt(),
                 };
-                return self.size(&(semi_axis * ratio));
+                return semi_axis * ratio;
             }
         };
         let constant = match given {
@@ -247,14 +331,13 @@ impl Family {
             None => scaled.f64(),
             Some(constant) => load_guess(a.f64(), length.f64(), constant.f64(), reference, scaled.f64()),
         };
-        let w = w_of(a, &scaled, guess, self.bits, |a, w, psi| {
+        w_of(a, &scaled, guess, self.bits, |a, w, psi| {
             let [found, slope] = [self::load(a, w, psi), 4.0 * w * psi];
             let Some(constant) = constant else { return [found, slope] };
             let half_width = (a.square() + w.square()).sqrt();
             let compliance = (2.0 * length / half_width).ln() + constant;
             [found * &compliance + b_sum(a, w, psi), slope * compliance]
-        });
-        self.size(&w)
+        })
     }
 }
 

@@ -5,7 +5,7 @@
 
 use crate::Real;
 use crate::family::{Family, Given, Size, angle};
-use microslip::{EllipticParameters, Parameters};
+use microslip::{EllipticParameters, Layer, Parameters};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::rc::Rc;
@@ -18,6 +18,21 @@ const RESULT_BITS: i32 = 112;
 pub enum Input {
     Flat(Parameters),
     Ellipse(EllipticParameters),
+}
+
+impl Input {
+    /// The same contact with another layer.
+    pub fn with_layer(self, layer: Layer) -> Input {
+        match self {
+            Input::Flat(p) => Input::Flat(Parameters { layer, ..p }),
+            Input::Ellipse(p) => Input::Ellipse(EllipticParameters { layer, ..p }),
+        }
+    }
+
+    pub fn layer(&self) -> Layer {
+        let (Input::Flat(Parameters { layer, .. }) | Input::Ellipse(EllipticParameters { layer, .. })) = *self;
+        layer
+    }
 }
 
 /// A contact at every precision used so far.

@@ -17,6 +17,12 @@ pub struct Case {
     pub kind: &'static str,
 }
 
+impl Case {
+    pub fn has_layer(&self) -> bool {
+        self.reference.input.layer().tangential_compliance > 0.0
+    }
+}
+
 /// An element of the library, and the same in multi-precision.
 pub struct ElementCase {
     pub element: microslip::element::Element,
