@@ -138,6 +138,63 @@ pub fn set_filled_state(call: &Call, law: &Law, arguments: &mut Arguments, place
     used
 }
 
+/// Own states are valid in every rounding mode, also with a layer of the smallest N_c: the loads of neighbouring knots differ by the error
+/// of the polynomials of N(S), which is largest where two of them meet, at shifts S = 2^k (1 + q/4). Gross slip is at mu S.
+#[test]
+fn states_with_layers_are_valid() {
+    let update = call("mslip_element_update");
+    let of = |p: &microslip::Parameters| {
+        calls::element(false, |element| unsafe { mslip_element_init(p, 1, MSLIP_INPUT_NORMAL_FORCE, element) })
+    };
+    let stiffness = Memory::of_law(&of(&FLAT), 1).values::<mslip_element>()[0].tangential_stiffness;
+    for share in 1..=8 {
+        let compliance = f64::from(share) / stiffness;
+        let layer = microslip::Layer {
+            normal_compliance: compliance,
+            tangential_compliance: compliance,
+            stiffening_load: 1e-3 * FLAT.normal_force,
+            reference_load: 0.0,
+        };
+        let law = of(&microslip::Parameters { layer, ..FLAT });
+        let element = Memory::of_law(&law, 1);
+        let slip_under = |load: f64| {
+            let (force, mut slip) = (FLAT.friction_coefficient * load, 0.0);
+            let (e, none) = (element.start.cast(), null_mut());
+            let status =
+                unsafe { mslip_element_displacement(e, 0, 1, &raw const force, &raw const load, &raw mut slip, none) };
+            assert_eq!(status, MSLIP_OK);
+            slip
+        };
+        let shift = slip_under(FLAT.normal_force) / FLAT.friction_coefficient;
+        // The edges of the largest dyadic interval, where N/N_c is largest; one beyond the load is at its end.
+        for edge in [1.0, 1.25, 1.5, 1.75].map(|part| FLAT.friction_coefficient * part * shift.log2().floor().exp2()) {
+            let (mut low, mut high) = (0.0, FLAT.normal_force);
+            for _ in 0..60 {
+                let load = 0.5 * (low + high);
+                *(if slip_under(load) < edge { &mut low } else { &mut high }) = load;
+            }
+            for mode in 0..calls::MODES {
+                let mut arguments = Arguments::new(update, &law, Before::Filled);
+                let [state, new, input] = [State, NewState, Input].map(|kind| update.place(kind).expect("an argument"));
+                let (mut random, mut u, mut load) = (common::Random(mode as u64), 0.0, 0.0);
+                for step in 0..800 {
+                    u += edge * 10f64.powf(-11.0 - 3.0 * random.signed()) * random.signed().signum();
+                    load *= 1.0 + 1e-10 * random.next();
+                    if step % 20 == 0 {
+                        (u, load) = (0.0, high * (1.0 + 1e-9 * step as f64 / 20.0));
+                        arguments.set(state, law.long_state(update, mslip_element_state_length(1, 200)));
+                        arguments.slots[1] = Slot::Size(arguments.memory(state).bytes / 8);
+                        arguments.slots[new] = arguments.slots[state];
+                    }
+                    arguments.set(input, Memory::of(&[u, load]));
+                    assert_eq!(update.make_rounding(mode, &arguments.slots), MSLIP_OK);
+                    assert_eq!(check(&law, true, arguments.memory(state)), MSLIP_OK, "share {share}, mode {mode}");
+                }
+            }
+        }
+    }
+}
+
 /// Values that are not finite, of the wrong sign or not nested are found; what is not in use is not read.
 #[test]
 fn invalid_states() {
