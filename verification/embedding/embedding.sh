@@ -134,22 +134,12 @@ instrument() {
     "$@" build --package microslip
 }
 
-run_driver() {
-    build driver "$@" $instrumented $system && "$work/driver"
-}
-
 sanitizers() {
     check 'an archive for AddressSanitizer' instrument target fuzz tools/fuzz.sh --cargo
     flags='-g -O1 -ffp-contract=off -fsanitize=address,undefined -fno-sanitize-recover=all'
     # The mathematical functions of Rust's archives differ in the last digits.
     check "the application with cargo's archive" first_application $cargo_archive $system
     check 'AddressSanitizer: all calls' same_application clang $flags $application $instrumented $system
-    check 'AddressSanitizer: every argument of every call' tools/fuzz.sh --cargo test --package microslip --test ffi
-    for driver in c_tests/*.c; do
-        # The sanitizer takes stack of its own.
-        [ "$driver" != c_tests/stack.c ] || continue
-        check "AddressSanitizer: $driver" run_driver clang -std=c99 $flags $include "$driver"
-    done
     first_application "$archive" -lm
 }
 
