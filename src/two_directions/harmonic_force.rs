@@ -14,7 +14,7 @@
 //! propagated for a few coefficients at once.
 
 use super::matrix::dot;
-use super::nodes::{Both, N, NEIGHBOUR, Nodes, ROWS, Units, both, fill};
+use super::nodes::{Both, N, NEIGHBOUR, Nodes, ROWS, Units, both, fill, length};
 use super::path::PathInContact;
 use super::shells::Pressed;
 use super::step::{Displacements, LoadedContact, SlipStep, StepMotion, bounded};
@@ -312,7 +312,7 @@ impl<'a> Walk<'a> {
             let differences = (self.springs.v[k] - from.v[k]).map(f64::abs);
             dot(&self.step.springs.stiffness[k], &differences)
         });
-        quotient(change[0].hypot(change[1]), self.contact.now.load)
+        quotient(length(change), self.contact.now.load)
     }
 }
 

@@ -42,6 +42,11 @@ pub(crate) fn both<T>(value: impl Fn(usize) -> T) -> Both<T> {
     [value(0), value(1)]
 }
 
+/// The length of a vector.
+pub(crate) fn length([x, y]: Both<f64>) -> f64 {
+    (x * x + y * y).sqrt()
+}
+
 /// The first node under pressure: the edge of the flat.
 pub(crate) const FLAT_EDGE: usize = 2;
 /// The share of the nodes that is graded towards the edge: more of it makes circles more accurate, less of it motion on a line.

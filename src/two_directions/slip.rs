@@ -14,7 +14,7 @@
 //! Derivatives are one more step of Newton's method from the solution, see [`Slip::differentiate`].
 
 use super::matrix::{Factors, dot, times};
-use super::nodes::{Both, Matrix, N, Row};
+use super::nodes::{Both, Matrix, N, Row, length};
 use super::shells::Springs;
 use crate::numerics::guard::{TINY, quotient};
 use crate::numerics::lanes::Lanes;
@@ -326,7 +326,7 @@ fn sweep(springs: &Springs, trial: &Both<Row>, q: &mut Both<Row>) -> (Both<Row>,
             for k in 0..2 {
                 to[k] = q[k][i] + per * dot(&metric[k][i], &(trial[k] - q[k]));
             }
-            let length = (to[0] * to[0] + to[1] * to[1]).sqrt();
+            let length = length(to);
             set |= Set::from(length > 1.0) << i;
             for k in 0..2 {
                 q[k][i] = to[k] / length.max(1.0);

@@ -16,7 +16,7 @@ use super::TwoDirections;
 use super::harmonic_force::{HarmonicOutput, TwoDirectionsWorkspace, harmonic_force};
 use super::nodes::{
     Both, FLAT_EDGE, N, NEIGHBOUR, Nodes, POINTS, PRESSURE, ROWS, SHIFT, SIZE, Units, both, fill, first_shell,
-    last_node,
+    last_node, length,
 };
 use super::path::{LONGEST, PathInContact};
 use super::shells::{Pressed, VALUES};
@@ -323,13 +323,13 @@ impl Situation {
         if largest <= load {
             return largest;
         }
-        let aligned = 2.0 - (1.0 - quotient(force[0].hypot(force[1]), contact.now.load)) / SAME_DIRECTION;
+        let aligned = 2.0 - (1.0 - quotient(length(force), contact.now.load)) / SAME_DIRECTION;
         if aligned <= 0.0 {
             return largest;
         }
         let first = contact.shells.first.min(FLAT_EDGE);
         let slip = both(|k| (step.trial[k][first] - springs.v[k][first]) / contact.now.shift[k].max(LEAST));
-        load + (largest - load) / (1.0 + aligned.min(1.0) * slip[0].hypot(slip[1]))
+        load + (largest - load) / (1.0 + aligned.min(1.0) * length(slip))
     }
 }
 

@@ -12,7 +12,7 @@
 //! The edge spring is one more spring from a size just inside the edge on, on its own: it makes the stuck stiffness that of the contact.
 
 use super::matrix::dot;
-use super::nodes::{Both, FLAT_EDGE, N, Nodes, Row, SHIFT, both};
+use super::nodes::{Both, FLAT_EDGE, N, Nodes, Row, SHIFT, both, length};
 use super::shells::{Pressed, Shells, Springs};
 use super::slip::{Metric, Slip, lanes_of, within};
 use crate::numerics::guard::{TINY, quotient, root};
@@ -92,8 +92,8 @@ impl Far {
             by[k] += cut[k] * old.v[k][to.shells.first.min(FLAT_EDGE)];
             ratio[k] = by[k] / limit;
         }
-        let distance = (ratio[0] * ratio[0] + ratio[1] * ratio[1]).sqrt();
-        let per_length = 1.0 / (by[0] * by[0] + by[1] * by[1]).max(TINY).sqrt();
+        let distance = length(ratio);
+        let per_length = 1.0 / length(by).max(LEAST);
         let x = ((distance - FAR[0]) / (FAR[1] - FAR[0])).clamp(0.0, 1.0);
         let slope = 6.0 * x * (1.0 - x) / (FAR[1] - FAR[0]);
         let e = by.map(|by| by * per_length);
@@ -119,7 +119,7 @@ pub(crate) struct Released {
 impl Released {
     pub fn new(limit: Both<f64>, fall: f64, trial: Both<f64>) -> Released {
         let ratio = both(|k| trial[k] / limit[k].max(LEAST));
-        let length = (ratio[0] * ratio[0] + ratio[1] * ratio[1]).sqrt();
+        let length = length(ratio);
         let part = (LARGEST_FALL * limit[0] / (limit[0] + fall).max(LEAST)).min(1.0);
         let scale = if length > 1.0 { (1.0 + part * (length - 1.0)) / length.max(1.0) } else { 1.0 };
         Released { ratio, length, part, scale }
@@ -241,8 +241,7 @@ impl SlipStep {
             let old = self.edge.kept[k] * self.old.edge[k];
             self.edge.ratio[k] = (old + self.edge.part[k] * motion.by[k]) / limit[k];
         }
-        let [x, y] = self.edge.ratio;
-        self.edge.length = (x * x + y * y).sqrt();
+        self.edge.length = length(self.edge.ratio);
         self.edge.slips = self.edge.length > ROUNDING;
         let scale = (1.0 - self.far.part) / if self.edge.slips { self.edge.length } else { 1.0 };
         for k in 0..2 {
@@ -256,7 +255,7 @@ pub(crate) const ROUNDING: f64 = 1.0 + 1e-12;
 
 /// A force within Coulomb's bound.
 pub(crate) fn bounded(force: Both<f64>, bound: f64) -> Both<f64> {
-    let length = (force[0] * force[0] + force[1] * force[1]).sqrt();
+    let length = length(force);
     let scale = if length > bound { quotient(bound, length) } else { 1.0 };
     force.map(|force| force * scale)
 }

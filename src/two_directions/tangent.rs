@@ -8,7 +8,7 @@
 //! ```
 
 use super::matrix::{dot, times_upper, times_upper_transposed};
-use super::nodes::{Both, FLAT_EDGE, Matrix, N, NEIGHBOUR, Nodes, Row, SHIFT, both};
+use super::nodes::{Both, FLAT_EDGE, Matrix, N, NEIGHBOUR, Nodes, Row, SHIFT, both, length};
 use super::shells::{Pressed, Shells, Springs, falls};
 use super::slip::{Set, Slip, set_metric, within};
 use super::step::{LEAST, LoadedContact, Released, SlipStep, StepMotion};
@@ -342,8 +342,7 @@ impl<const L: usize> FarChanges<L> {
             ratio.add_first(-far.ratio[k] * parameters.sum(|terms| terms.now[k]));
             distance += (quotient(far.ratio[k], far.distance) / limit) * ratio;
         }
-        let turn = far.per_length * (far.e[0] * way[1] - far.e[1] * way[0]);
-        FarChanges { part: far.slope * distance, e: [-far.e[1] * turn, far.e[0] * turn] }
+        FarChanges { part: far.slope * distance, e: across(far.e, far.per_length, way) }
     }
 
     /// Changes of a spring with a limit that ends in gross slip to a part, `v = (1 - part) v + part l e`.
@@ -357,6 +356,12 @@ impl<const L: usize> FarChanges<L> {
         v.add_first((part * e) * by_limit);
         v
     }
+}
+
+/// The part of changes across a direction, times a factor.
+fn across<const L: usize>(e: Both<f64>, factor: f64, [x, y]: Both<Lanes<L>>) -> Both<Lanes<L>> {
+    let turn = factor * (e[0] * y - e[1] * x);
+    [-e[1] * turn, e[0] * turn]
 }
 
 /// Changes of the spring at the edge.
@@ -389,8 +394,7 @@ fn move_edge<const L: usize>(
     if edge.slips {
         let per = quotient(1.0, edge.length);
         e = edge.ratio.map(|ratio| per * ratio);
-        let turn = per * (e[0] * ratio[1] - e[1] * ratio[0]);
-        end = [-e[1] * turn, e[0] * turn];
+        end = across(e, per, ratio);
     }
     for k in 0..2 {
         end[k] = limit[k] * end[k];
@@ -406,15 +410,14 @@ pub(crate) fn bounded<const L: usize>(
     [x, y]: Both<Lanes<L>>,
     parameters: &ParameterChanges,
 ) -> Both<Lanes<L>> {
-    let length = (force[0] * force[0] + force[1] * force[1]).sqrt();
+    let length = length(force);
     if length <= super::step::ROUNDING * bound {
         return [x, y];
     }
     let per = quotient(1.0, length);
     let e = force.map(|force| force * per);
-    let turn = (bound * per) * (e[0] * y - e[1] * x);
     let by_bound = parameters.sum(|terms| terms.load);
-    let mut slopes = [-e[1] * turn, e[0] * turn];
+    let mut slopes = across(e, bound * per, [x, y]);
     for k in 0..2 {
         slopes[k].add_first(e[k] * by_bound);
     }
