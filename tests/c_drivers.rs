@@ -99,7 +99,8 @@ fn fortran() {
     let strict = if flang { "-Werror" } else { "-Wall -Wextra -pedantic -Werror -ffpe-trap=invalid,zero,overflow" };
     // The test of invalid input calls the C functions of the module, too.
     let bad_input = if flang { "-std=f2018 -cpp -Dprivate=public" } else { "-std=f2008 -cpp -Dprivate=public" };
-    let mut runs = vec![("wrappers", "-std=f2018", "-O0"), ("wrappers", "-std=f2018", "-O2")];
+    let mut runs =
+        vec![("wrappers", "-std=f2018", "-O0"), ("wrappers", "-std=f2018", "-O2"), ("restarts", "-std=f2018", "-O2")];
     let options = ["", "-fdefault-real-8 -fdefault-integer-8", "-fno-automatic"];
     for options in &options[..if flang { 2 } else { 3 }] {
         runs.extend([("bad_input", bad_input, *options), ("test_microslip", "-std=f2018", options)]);

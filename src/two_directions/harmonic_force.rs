@@ -263,10 +263,10 @@ impl<'a> Walk<'a> {
             units,
             nodes,
             at: [0.0, 0.0, top],
-            from: LoadedContact::default(),
-            contact: LoadedContact::default(),
+            from: LoadedContact::OPEN,
+            contact: LoadedContact::OPEN,
             normal: Normal::OPEN,
-            springs: Displacements::default(),
+            springs: Displacements::NONE,
             step,
             slopes: [None; 2],
             terms,
@@ -292,8 +292,7 @@ impl<'a> Walk<'a> {
             unbounded = self.step.advance(self.nodes, contacts, &motion, &mut self.springs, derivatives);
             force = bounded(unbounded, self.contact.now.load);
         } else {
-            (self.contact, self.springs, self.normal) =
-                (LoadedContact::default(), Displacements::default(), Normal::OPEN);
+            (self.contact, self.springs, self.normal) = (LoadedContact::OPEN, Displacements::NONE, Normal::OPEN);
             self.slopes = [None; 2];
         }
         Advanced { force, unbounded, motion, path, closed }
@@ -418,7 +417,7 @@ fn walk(element: &Element, workspace: &mut TwoDirectionsWorkspace, displacement:
             workspace.changes.fill(0.0);
             workspace.sums.fill(0.0);
         }
-        let (mut step, mut terms) = (SlipStep::default(), <[ParameterTerms; 3]>::default());
+        let (mut step, mut terms) = (SlipStep::NONE, [ParameterTerms::NONE; 3]);
         let mut walk = Walk::new(element, (units, &nodes[0]), top, (&mut step, &mut terms));
         let slopes = slopes_of_nodes([&nodes[1], &nodes[2]]);
         // The reference size is not that of the largest load if this is below the least reference load.

@@ -41,7 +41,6 @@ const BEFORE: Matrix = {
 };
 
 /// A symmetric matrix J of the points from one to another as `J = L D L'`. With `F = L⁻¹ D`, `J⁻¹ = D⁻¹ F' D⁻¹ F D⁻¹`.
-#[derive(Default)]
 pub(crate) struct Factors {
     /// -F, a row for each point.
     rows: Matrix,
@@ -52,6 +51,8 @@ pub(crate) struct Factors {
 }
 
 impl Factors {
+    pub const NONE: Factors = Factors { rows: [Row::ZERO; N], columns: [Row::ZERO; N], per_pivot: Row::ZERO };
+
     /// Factorises the sum of a diagonal and of a matrix whose rows are given. Below a pivot the rows are eliminated but for its own column,
     /// which becomes one of -F. Single elements are chosen by their place in the lanes: a vector that is loaded right after one of its elements
     /// was stored would wait for it.

@@ -42,6 +42,8 @@ const THINNEST: f64 = 1e-9;
 const LEAST_STIFFNESS: f64 = 1e-12;
 
 impl Pressed {
+    pub const NONE: Pressed = Pressed { load: 0.0, shift: [0.0; 2], size: 0.0, inside: 0.0, inside_shift: [0.0; 2] };
+
     /// The state of a contact that is closed, and its derivatives by the normal component over its scale.
     pub fn new(element: &Element, units: &Units, input: f64, normal: &Normal) -> [Pressed; 2] {
         // Products only: the compiler may divide by what is beside a number in its vector register.
@@ -70,7 +72,7 @@ impl Pressed {
 }
 
 /// The shells of a contact, from one to the last one; those beyond are 0. F_ij of those before the last one are in the tables of the nodes.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 #[repr(align(32))]
 pub(crate) struct Shells {
     pub first: usize,
@@ -85,6 +87,15 @@ pub(crate) struct Shells {
 }
 
 impl Shells {
+    pub const NONE: Shells = Shells {
+        first: 0,
+        last: 0,
+        load: [Row::ZERO; 2],
+        shift: [Row::ZERO; 2],
+        last_pressure: Row::ZERO,
+        edge: [0.0; 2],
+    };
+
     pub fn new(nodes: &Nodes, now: &Pressed) -> Shells {
         let last = last_node(nodes, now.inside_shift[0] * (1.0 - THINNEST)).min(N - 1);
         let mut shells = Shells::before(nodes, first_shell(nodes), last);
@@ -94,7 +105,7 @@ impl Shells {
 
     /// The shells from one to the one before the last one.
     pub fn before(nodes: &Nodes, first: usize, last: usize) -> Shells {
-        let mut shells = Shells { first, last: last.min(N - 1), ..Shells::default() };
+        let mut shells = Shells { first, last: last.min(N - 1), ..Shells::NONE };
         for j in 0..shells.last {
             for k in 0..2 {
                 shells.load[k][j] = nodes[LOAD_STEP][j];
@@ -181,7 +192,7 @@ impl Shells {
 
     /// The contact in the middle of a step: the means of the shells at both ends.
     pub fn middle([from, to]: [&Shells; 2]) -> Shells {
-        let mut middle = Shells { first: to.first, last: from.last.max(to.last), ..Shells::default() };
+        let mut middle = Shells { first: to.first, last: from.last.max(to.last), ..Shells::NONE };
         for k in 0..2 {
             middle.load[k] = 0.5 * (from.load[k] + to.load[k]);
             middle.shift[k] = 0.5 * (from.shift[k] + to.shift[k]);
@@ -218,7 +229,7 @@ pub(crate) fn falls(v: &Row) -> Row {
 }
 
 /// The springs of a contact, and their maps from and to tractions.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 #[repr(align(32))]
 pub(crate) struct Springs {
     pub shells: Shells,
@@ -233,6 +244,15 @@ pub(crate) struct Springs {
 }
 
 impl Springs {
+    pub const NONE: Springs = Springs {
+        shells: Shells::NONE,
+        pressure: [Row::ZERO; N],
+        per_pressure: Row::ZERO,
+        per_shift: [Row::ZERO; 2],
+        stiffness: [Row::ZERO; 2],
+        inverse: [[Row::ZERO; N]; 2],
+    };
+
     /// Sets the springs in the middle between shells: at the end of a step, between the same ones.
     pub fn set(&mut self, nodes: &Nodes, ends: [&Shells; 2]) {
         let Springs { shells, pressure, per_pressure, per_shift, stiffness, inverse } = self;

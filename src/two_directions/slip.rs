@@ -49,7 +49,6 @@ const BACKWARDS: f64 = 1e-14;
 const NEAR: f64 = 0.5;
 
 /// Slip of the points of a contact, and what its derivatives need.
-#[derive(Default)]
 #[repr(align(32))]
 pub(crate) struct Slip {
     pub points: Points,
@@ -62,7 +61,6 @@ pub(crate) struct Slip {
 }
 
 /// The metric K of a set of slipping points under a load: from the innermost one on, with the points that stick eliminated.
-#[derive(Default)]
 #[repr(align(32))]
 pub(crate) struct Metric {
     of: Both<Matrix>,
@@ -70,8 +68,11 @@ pub(crate) struct Metric {
     known: (Set, f64),
 }
 
+impl Metric {
+    pub const NONE: Metric = Metric { of: [[Row::ZERO; N]; 2], known: (0, 0.0) };
+}
+
 /// The points of a contact after slip.
-#[derive(Default)]
 pub(crate) struct Points {
     /// The points that slip, the innermost one, and a mask of 1 and 0.
     pub set: Set,
@@ -85,6 +86,12 @@ pub(crate) struct Points {
 }
 
 impl Slip {
+    pub const NONE: Slip = {
+        let rows = [Row::ZERO; 2];
+        let points = Points { set: 0, first: 0, slips: Row::ZERO, e: rows, q: rows, r: rows, v: rows };
+        Slip { points, turned: Row::ZERO, solution: Factors::NONE, kept: (0, Factors::NONE) }
+    };
+
     /// Finds the slip from a trial state of springs under a load. The derivatives of slip are prepared if they are requested.
     pub fn find(&mut self, metric: &mut Metric, springs: &Springs, trial: &Both<Row>, load: f64, derivatives: bool) {
         let q = springs.tractions(trial);

@@ -218,7 +218,7 @@ impl State<'_> {
         }
         if at.key != element.key {
             // The springs of another element relax where they are.
-            springs = Displacements::default();
+            springs = Displacements::NONE;
             at = Situation { displacement: at.displacement, key: element.key, ..Situation::default() };
             if element.is_closed(at.displacement[2]) && self.header[0][1] > 0.0 {
                 at.set_nodes(element, self.nodes, element.normal(at.displacement[2]).load);
@@ -230,7 +230,7 @@ impl State<'_> {
             (true, false) => element.normal(to[2]),
             _ => Normal { load: at.normal_force, load_slope: at.load_slope, ..Normal::OPEN },
         };
-        let (mut from, mut outgrown) = (LoadedContact::default(), None);
+        let (mut from, mut outgrown) = (LoadedContact::OPEN, None);
         if was_closed {
             from = LoadedContact::new(self.nodes, &at.pressed);
         } else {
@@ -263,7 +263,7 @@ impl State<'_> {
         }
         let contact = pressed.as_ref().unwrap_or(&from);
         let motion = StepMotion { before: from.now.shift, by: path.by, constant_load: same };
-        let mut step = SlipStep::default();
+        let mut step = SlipStep::NONE;
         (step.middle.turned, step.end.turned) = (Lanes(self.turned[0]), Lanes(self.turned[1]));
         let contacts = [&from, contact];
         let force = step.advance(self.nodes, contacts, &motion, &mut springs, requested.tangent);
@@ -295,7 +295,7 @@ impl State<'_> {
         if self.header[0][6] != 0.0 {
             (*self.turned, *self.nodes) = ([[0.0; N]; 2], [[0.0; N]; ROWS]);
         }
-        self.write(&Situation { displacement, ..Situation::default() }, &Displacements::default());
+        self.write(&Situation { displacement, ..Situation::default() }, &Displacements::NONE);
     }
 }
 
@@ -343,8 +343,8 @@ fn tangent(
     (step, springs, force): (&SlipStep, &Displacements, Both<f64>),
     outgrown: Option<(&Outgrown, &Element, &Units)>,
 ) -> [[f64; 3]; 2] {
-    let (mut by, mut changes) = ([Lanes::<4>::ZERO; 2], SpringChanges::default());
-    let (mut terms, mut by_parameters) = (<[ParameterTerms; 3]>::default(), [Lanes::ZERO; 3]);
+    let (mut by, mut changes) = ([Lanes::<4>::ZERO; 2], SpringChanges::ZERO);
+    let (mut terms, mut by_parameters) = ([ParameterTerms::NONE; 3], [Lanes::ZERO; 3]);
     (by_parameters[END][END], by_parameters[REFERENCE][REFERENCE]) = (1.0, 1.0);
     for k in 0..2 {
         (by[k][END], by[k][ALONG[k]]) = (path.per_input[k][1], 1.0);
@@ -397,7 +397,7 @@ impl Outgrown {
     fn springs_at(&self, nodes: &Nodes, now: &Pressed, units: &Units) -> Displacements {
         let (ratio, first) = (self.units.shift / units.shift, self.contact.shells.first.min(FLAT_EDGE));
         let last = last_node(nodes, now.inside_shift[0]);
-        let mut new = Displacements { edge: self.springs.edge.map(|edge| ratio * edge), ..Displacements::default() };
+        let mut new = Displacements { edge: self.springs.edge.map(|edge| ratio * edge), ..Displacements::NONE };
         let limits = self.contact.limits(&self.nodes);
         for k in 0..2 {
             let (limits, old) = (limits[k], &self.springs.v[k]);

@@ -19,7 +19,7 @@ use crate::numerics::guard::{TINY, quotient, root};
 use crate::numerics::lanes::Lanes;
 
 /// A contact under a load: its normal state, with derivatives by the normal component over its scale, and its shells.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct LoadedContact {
     pub now: Pressed,
     pub slopes: Pressed,
@@ -27,6 +27,9 @@ pub(crate) struct LoadedContact {
 }
 
 impl LoadedContact {
+    /// A contact that is open.
+    pub const OPEN: LoadedContact = LoadedContact { now: Pressed::NONE, slopes: Pressed::NONE, shells: Shells::NONE };
+
     pub fn new(nodes: &Nodes, [now, slopes]: &[Pressed; 2]) -> LoadedContact {
         LoadedContact { now: *now, slopes: *slopes, shells: Shells::new(nodes, now) }
     }
@@ -48,10 +51,14 @@ impl LoadedContact {
 }
 
 /// The springs: displacements, and those of the spring at the edge.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Displacements {
     pub v: Both<Row>,
     pub edge: Both<f64>,
+}
+
+impl Displacements {
+    pub const NONE: Displacements = Displacements { v: [Row::ZERO; 2], edge: [0.0; 2] };
 }
 
 /// A step, straight in S and in the displacement: S at the start, the displacement, and whether the load is that of the start.
@@ -69,7 +76,7 @@ pub(crate) const LEAST: f64 = 1e-40;
 const FAR: [f64; 2] = [2.5, 5.0];
 
 /// How far a step slides: the displacement δ, and that part of the innermost spring which a falling load cuts off, over the innermost limit.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct Far {
     /// The part of the springs that ends in gross slip, 0 to 1, and its derivative by the distance.
     pub part: f64,
@@ -127,7 +134,6 @@ impl Released {
 }
 
 /// A step while it is computed, and what its derivatives and its energy need.
-#[derive(Default)]
 pub(crate) struct SlipStep {
     /// The springs at the start and in the trial state, and the parts of the displacement that they follow.
     pub old: Displacements,
@@ -146,7 +152,7 @@ pub(crate) struct SlipStep {
 
 /// The spring at the edge: the parts of the displacement and of its old one that it follows and keeps, its trial displacement over its limit,
 /// the length of this, and whether it slips.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct EdgeSpring {
     pub part: Both<f64>,
     pub kept: Both<f64>,
@@ -158,6 +164,22 @@ pub(crate) struct EdgeSpring {
 }
 
 impl SlipStep {
+    pub const NONE: SlipStep = {
+        let (none, rows) = ([0.0; 2], [Row::ZERO; 2]);
+        SlipStep {
+            old: Displacements::NONE,
+            trial: rows,
+            parts: rows,
+            springs: Springs::NONE,
+            between: Springs::NONE,
+            middle: Slip::NONE,
+            end: Slip::NONE,
+            metric: Metric::NONE,
+            far: Far { part: 0.0, slope: 0.0, cut: none, ratio: none, distance: 0.0, e: none, per_length: 0.0 },
+            edge: EdgeSpring { part: none, kept: none, before: none, ratio: none, length: 0.0, slips: false },
+        }
+    };
+
     /// Advances springs; the force, which is not yet bounded.
     #[inline(never)]
     pub fn advance(

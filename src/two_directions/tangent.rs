@@ -19,10 +19,14 @@ use crate::numerics::lanes::Lanes;
 pub(crate) type Changes<const L: usize> = [Lanes<L>; N];
 
 /// Changes of the springs, and of the spring at the edge.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct SpringChanges<const L: usize> {
     pub v: Both<Changes<L>>,
     pub edge: Both<Lanes<L>>,
+}
+
+impl<const L: usize> SpringChanges<L> {
+    pub const ZERO: Self = SpringChanges { v: [[Lanes::ZERO; N]; 2], edge: [Lanes::ZERO; 2] };
 }
 
 /// Parameters of a contact: the normal component over its scale at the end and at the start of the step, and the logarithm of
@@ -33,7 +37,7 @@ pub(crate) const REFERENCE: usize = 2;
 const PARAMETERS: usize = 3;
 
 /// A contact's derivatives by one of its parameters.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct ContactSlopes {
     pub shells: Shells,
     pub shift: Both<f64>,
@@ -43,10 +47,13 @@ pub(crate) struct ContactSlopes {
 }
 
 impl ContactSlopes {
+    const NONE: ContactSlopes =
+        ContactSlopes { shells: Shells::NONE, shift: [0.0; 2], load: 0.0, edge_limit: [0.0; 2] };
+
     /// By the normal component: of the last shell only.
     pub fn by_load(nodes: &Nodes, contact: &LoadedContact) -> ContactSlopes {
         let slopes = &contact.slopes;
-        let mut by = ContactSlopes { shift: slopes.shift, load: slopes.load, ..ContactSlopes::default() };
+        let mut by = ContactSlopes { shift: slopes.shift, load: slopes.load, ..ContactSlopes::NONE };
         if contact.now.load > 0.0 {
             by.edge_limit = both(|k| slopes.shift[k] - slopes.inside_shift[k]);
             (by.shells.first, by.shells.last) = (contact.shells.first, contact.shells.last);
@@ -57,7 +64,7 @@ impl ContactSlopes {
 
     /// By the reference size of the nodes, from derivatives of these.
     pub fn by_reference(nodes: &Nodes, slopes: &Nodes, contact: &LoadedContact) -> ContactSlopes {
-        let mut by = ContactSlopes::default();
+        let mut by = ContactSlopes::NONE;
         if contact.now.load > 0.0 {
             by.shells = Shells::before(slopes, contact.shells.first, contact.shells.last);
             by.shells.set_last_slopes(nodes, &contact.shells, &contact.now, &Pressed::default(), Some(slopes));
@@ -76,7 +83,6 @@ pub(crate) fn slopes_of_nodes([larger, smaller]: [&Nodes; 2]) -> Nodes {
 }
 
 /// What the derivative by one parameter of a contact adds to the changes of its springs.
-#[derive(Default)]
 pub(crate) struct ParameterTerms {
     /// S at the start and at the end, S of the nodes, N; stiffnesses at the end, and the limit of the spring at the edge.
     before: Both<f64>,
@@ -92,7 +98,6 @@ pub(crate) struct ParameterTerms {
 }
 
 /// Terms of a slip: dC v; dk (v* - v) - dC' r, in which the pressures are constant; and r dp/p, which is what their changes add to the slip.
-#[derive(Default)]
 struct SlipTerms {
     tractions: Both<Row>,
     forces: Both<Row>,
@@ -100,6 +105,11 @@ struct SlipTerms {
 }
 
 impl SlipTerms {
+    const NONE: SlipTerms = {
+        let zero = [Row::ZERO; 2];
+        SlipTerms { tractions: zero, forces: zero, slip: zero }
+    };
+
     /// Of a parameter by which the shells from one on, and the nodes, have derivatives.
     fn set(
         &mut self,
@@ -153,6 +163,22 @@ fn stiffness_slopes(springs: &Springs, k: usize, by: &Shells) -> Row {
 }
 
 impl ParameterTerms {
+    pub const NONE: ParameterTerms = {
+        let (none, rows) = ([0.0; 2], [Row::ZERO; 2]);
+        ParameterTerms {
+            before: none,
+            now: none,
+            nodes: rows,
+            load: 0.0,
+            stiffness: rows,
+            edge_stiffness: none,
+            edge_limit: none,
+            edge_before: none,
+            middle: SlipTerms::NONE,
+            end: SlipTerms::NONE,
+        }
+    };
+
     /// Of a parameter by which the contact at the start, that at the end, or both have derivatives, and the nodes.
     #[inline(never)]
     pub fn set(
@@ -162,7 +188,7 @@ impl ParameterTerms {
         [from, to]: [Option<&ContactSlopes>; 2],
         nodes: Option<&Nodes>,
     ) {
-        let none = ContactSlopes::default();
+        let none = ContactSlopes::NONE;
         // By the load, only the last shells have derivatives.
         let lasts = [from, to].map(|by| by.map_or(N, |by| by.shells.last));
         let first = if nodes.is_some() { 0 } else { lasts[0].min(lasts[1]) };

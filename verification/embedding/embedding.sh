@@ -97,7 +97,7 @@ END_OF_RUST
 size_t other(size_t n);
 int main(void)
 {
-    return hash_of_all() != hash_of_all() || other(12) != 14;
+    return hash_of_all(0) != hash_of_all(0) || other(12) != 14;
 }
 END_OF_C
     rustc --edition 2024 --crate-type staticlib -O "$work/other.rs" -o "$work/libother.a" &&
