@@ -10,7 +10,7 @@ use crate::numerics::guard::quotient;
 use crate::numerics::quadrature::gauss_nodes;
 use crate::numerics::total::Total;
 use crate::parameters::{Common, EllipticParameters, Parameters};
-use crate::shape::{Geometry, LayerCompliance, Quantity, Shape};
+use crate::shape::{Geometry, LARGEST, LayerCompliance, Quantity, Shape};
 use crate::tag::LAYOUT;
 use core::array::from_fn;
 pub(crate) use table::Curvature;
@@ -159,14 +159,13 @@ impl Element {
     /// Initialises an element in place; unchanged on an error. Checks all ranges before it writes.
     pub(crate) fn init(&mut self, geometry: &impl Geometry, components: Components) -> Result<(), Error> {
         let parameters = geometry.checked()?;
-        let composite_modulus = parameters.composite_modulus()?;
+        parameters.composite_modulus()?;
         if parameters.normal_force <= 0.0 {
             return Err(Error::BadNormalForce);
         }
         let mut shape = geometry.shape()?;
         (shape.layer, _) = LayerCompliance::new(&parameters.layer, parameters.normal_force)?;
-        geometry.check_element(composite_modulus)?;
-        shape.largest = shape.largest_in_plane();
+        shape.largest = geometry.largest_size(&shape, components.0 as usize)?;
         self.init_of(&shape, &parameters, components)
     }
 
@@ -174,7 +173,7 @@ impl Element {
     fn init_of(&mut self, shape: &Shape, parameters: &Common, (directions, input): Components) -> Result<(), Error> {
         let Common { normal_force, friction_coefficient, .. } = *parameters;
         let layer = &shape.layer;
-        let [size, largest] = sizes(shape, normal_force, directions)?;
+        let [size, largest] = sizes(shape, normal_force)?;
         let compliances = [Quantity::Approach, Quantity::Shift].map(|quantity| shape.compliance(quantity, size));
         let [approach, shift] = [Quantity::Approach, Quantity::Shift].map(|quantity| shape.value(quantity, size));
         for value in [approach, shift, normal_force] {
@@ -208,9 +207,8 @@ impl Element {
         self.tag = TAG | tag_of(directions) | if input == NormalInput::Force { FORCE_INPUT } else { 0 };
         self.checksum = 0;
         (self.composite_modulus, self.shape) = (shape.composite_modulus, *shape);
-        let ratio = shape.per_approach[1] / shape.per_approach[0];
-        let own = [shape.per_load[1] - ratio * shape.per_load[0], (1.0 - ratio) * layer.compliance(0.0)];
-        let per_load = if layer.is_linear() { own[0] + own[1] } else { own[0] };
+        let [ratio, own] = shape.per_other(2, 1);
+        let per_load = if layer.is_linear() { own + (1.0 - ratio) * layer.compliance(0.0) } else { own };
         self.lateral = [ratio, per_load];
         self.key = key_of(&[normal_force, friction_coefficient, size, approach, shift, shape.flat, ratio, per_load]);
         self.fill_tables(shape, input, [normal_force, approach, shift]);
@@ -235,7 +233,7 @@ impl Element {
             NormalInput::Force => (Quantity::Load, normal_force),
         };
         let is_sum = shape.layer.is_none() && input == NormalInput::Approach;
-        self.shift_per = if is_sum { [shape.per_approach[0], shape.per_load[0]] } else { [0.0; 2] };
+        self.shift_per = if is_sum { shape.per_other(1, 0) } else { [0.0; 2] };
         Table::fill([&mut self.of_input, &mut self.shift], largest, &mut |x| {
             let [load, approach, shift] = shape.series(shape.size_at(argument, x), argument);
             [if input == NormalInput::Force { approach } else { load }, shift]
@@ -561,14 +559,14 @@ const fn tag_of(directions: Directions) -> u64 {
 /// The size under a normal force and the largest one for which the laws hold.
 ///
 /// Errors: those of [`LayerCompliance::check_share`]; `LengthTooShort` if the first one is not smaller.
-fn sizes(shape: &Shape, normal_force: f64, directions: Directions) -> Result<[f64; 2], Error> {
-    let mut largest = if directions == Directions::Two { shape.largest } else { shape.largest_size() };
-    let size = shape.at_load(normal_force);
-    if !shape.layer.is_none() {
+fn sizes(shape: &Shape, normal_force: f64) -> Result<[f64; 2], Error> {
+    let (size, mut largest) = (shape.at_load(normal_force), shape.largest);
+    let layer = &shape.layer;
+    if !layer.is_none() {
         let compliances = [Quantity::Approach, Quantity::Shift].map(|quantity| shape.compliance(quantity, size));
-        shape.layer.check_share(normal_force, compliances)?;
+        layer.check_share(normal_force, compliances)?;
         // The contact stiffens with the load, so that a layer has energies of the order of N² where those of a contact are smaller.
-        let most = normal_force * MOST_LOAD_WITH_LAYER;
+        let most = (normal_force * MOST_LOAD_WITH_LAYER).min(LARGEST / layer.normal.max(layer.tangential).max(1.0));
         if shape.load(largest) > most {
             largest = shape.at_load(most);
         }

@@ -15,13 +15,19 @@
 //! J = ∫ dθ/root,   J_cos = ∫ cos²θ dθ/root,     root² = l² cos²θ + b² sin²θ,     θ from 0 to π/2,
 //! ```
 //!
-//! complete elliptic integrals that the arithmetic-geometric mean evaluates.
+//! complete elliptic integrals that the arithmetic-geometric mean evaluates. In units of b and N0 the load is `g = leg³`, with the
+//! compliance 1/leg of each size in units of C, and `β = 1/(2 leg)`, `γ = 1/(5 leg)`, `ψ = 3 leg/4`.
 
 use crate::error::Error;
 use crate::limits::in_range;
 use crate::numerics::guard::quotient;
 use crate::parameters::{Common, EllipticParameters, Pair, positive};
-use crate::shape::{Geometry, LayerCompliance, RoundedPunch, Shape};
+use crate::shape::kernel::Kernel;
+use crate::shape::series::{Series, identity};
+use crate::shape::size::Size;
+use crate::shape::tractions::{SurfacePoint, difference_of_heights};
+use crate::shape::{Geometry, HERTZ_ELLIPSE, LARGEST, Quantity, Shape};
+use core::array::from_fn;
 use core::f64::consts::{FRAC_PI_2, PI};
 
 impl Geometry for EllipticParameters {
@@ -52,24 +58,94 @@ impl Geometry for EllipticParameters {
         let tangential = sum(&|nu| (1.0 - nu) * all + nu * cosine);
         let lateral = sum(&|nu| (1.0 - nu) * all + nu * (all - cosine));
         Ok(Shape {
-            length: semi_axis_x,
+            unit: semi_axis_x,
+            length: 1.0,
             load_scale: normal_force,
-            compliance_scale: 1.0,
-            constants: [normal, tangential],
-            per_approach: [tangential / normal, lateral / normal],
-            pressure_scale: 1.5 / PI * (normal_force / (semi_axis_x * semi_axis_y) / semi_axis_x),
-            reference: (semi_axis_x, RoundedPunch::ellipse(1.0)),
+            compliances: [normal, tangential, lateral].map(|scale| [scale, 0.0]),
+            pressure_scale: 4.0 / PI * (normal_force / (semi_axis_x * semi_axis_y) / semi_axis_x),
+            reference: (semi_axis_x, Size::new(HERTZ_ELLIPSE, 0.0, 1.0)),
             composite_modulus,
-            layer: LayerCompliance::default(),
             ..Shape::default()
         })
     }
 
-    /// The approach, free of overflow.
-    fn check_element(&self, modulus: f64) -> Result<(), Error> {
-        [self.semi_axis_x, self.semi_axis_y]
-            .iter()
-            .try_for_each(|axis| in_range(&[self.normal_force], &[*axis, modulus]))
+    /// By loads and displacements up to 2^498.
+    fn largest_size(&self, shape: &Shape, _directions: usize) -> Result<f64, Error> {
+        // The approach, free of overflow.
+        for axis in [self.semi_axis_x, self.semi_axis_y] {
+            in_range(&[self.normal_force], &[axis, shape.composite_modulus])?;
+        }
+        let by_load = (LARGEST / shape.load_scale).cbrt();
+        let [[normal, _], [tangential, _], _] = shape.compliances;
+        let compliance = 1.5 * normal.max(tangential);
+        Ok(shape.unit * by_load.min((LARGEST / (compliance * shape.load_scale)).sqrt()))
+    }
+}
+
+pub fn kernel(_: &Size) -> Kernel {
+    Kernel::Point
+}
+
+pub fn is_power_law(_: &Size) -> bool {
+    true
+}
+
+pub fn angle(size: &Size) -> f64 {
+    0.75 * size.leg
+}
+
+pub fn rates(_: &Size) -> [f64; 2] {
+    [1.0, 0.0]
+}
+
+pub fn load(size: &Size) -> f64 {
+    size.leg * size.leg * size.leg
+}
+
+pub fn beta(size: &Size, _: f64) -> f64 {
+    quotient(0.5, size.leg)
+}
+
+pub fn gamma(size: &Size, _: f64) -> f64 {
+    quotient(0.2, size.leg)
+}
+
+pub fn at_load(_: &Size, flat: f64, load: f64) -> Size {
+    Size::new(HERTZ_ELLIPSE, flat, load.cbrt())
+}
+
+pub fn near_shift(_: &Size, _: f64, load: f64) -> f64 {
+    (load / 1.5).sqrt()
+}
+
+/// Differences of the pressure `sqrt(s² - x²)` of a size.
+pub fn pressure(_: &Size, _: f64, [from, _, squares]: [f64; 3], point: &SurfacePoint) -> f64 {
+    let outer = point.from_edge * (1.0 + point.x);
+    0.375 * difference_of_heights(outer, (from - point.x) * (from + point.x), squares)
+}
+
+pub fn slip(_: &Size, _: &SurfacePoint) -> f64 {
+    f64::NAN
+}
+
+/// The series of an ellipse, binomial ones: N scales as the powers 3/2 of U and of S.
+pub fn series(_: &Size, shape: &Shape, leg: f64, argument: Quantity) -> [Series; 3] {
+    let binomial = |value: f64, exponent: f64| -> Series {
+        let mut term = value;
+        from_fn(|k| {
+            let coefficient = term;
+            term *= (exponent - k as f64) / (k + 1) as f64;
+            coefficient
+        })
+    };
+    let size = shape.size(leg);
+    let [approach, shift, _] = shape.own_shifts(&size, size.load());
+    let load = shape.load(leg);
+    if argument == Quantity::Load {
+        let power = binomial(1.0, 2.0 / 3.0);
+        [identity(load), power.map(|term| approach * term), power.map(|term| shift * term)]
+    } else {
+        [binomial(load, 1.5), identity(approach), identity(shift)]
     }
 }
 

@@ -1,10 +1,10 @@
 //! Flat with rounded edges, cylinder included: the geometry of Allara (2009) in absolute terms, free of the load.
 //!
-//! A size s is given by `leg = sqrt(s² - a²)`, which is free of cancellation for nearly flat contacts. With g, β and γ of the
-//! rounded punch and `Λ = ln(2L/s) + χ`,
+//! A size s is given by `leg = sqrt(s² - a²) = s sin ψ`, which is free of cancellation for nearly flat contacts. With `ψ = atan2(leg,
+//! a)` and `Λ = ln(2L/s) + χ`,
 //!
 //! ```text
-//! N = L E* g/(4R)                               Eq. 1
+//! g = 2 s² ψ - 2 a leg,     N = L E* g/(4R)     Eq. 1, corrected
 //! K_t = 2 Λ/(π E* L)                            Eq. 8, with χ = ν/(1-ν); K_n the same with χ = 0
 //! S = g (Λ + β)/(2πR)                           U the same with χ = 0
 //! M = L E* g² (Λ + γ)/(16πR²)
@@ -12,12 +12,222 @@
 //!
 //! For unlike bodies χ is the mean weighted by their compliances. With `MSLIP_RIGID_STRIP` a constant is taken off both χ: the one
 //! that three-dimensional contact mechanics gives at the size under the normal force of the parameters.
+//!
+//! β and γ are functions of ψ: they increase from ψ²/5 and ψ²/8 for the flat to 1/2 and 1/4 for the cylinder. The closed forms in ψ
+//! suffer cancellation for a nearly flat contact (g ~ leg³, βg ~ leg⁵, γg² ~ leg⁸). Up to ψ = π/3, power series in
+//! `t = tan²(ψ/2) = (leg/(a+s))² ≤ 1/3` are used instead; they converge for t < 1 and lose at most one bit.
 
 use crate::error::Error;
 use crate::limits::{LARGEST_EXPONENT, exponent_of, in_range};
+use crate::numerics::const_math::tabulate;
+use crate::numerics::guard::{TINY, quotient};
+use crate::numerics::polynomial::{self, PolynomialRows, rows};
+use crate::numerics::total::Total;
 use crate::parameters::{CENTRE_POINT, Common, Pair, Parameters, RIGID_STRIP, not_negative, positive};
-use crate::shape::{Geometry, LayerCompliance, RoundedPunch, Shape};
+use crate::shape::kernel::Kernel;
+use crate::shape::series::{ORDER, Reversed, Series, identity};
+use crate::shape::size::Size;
+pub(super) use crate::shape::tractions::{pressure, slip};
+use crate::shape::{Geometry, Quantity, ROUNDED_FLAT, Shape};
+use core::array::from_fn;
 use core::f64::consts::{LN_2, PI};
+
+pub fn kernel(_: &Size) -> Kernel {
+    Kernel::Line
+}
+
+pub fn is_power_law(_: &Size) -> bool {
+    false
+}
+
+/// Terms of the series; the first omitted term is below 3⁻³⁶ of the sum.
+const TERMS: usize = 36;
+
+type SeriesTable = PolynomialRows<{ TERMS / 4 }>;
+
+/// `g = 8 leg³/(a+c) Σ l_k t^k`; from `(1+t)² (ψ - sin ψ cos ψ)` with ψ = 2 atan √t.
+static LOAD: SeriesTable = rows(&tabulate!(TERMS, |k| {
+    let n = 2.0 * k as f64;
+    sign(k + 1) / ((n + 3.0) * (n + 1.0) * (n - 1.0))
+}));
+
+/// (-1)^k.
+const fn sign(k: usize) -> f64 {
+    if k.is_multiple_of(2) { 1.0 } else { -1.0 }
+}
+
+/// Coefficients of β (`order` 1) or γ (`order` 2) divided by t.
+///
+/// As functions of ln c both satisfy `df/d ln c = 1 - f d ln g^order / d ln c`. In terms of t this is
+/// `t (1 - t²) load f' + order arc f = 2 t load` with `arc = ψ/(2 √t)` and `load = (ψ - sin ψ cos ψ)/(8 t √t)`.
+const fn mean_over_ln_c(order: f64) -> SeriesTable {
+    let atan = tabulate!(TERMS + 1, |k| sign(k) / (2.0 * k as f64 + 1.0));
+    let load = tabulate!(TERMS + 1, |k| {
+        let n = k as f64;
+        sign(k) * (n + 1.0) * (n + 2.0) / (2.0 * n + 3.0)
+    });
+    // f_0 = 0; table[k - 1] is f_k.
+    let mut table = [0.0; TERMS];
+    let mut k = 1;
+    while k <= TERMS {
+        let mut sum = 2.0 * load[k - 1];
+        let mut j = 1;
+        while j < k {
+            let i = k - j;
+            let factor = load[i] - if i >= 2 { load[i - 2] } else { 0.0 };
+            sum -= table[j - 1] * (j as f64 * factor + order * atan[i]);
+            j += 1;
+        }
+        table[k - 1] = sum / (k as f64 * load[0] + order);
+        k += 1;
+    }
+    rows(&table)
+}
+
+static BETA: SeriesTable = mean_over_ln_c(1.0);
+static GAMMA: SeriesTable = mean_over_ln_c(2.0);
+
+fn sum(table: &SeriesTable, t: f64) -> f64 {
+    let used = table.get(..polynomial::rows_for(t, TERMS / 4)).unwrap_or(table);
+    polynomial::sum(used.iter().copied(), t)
+}
+
+/// t = tan²(ψ/2) if the series apply.
+fn series_argument(size: &Size) -> Option<f64> {
+    let root = quotient(size.leg, size.flat + size.half_width);
+    (size.leg * size.leg <= 3.0 * size.flat * size.flat).then_some(root * root)
+}
+
+/// `leg - a ψ`. In terms of this difference the closed forms suffer the least cancellation near ψ = π/3.
+fn leg_minus_arc(size: &Size) -> f64 {
+    size.leg - size.flat * size.psi
+}
+
+/// Between 0 and π/2; for a cylinder π/2 even at leg = 0.
+pub fn angle(size: &Size) -> f64 {
+    size.leg.max(if size.flat > 0.0 { 0.0 } else { TINY }).atan2(size.flat)
+}
+
+pub fn rates(size: &Size) -> [f64; 2] {
+    let c2 = (size.half_width * size.half_width).max(TINY);
+    let slope_of_psi = size.flat * size.leg / (c2 * size.psi).max(TINY);
+    [slope_of_psi, slope_of_psi * (1.0 - 2.0 * (size.leg * size.leg / c2) - slope_of_psi)]
+}
+
+pub fn load(size: &Size) -> f64 {
+    let Size { flat, leg, half_width, psi, .. } = *size;
+    match series_argument(size) {
+        Some(t) => 8.0 * leg * leg * quotient(leg, flat + half_width) * sum(&LOAD, t),
+        None => 2.0 * (leg * leg * psi - flat * leg_minus_arc(size)),
+    }
+}
+
+pub fn beta(size: &Size, load: f64) -> f64 {
+    let Size { flat, leg, psi, .. } = *size;
+    match series_argument(size) {
+        Some(t) => t * sum(&BETA, t),
+        None => quotient(leg * leg * psi - 3.0 * flat * leg_minus_arc(size), load),
+    }
+}
+
+pub fn gamma(size: &Size, load: f64) -> f64 {
+    let (a, leg) = (size.flat, size.leg);
+    match series_argument(size) {
+        Some(t) => t * sum(&GAMMA, t),
+        None => {
+            let c2 = (a * a + leg * leg).max(TINY);
+            // cos² ψ, sin² ψ, and s²/g, which is below 1 here.
+            let (cos2, sin2, unit) = (a * a / c2, leg * leg / c2, c2 / load.max(c2));
+            // cos² ψ ln cos ψ vanishes with cos ψ; the lower bound keeps the logarithm finite.
+            let elementary = cos2 * (sin2 * (1.0 + cos2) + 2.0 * cos2 * cos2.max(TINY).ln());
+            0.25 - unit * ((2.0 / 3.0) * (a * leg / c2) * sin2 - (4.0 / 3.0) * unit * elementary)
+        }
+    }
+}
+
+/// From an initial guess with an error of at most 3 %. Each iteration raises the error to its fourth power.
+pub fn at_load(size: &Size, flat: f64, load: f64) -> Size {
+    let mut now = Size::new(ROUNDED_FLAT, flat, near_shift(size, flat, load));
+    for _ in 0..4 {
+        let found = now.load();
+        let inverse = now.inverse(found, quotient(now.load_slope(), found), now.rates(), [0.0; 2]);
+        let (leg, step) = (now.leg, inverse.step(load));
+        now = now.resized(leg + step);
+        if step.abs() <= 2e-5 * leg {
+            break;
+        }
+    }
+    now
+}
+
+/// The inverse of g with an error of at most 3 %: the limits `sqrt(g/π)` of the cylinder and `(3ag/4)^(1/3)` of the flat, added
+/// as cubes.
+pub fn near_shift(_: &Size, flat: f64, load: f64) -> f64 {
+    let load = load.max(0.0);
+    let hertz = load / PI;
+    (hertz * hertz.sqrt() + 0.75 * flat * load).cbrt()
+}
+
+/// The series of a flat with rounded edges, from the differential equations, with ' the derivative with respect to ε and
+/// `dN = 4 leg ψ d leg` times the load scale:
+///
+/// ```text
+/// Λ N' = x   or   N' = x, S' = Λ N';   leg ψ leg' = N'/4;   s² ψ' = a leg';   s² Λ' = -leg leg' times the compliance scale
+/// ```
+#[inline(never)]
+pub fn series(_: &Size, shape: &Shape, leg: f64, argument: Quantity) -> [Series; 3] {
+    let punch = shape.size(leg);
+    let (flat, by_load) = (shape.flat, argument == Quantity::Load);
+    // S for the argument N.
+    let of = shape.of(if by_load { Quantity::Shift } else { argument });
+    let [mut compliance, mut size, mut load, mut shift] = [[0.0; ORDER]; 4];
+    (size[0], load[0]) = (leg, shape.load(leg));
+    [shift[0], compliance[0]] = shape.own_sums(of, &punch, punch.load());
+    let [mut size_angle, mut half_width_2] = [[0.0; ORDER]; 2];
+    let [mut size_reversed, mut angle, mut load_1, mut size_1, mut angle_1, mut compliance_1] = [Reversed::ZERO; 6];
+    let (per_compliance, per_load_scale) = (1.0 / compliance[0], 0.25 / shape.load_scale);
+    let (per_size_angle, per_half_width_2) = (1.0 / (leg * punch.psi), 1.0 / (leg * leg + flat * flat));
+    size_reversed.set(0, leg);
+    angle.set(0, punch.psi);
+    for k in 0..ORDER {
+        size_angle[k] = angle.product_term(&size, k);
+        half_width_2[k] = size_reversed.product_term(&size, k) + if k == 0 { flat * flat } else { 0.0 };
+        let load_growth = if by_load {
+            let growth = if k == 0 { load[0] } else { 0.0 };
+            load_1.set(k, growth);
+            growth
+        } else {
+            load_1.quotient_term(if k == 0 { shift[0] } else { 0.0 }, &compliance, per_compliance, k)
+        };
+        let size_growth = size_1.quotient_term(load_growth * per_load_scale, &size_angle, per_size_angle, k);
+        let angle_growth = angle_1.quotient_term(flat * size_growth, &half_width_2, per_half_width_2, k);
+        let growth = -of[0] * size_1.product_term(&size, k);
+        let compliance_growth = compliance_1.quotient_term(growth, &half_width_2, per_half_width_2, k);
+        let per_order = PER_ORDER[k];
+        if by_load {
+            set(&mut shift, k + 1, per_order * load_1.product_term(&compliance, k));
+        }
+        set(&mut load, k + 1, per_order * load_growth);
+        set(&mut size, k + 1, per_order * size_growth);
+        set(&mut compliance, k + 1, per_order * compliance_growth);
+        size_reversed.set(k + 1, per_order * size_growth);
+        angle.set(k + 1, per_order * angle_growth);
+    }
+    if !by_load {
+        shift = identity(shift[0]);
+    }
+    let [_, per_load] = shape.per_other(1, 0);
+    let other = |sign: f64| from_fn(|k| shift[k] + sign * per_load * load[k]);
+    if argument == Quantity::Approach { [load, shift, other(1.0)] } else { [load, other(-1.0), shift] }
+}
+
+/// 1/(k + 1).
+const PER_ORDER: [f64; ORDER] = tabulate!(ORDER, |k| 1.0 / (k + 1) as f64);
+
+/// Sets a coefficient that the next round requires, if there is one.
+fn set(series: &mut Series, k: usize, value: f64) {
+    series.set(k, value);
+}
 
 impl Geometry for Parameters {
     fn checked(&self) -> Result<Common, Error> {
@@ -47,25 +257,22 @@ impl Geometry for Parameters {
         };
         let chi = pair.mean(|nu| nu / (1.0 - nu));
         let end_correction = if self.displacement_reference == CENTRE_POINT { 0.0 } else { ACROSS / slenderness };
-        let compliance_scale = 2.0 / (PI * modulus * length);
-        let constants = [-normal, chi - tangential];
+        let scale = 2.0 / (PI * modulus * length);
         // Along the line, the kernel of Cerruti has `ν y²` in place of `ν x²`: with the mean of 1/sqrt(x² + y²) over a line of
         // length L, that of Boussinesq, and that of x²/(x² + y²)^(3/2), which is 1, `Λ_y = (1+χ) Λ_n - χ` in units of `2/(πE*L)`.
         // `MSLIP_RIGID_STRIP` lowers the second mean by the end correction.
-        let along = -chi * (1.0 - end_correction);
+        let lateral = 1.0 + chi;
+        let along = -normal - chi * (1.0 - end_correction) / lateral;
         let load_scale = length * modulus / (4.0 * edge_radius);
         let shape = Shape {
             flat,
-            length,
+            unit: 1.0,
+            length: 2.0 * length,
             load_scale,
-            compliance_scale,
-            constants,
-            per_approach: [1.0, 1.0 + chi],
-            per_load: [constants[1] - constants[0], along].map(|part| compliance_scale * part),
+            compliances: [[scale, -normal], [scale, chi - tangential], [lateral * scale, along]],
             pressure_scale: 4.0 / PI * (load_scale / length),
             reference,
             composite_modulus: modulus,
-            layer: LayerCompliance::default(),
             ..Shape::default()
         };
         if slenderness <= 0.5 || shape.full_stick() <= 0.0 {
@@ -75,21 +282,31 @@ impl Geometry for Parameters {
         Ok(shape)
     }
 
-    /// The load at b = 2L.
-    fn check_element(&self, modulus: f64) -> Result<(), Error> {
-        in_range(&[self.length, self.length, self.length, modulus], &[self.edge_radius])
+    /// That at which the smallest Λ is 1/16; all vanish near s = 2L.
+    fn largest_size(&self, shape: &Shape, directions: usize) -> Result<f64, Error> {
+        // The load at b = 2L.
+        in_range(&[self.length, self.length, self.length, shape.composite_modulus], &[self.edge_radius])?;
+        let [[normal, _], ..] = shape.compliances;
+        let of = |[scale, offset]: &[f64; 2]| offset - SMALLEST_COMPLIANCE * (normal / scale);
+        let bound = shape.compliances.iter().take(directions + 1).map(of).fold(-SMALLEST_COMPLIANCE, f64::min);
+        let half_width = shape.length * bound.exp();
+        let (less, more) = (half_width - shape.flat, half_width + shape.flat);
+        Ok(less.signum() * (less.abs() * more).sqrt())
     }
 }
+
+/// Smallest Λ for which the laws are inverted: the approach is largest at Λ = 0.
+const SMALLEST_COMPLIANCE: f64 = 1.0 / 16.0;
 
 impl Shape {
     /// Λ of Eq. 10: that of b.
     pub fn full_stick(&self) -> f64 {
-        (2.0 * (self.length / self.reference.0)).ln() + self.constants[1]
+        (self.length / self.reference.0).ln() + self.of(Quantity::Shift)[1]
     }
 }
 
-/// Half-width b, and the punch in units of it: Eq. 1 in units that keep both the flat and the load at most 1.
-pub(crate) fn size_under_load(parameters: &Parameters, modulus: f64) -> Result<(f64, RoundedPunch), Error> {
+/// Half-width b, and the size in units of it: Eq. 1 in units that keep both the flat and the load at most 1.
+pub(crate) fn size_under_load(parameters: &Parameters, modulus: f64) -> Result<(f64, Size), Error> {
     let Parameters { edge_radius, length, normal_force, .. } = *parameters;
     let flat = parameters.flat_half_width.abs();
     in_range(&[length], &[])?;
@@ -104,10 +321,10 @@ pub(crate) fn size_under_load(parameters: &Parameters, modulus: f64) -> Result<(
     }
     let load = 4.0 * ((edge_radius / length) * (normal_force / modulus));
     let unit = flat.max((load / PI).sqrt());
-    let punch = RoundedPunch::from_load(flat / unit, load / unit / unit);
-    let size = punch.half_width;
-    let scaled = RoundedPunch { flat: punch.flat / size, leg: punch.leg / size, half_width: 1.0, ..punch };
-    Ok((unit * size, scaled))
+    let size = Size::default().at_load(flat / unit, load / unit / unit);
+    let half_width = size.half_width;
+    let scaled = Size { flat: size.flat / half_width, leg: size.leg / half_width, half_width: 1.0, ..size };
+    Ok((unit * half_width, scaled))
 }
 
 /// `MSLIP_RIGID_STRIP`: mean of a displacement that grows as the square across the strip, over b/L.
@@ -148,10 +365,11 @@ mod tests {
             FLATS.into_iter().flat_map(|flat| [(flat, CENTRE_POINT), (flat, RIGID_STRIP)])
         {
             let parameters = Parameters { displacement_reference, ..parameters(flat) };
-            let Shape { per_approach, per_load, compliance_scale, .. } = parameters.shape().unwrap();
+            let shape = parameters.shape().unwrap();
+            let [[x, x_constant], [y, y_constant]] = [1, 2].map(|k| shape.per_other(k, 0));
             let chi = Pair::new(&parameters.material).mean(|nu| nu / (1.0 - nu));
-            assert!((per_approach[0] + per_approach[1] - (2.0 + chi)).abs() < 1e-15);
-            assert!((per_load[0] + per_load[1]).abs() < 1e-15 * compliance_scale, "{displacement_reference}");
+            assert!((x + y - (2.0 + chi)).abs() < 1e-15);
+            assert!((x_constant + y_constant).abs() < 1e-15 * shape.compliances[0][0], "{displacement_reference}");
         }
     }
 }

@@ -1,9 +1,7 @@
 //! N, U and S as Taylor series of one of them about a size, for the tables of elements.
 
-use crate::numerics::const_math::tabulate;
 use crate::numerics::total::Total;
 use crate::shape::{Quantity, Shape};
-use core::array::from_fn;
 
 /// Number of Taylor coefficients in a [`Series`].
 pub(crate) const ORDER: usize = 16;
@@ -56,13 +54,11 @@ impl Reversed {
 impl Shape {
     /// N, U and S about a size with leg > 0 as functions of one of them.
     pub fn series(&self, leg: f64, argument: Quantity) -> [Series; 3] {
-        let of_contact =
-            |argument| if self.is_elliptic() { self.binomial(leg, argument) } else { self.of_flat(leg, argument) };
         if self.layer.is_none() {
-            return of_contact(argument);
+            return self.reference.1.series(self, leg, argument);
         }
         // As functions of the load N (1 + ν).
-        let [load, mut approach, mut shift] = of_contact(Quantity::Load);
+        let [load, mut approach, mut shift] = self.reference.1.series(self, leg, Quantity::Load);
         for (k, term) in self.layer.series(self.load(leg)).iter().enumerate() {
             approach[k] += self.layer.normal * term;
             shift[k] += self.layer.tangential * term;
@@ -79,88 +75,6 @@ impl Shape {
             }
         }
     }
-
-    /// The series of an ellipse, binomial ones: N scales as the powers 3/2 of U and of S.
-    fn binomial(&self, leg: f64, argument: Quantity) -> [Series; 3] {
-        let binomial = |value: f64, exponent: f64| -> Series {
-            let mut term = value;
-            from_fn(|k| {
-                let coefficient = term;
-                term *= (exponent - k as f64) / (k + 1) as f64;
-                coefficient
-            })
-        };
-        let (load, punch) = (self.load(leg), self.punch_at(leg));
-        let [approach, shift] =
-            [Quantity::Approach, Quantity::Shift].map(|quantity| 1.5 * load * self.own_compliance(quantity, &punch));
-        if argument == Quantity::Load {
-            let power = binomial(1.0, 2.0 / 3.0);
-            [identity(load), power.map(|term| approach * term), power.map(|term| shift * term)]
-        } else {
-            [binomial(load, 1.5), identity(approach), identity(shift)]
-        }
-    }
-
-    /// The series of a flat with rounded edges, from the differential equations, with ' the derivative with respect to ε and
-    /// `dN = 4 leg ψ d leg` times the load scale:
-    ///
-    /// ```text
-    /// Λ N' = x   or   N' = x, S' = Λ N';   leg ψ leg' = N'/4;   s² ψ' = a leg';   s² Λ' = -leg leg' times the compliance scale
-    /// ```
-    #[inline(never)]
-    fn of_flat(&self, leg: f64, argument: Quantity) -> [Series; 3] {
-        let punch = self.punch_at(leg);
-        let (flat, by_load) = (self.flat, argument == Quantity::Load);
-        // S for the argument N.
-        let quantity = if by_load { Quantity::Shift } else { argument };
-        let [mut compliance, mut size, mut load, mut shift] = [[0.0; ORDER]; 4];
-        compliance[0] = self.own_compliance(quantity, &punch);
-        (size[0], load[0], shift[0]) =
-            (leg, self.load(leg), self.own_value(quantity, &punch, punch.load(), compliance[0]));
-        let [mut size_angle, mut half_width_2] = [[0.0; ORDER]; 2];
-        let [mut size_reversed, mut angle, mut load_1, mut size_1, mut angle_1, mut compliance_1] = [Reversed::ZERO; 6];
-        let (per_compliance, per_load_scale) = (1.0 / compliance[0], 0.25 / self.load_scale);
-        let (per_size_angle, per_half_width_2) = (1.0 / (leg * punch.psi), 1.0 / (leg * leg + flat * flat));
-        size_reversed.set(0, leg);
-        angle.set(0, punch.psi);
-        for k in 0..ORDER {
-            size_angle[k] = angle.product_term(&size, k);
-            half_width_2[k] = size_reversed.product_term(&size, k) + if k == 0 { flat * flat } else { 0.0 };
-            let load_growth = if by_load {
-                let growth = if k == 0 { load[0] } else { 0.0 };
-                load_1.set(k, growth);
-                growth
-            } else {
-                load_1.quotient_term(if k == 0 { shift[0] } else { 0.0 }, &compliance, per_compliance, k)
-            };
-            let size_growth = size_1.quotient_term(load_growth * per_load_scale, &size_angle, per_size_angle, k);
-            let angle_growth = angle_1.quotient_term(flat * size_growth, &half_width_2, per_half_width_2, k);
-            let growth = -self.compliance_scale * size_1.product_term(&size, k);
-            let compliance_growth = compliance_1.quotient_term(growth, &half_width_2, per_half_width_2, k);
-            let per_order = PER_ORDER[k];
-            if by_load {
-                set(&mut shift, k + 1, per_order * load_1.product_term(&compliance, k));
-            }
-            set(&mut load, k + 1, per_order * load_growth);
-            set(&mut size, k + 1, per_order * size_growth);
-            set(&mut compliance, k + 1, per_order * compliance_growth);
-            size_reversed.set(k + 1, per_order * size_growth);
-            angle.set(k + 1, per_order * angle_growth);
-        }
-        if !by_load {
-            shift = identity(shift[0]);
-        }
-        let other = |sign: f64| from_fn(|k| shift[k] + sign * self.per_load[0] * load[k]);
-        if argument == Quantity::Approach { [load, shift, other(1.0)] } else { [load, other(-1.0), shift] }
-    }
-}
-
-/// 1/(k + 1).
-const PER_ORDER: [f64; ORDER] = tabulate!(ORDER, |k| 1.0 / (k + 1) as f64);
-
-/// Sets a coefficient that the next round requires, if there is one.
-fn set(series: &mut Series, k: usize, value: f64) {
-    series.set(k, value);
 }
 
 /// Powers of the series t(ε) that inverts `f(t) = f_0 (1 + ε)`, at `[power][order]`.

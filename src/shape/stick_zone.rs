@@ -19,11 +19,11 @@
 //! τ and x are stored with their complements 1 - τ and x_s - x, the distances to gross slip: whichever is smaller is computed
 //! directly, so that neither end suffers cancellation.
 //!
-//! A size is a punch with a leg; its load g, λ and the means β and γ of load and squared load over the compliance are
+//! The load g of a size and the means β and γ are those of the shape (`size`), Λ and λ its kernel over the decrease of the kernel at b:
 //!
 //! ```text
-//! flat with rounded edges   those of the rounded punch,   λ = ln(b/c),   Λ = ln(2L/b) + ν/(1-ν)                 Eq. 8-10
-//! ellipse, leg = c/b          g = leg³,   β = 1/(2 leg),   γ = 1/(5 leg),   λ = 1/leg - 1,   Λ = 1, the same for all ellipses
+//! line      λ = ln(b/c),     Λ = ln(2L/b) + ν/(1-ν)                 Eq. 8-10
+//! ellipse   λ = b/c - 1,     Λ = 1, the same for all ellipses
 //! ```
 //!
 //! With the index c for a stick zone and b for the contact, `1 - τ = g_c/g_b` and,
@@ -40,8 +40,8 @@ pub(crate) mod small_load;
 
 use crate::numerics::chebyshev::{Interpolant, SeriesPoint};
 use crate::numerics::guard::TINY;
-use crate::shape::rounded_punch::{InversePower, RoundedPunch};
-use crate::shape::tractions::{self, SurfacePoint, difference_of_heights};
+use crate::shape::size::{InversePower, Size};
+use crate::shape::tractions::SurfacePoint;
 use crate::shape::{Complement, LayerCompliance};
 use core::f64::consts::PI;
 use small_load::{RETAINED_TERMS, SmallLoadSeries};
@@ -88,7 +88,7 @@ pub(crate) struct Moments {
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct StickZones {
     /// b, and its load g, β and γ.
-    b: RoundedPunch,
+    b: Size,
     load: f64,
     beta: f64,
     gamma: f64,
@@ -104,7 +104,7 @@ pub(crate) struct StickZones {
 
 impl StickZones {
     /// The sizes below the contact `b` (lengths in units of its half-width), with the compliance Λ of full stick.
-    pub fn new(b: RoundedPunch, compliance: f64, layer: LayerCompliance) -> StickZones {
+    pub fn new(b: Size, compliance: f64, layer: LayerCompliance) -> StickZones {
         let load = b.load();
         let mut zones = StickZones { b, load, beta: b.beta(load), gamma: b.gamma(load), ..StickZones::default() };
         zones.slip_shift = compliance + zones.beta + layer.shift(1.0);
@@ -116,31 +116,21 @@ impl StickZones {
         zones
     }
 
-    fn is_elliptic(&self) -> bool {
-        self.b.is_elliptic()
-    }
-
     /// Whether there is a layer that is compliant in the tangential direction.
     pub fn has_layer(&self) -> bool {
         self.layer.tangential > 0.0
     }
 
     /// λ of a size of the contact without its layer, accurate also for c close to b.
-    fn increase_of(&self, punch: &RoundedPunch) -> f64 {
-        let size = punch.half_width * punch.half_width;
-        if self.is_elliptic() {
-            1.0 / punch.leg.max(TINY) - 1.0
-        } else if size < 0.5 {
-            -0.5 * size.max(TINY).ln()
-        } else {
-            -0.5 * (-(self.b.leg - punch.leg) * (self.b.leg + punch.leg)).max(-0.5).ln_1p()
-        }
+    fn increase_of(&self, size: &Size) -> f64 {
+        let squares = (self.b.leg - size.leg) * (self.b.leg + size.leg);
+        self.b.kernel().increase(size.half_width, squares)
     }
 
-    /// `h'' = dλ/dτ` of a size of the contact without its layer: `g_b/(4 c² ψ_c)`, or `1/(3 leg⁴)`.
-    fn curvature_of(&self, punch: &RoundedPunch) -> f64 {
-        let power = punch.half_width * punch.half_width * if self.is_elliptic() { punch.leg } else { 1.0 };
-        self.load / (4.0 * power * punch.psi).max(TINY)
+    /// `h'' = dλ/dτ` of a size of the contact without its layer: the decrease of the compliance over that of τ with ln leg.
+    fn curvature_of(&self, size: &Size) -> f64 {
+        let (reach, _) = self.b.kernel().reach(size.half_width);
+        self.load / (4.0 * (size.half_width * size.half_width * reach) * size.psi).max(TINY)
     }
 
     /// Values and slopes of h'' over z at τ = (1+z)/4: positive, with its singularity as far beyond as the interval is long.
@@ -161,26 +151,22 @@ impl StickZones {
     }
 
     /// The size with `1 - τ = remaining`.
-    fn size_under(&self, remaining: f64) -> RoundedPunch {
-        let of_flat = || RoundedPunch::from_load(self.b.flat, remaining * self.load);
-        if self.is_elliptic() { RoundedPunch::ellipse(remaining.cbrt()) } else { of_flat() }
+    fn size_under(&self, remaining: f64) -> Size {
+        self.b.at_load(self.b.flat, remaining * self.load)
     }
 
     /// The size with `1 - τ = remaining`, given λ of contact and layer to the rounding of Λ + λ, and its load g.
-    fn size_near(&self, remaining: f64, compliance_increase: f64) -> (RoundedPunch, f64) {
+    fn size_near(&self, remaining: f64, compliance_increase: f64) -> (Size, f64) {
         let load = remaining * self.load;
-        if self.is_elliptic() {
-            return (self.size_under(remaining), load);
-        }
         let own = compliance_increase - self.layer.increase(Complement::of_remaining(remaining));
-        let leg =
-            (self.b.leg * self.b.leg + (-2.0 * own).exp_m1()).max(0.25 * self.b.leg * self.b.leg * remaining).sqrt();
-        (RoundedPunch::newton_step_from(RoundedPunch::new(self.b.flat, leg), load), load)
+        let square = self.b.leg * self.b.leg;
+        let leg = (square - self.b.kernel().squares(own)).max(0.25 * square * remaining).sqrt();
+        (self.b.resized(leg).at_load_near(load), load)
     }
 
     /// The stick zone of a size with the load g and `1 - τ = g/g_b`. In the form Λ τ + h the consumed shift is no difference of two
     /// large terms if the curve is nearly straight; that of the layer, a logarithm which the iteration does not need, is not in it.
-    fn zone(&self, punch: &RoundedPunch, load: f64, remaining: f64) -> StickZone {
+    fn zone(&self, punch: &Size, load: f64, remaining: f64) -> StickZone {
         let (full_stick, beta) = (self.contact.compliance, punch.beta(load));
         let (load, increase) = (Complement::of_remaining(remaining), self.increase_of(punch));
         let mut zone = StickZone {
@@ -202,29 +188,29 @@ impl StickZones {
     /// A size close to that at a remaining shift. The shift of the contact alone is at most the sum, and at most the root of the load that
     /// the layer alone would have (a power of about 2/3); then with Λ + λ + β constant, first at its smallest value. It is at most the size
     /// of the contact: the compliance of larger ones may be negative.
-    fn initial_guess(&self, remaining: f64) -> RoundedPunch {
+    fn initial_guess(&self, remaining: f64) -> Size {
         let slip_shift = self.contact.compliance + self.beta;
         let mut own = remaining;
         if self.has_layer() {
             let of_layer = self.layer.load_of_extent(remaining / self.layer.tangential);
             own = own.min(slip_shift * of_layer.sqrt()).max(f64::MIN_POSITIVE);
         }
-        if self.is_elliptic() {
-            return RoundedPunch::ellipse((own / slip_shift).sqrt());
+        let near = |compliance: f64| self.b.near_shift(self.b.flat, own / compliance * self.load);
+        let leg = near(self.contact.compliance);
+        if self.b.is_power_law() {
+            return self.b.resized(leg);
         }
-        let leg = RoundedPunch::initial_guess_leg(self.b.flat, own / slip_shift * self.load);
         let increase = -0.5 * (self.b.flat * self.b.flat + leg * leg).clamp(TINY, 1.0).ln();
-        let load = own / (slip_shift + increase) * self.load;
-        self.b.resized(RoundedPunch::initial_guess_leg(self.b.flat, load).min(self.b.leg))
+        self.b.resized(near(slip_shift + increase).min(self.b.leg))
     }
 
     /// The stick zone at a remaining shift, from a size close to it; its size, and the inverse of the remaining shift close to it.
     ///
     /// The iteration raises an error to its fourth power.
-    fn refine(&self, remaining: f64, start: RoundedPunch) -> (StickZone, RoundedPunch, InversePower) {
-        if self.is_elliptic() && !self.has_layer() {
+    fn refine(&self, remaining: f64, start: Size) -> (StickZone, Size, InversePower) {
+        if self.b.is_power_law() && !self.has_layer() {
             let punch = self.initial_guess(remaining);
-            let load = punch.leg * punch.leg * punch.leg;
+            let load = punch.load();
             let zone = self.zone(&punch, load, load);
             let shift = Complement { consumed: self.slip_shift - remaining, remaining };
             return (StickZone { shift, ..zone }, punch, InversePower::default());
@@ -249,7 +235,7 @@ impl StickZones {
             let step = inverse.step(remaining);
             iterations_left -= 1;
             if step.abs() <= 2e-5 * compliance.min(1.0) * leg || iterations_left == 0 {
-                let (zone, moved) = self.last_step(&now, &punch, step, remaining);
+                let (zone, moved) = self.last_step(&now, &punch, slope_of_psi, step, remaining);
                 return (zone, moved, inverse);
             }
             punch = self.b.resized((leg + step).max(0.0).min(self.b.leg));
@@ -257,24 +243,9 @@ impl StickZones {
     }
 
     /// The stick zone at a remaining shift, a last step of the size away: an expansion in which fourth powers of 2e-5, over the
-    /// cube of the compliance if that is small, are below rounding. Third powers are not: those of the load, `dg/d leg = 4 leg ψ`,
-    /// are included.
-    fn last_step(&self, now: &StickZone, punch: &RoundedPunch, step: f64, remaining: f64) -> (StickZone, RoundedPunch) {
-        let (leg, c2) = (punch.leg, (punch.half_width * punch.half_width).max(TINY));
-        let moved = punch.moved(step);
-        let (rise, increase) = if self.is_elliptic() {
-            let square = moved.leg * moved.leg;
-            (step * (square + leg * (moved.leg + leg)), self.increase_of(&moved) - self.increase_of(punch))
-        } else {
-            // Relative change of c², and -½ ln(1 + change).
-            let change = step * (2.0 * leg + step) / c2;
-            let per_size = self.b.flat / c2;
-            let square = 2.0 * (punch.psi + leg * per_size) + step * (4.0 / 3.0) * self.b.flat * per_size * per_size;
-            (
-                step * (4.0 * leg * punch.psi + step * square),
-                -0.5 * change * (1.0 - change * (0.5 - change * (1.0 / 3.0))),
-            )
-        };
+    /// cube of the compliance if that is small, are below rounding.
+    fn last_step(&self, now: &StickZone, size: &Size, rates: [f64; 2], step: f64, remaining: f64) -> (StickZone, Size) {
+        let (moved, [rise, increase]) = size.moved(step, rates);
         let load = Complement::of_remaining(now.load.remaining + rise / self.load.max(TINY));
         let rise_of_layer =
             if self.has_layer() { self.layer.increase(load) - self.layer.increase(now.load) } else { 0.0 };
@@ -354,7 +325,7 @@ impl StickZones {
     ///
     /// With C(leg) = leg - a ψ the fourth is 4 (C_b - C_c)/g_b, because dc/da at a constant load is leg/(c ψ).
     pub fn moments(&self, load: Complement, compliance_increase: f64) -> Moments {
-        let RoundedPunch { flat, leg, .. } = self.b;
+        let Size { flat, leg, .. } = self.b;
         let tau = load.consumed;
         let (increase, first, complement, w_difference) = if tau <= 0.5 {
             let [increase, first] = self.contact.moments(tau);
@@ -389,8 +360,7 @@ impl StickZones {
         }
         let increase =
             if self.has_layer() { self.contact.moments(zone.load.consumed)[0] } else { zone.compliance_increase };
-        let consumed = increase / (1.0 + increase);
-        let squares = if self.is_elliptic() { consumed * (2.0 - consumed) } else { -(-2.0 * increase).exp_m1() };
+        let squares = self.b.kernel().squares(increase);
         [(self.b.leg * self.b.leg - squares).max(0.0), squares]
     }
 
@@ -405,13 +375,8 @@ impl StickZones {
 
     /// Pressure, less that of the size with `[leg², leg_b² - leg²]`.
     fn pressure_beyond(&self, [square, squares]: [f64; 2], point: &SurfacePoint) -> f64 {
-        let leg = square.sqrt();
-        if self.is_elliptic() {
-            let outer = point.from_edge * (1.0 + point.x);
-            1.5 / PI * difference_of_heights(outer, (leg - point.x) * (leg + point.x), squares)
-        } else {
-            tractions::pressure_between(self.b.flat, leg, self.b.leg, squares, point) * self.traction_scale() / PI
-        }
+        let legs = [square.sqrt(), self.b.leg, squares];
+        self.b.pressure(self.b.flat, legs, point) * self.traction_scale() / PI
     }
 
     /// Factor of the integrals of `tractions`.
@@ -433,7 +398,7 @@ impl StickZones {
     /// Relative slip (Eq. 15) in units of shift; `None` for an ellipse, for which there is no closed form.
     pub fn slip(&self, point: &SurfacePoint, zone: &StickZone) -> Option<f64> {
         let [square, _] = self.squares(zone);
-        let slip = || tractions::slip_beyond(&self.b.resized(square.sqrt()), point) * self.traction_scale();
-        (!self.is_elliptic()).then(slip)
+        let slip = self.b.resized(square.sqrt()).slip(point);
+        (!slip.is_nan()).then_some(slip * self.traction_scale())
     }
 }

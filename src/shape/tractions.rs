@@ -14,7 +14,8 @@
 
 use crate::numerics::guard::{TINY, quotient, root};
 use crate::numerics::quadrature::gauss;
-use crate::shape::rounded_punch::RoundedPunch;
+use crate::shape::ROUNDED_FLAT;
+use crate::shape::size::Size;
 
 /// A point along the width. The differences are computed from the dimensional lengths: for a nearly flat contact the rounding error of
 /// x/b may exceed the distance from flat to edge.
@@ -38,8 +39,8 @@ impl SurfacePoint {
 
 /// The difference of the roots of two numbers, 0 of a negative one, given the difference of these.
 pub(crate) fn difference_of_heights(outer: f64, inner: f64, difference: f64) -> f64 {
-    let root = root(outer);
-    if inner > 0.0 { quotient(difference, root + inner.sqrt()) } else { root }
+    let sum = root(outer) + root(inner);
+    if inner > 0.0 { quotient(difference, sum) } else { sum }
 }
 
 /// Ratio of a sum to its terms below which quadrature is used: six bits lost to cancellation.
@@ -47,7 +48,7 @@ const CANCELLATION_LIMIT: f64 = 1.0 / 64.0;
 
 /// `∫ ψ c' dc'/sqrt(c'² - x²)` over the sizes with leg between `from` and `to`, lengths in the units of the flat. `squares` is the
 /// difference `to² - from²`, computed without cancellation for a narrow slip zone.
-pub(crate) fn pressure_between(flat: f64, from: f64, to: f64, squares: f64, point: &SurfacePoint) -> f64 {
+pub(crate) fn pressure(_: &Size, flat: f64, [from, to, squares]: [f64; 3], point: &SurfacePoint) -> f64 {
     let outside = outside(flat, point);
     let edge = root(outside);
     if edge >= to {
@@ -97,7 +98,7 @@ fn outside(flat: f64, point: &SurfacePoint) -> f64 {
 ///
 /// which vanishes at leg = 0 inside the flat and at c = x outside it, and is finite at x = a.
 fn antiderivative(flat: f64, leg: f64, point: &SurfacePoint) -> (f64, f64) {
-    let RoundedPunch { half_width: c, psi, .. } = RoundedPunch::new(flat, leg);
+    let Size { half_width: c, psi, .. } = Size::new(ROUNDED_FLAT, flat, leg);
     let outside = outside(flat, point);
     let root_inside = (leg * leg - outside).max(0.0).sqrt();
     let sum = (leg + root_inside).max(TINY);
@@ -124,8 +125,8 @@ fn log_ratio(leg: f64, root_inside: f64, outside: f64) -> f64 {
 /// ```text
 /// x ψ root_outside + (x² + a²) atan2(a root_outside, x leg) - 2 a x atan2(root_outside, leg) - (g_c/2) acosh(x/c).
 /// ```
-pub(crate) fn slip_beyond(stick: &RoundedPunch, point: &SurfacePoint) -> f64 {
-    let RoundedPunch { flat: a, leg, half_width: c, psi, .. } = *stick;
+pub(crate) fn slip(stick: &Size, point: &SurfacePoint) -> f64 {
+    let Size { flat: a, leg, half_width: c, psi, .. } = *stick;
     let x = point.x;
     let leg_at_x = root(outside(a, point));
     if leg_at_x <= leg {
@@ -147,7 +148,7 @@ pub(crate) fn slip_beyond(stick: &RoundedPunch, point: &SurfacePoint) -> f64 {
     let length = leg_at_x - leg;
     gauss(1.0, |z| {
         let gap = length * z * z;
-        let punch = RoundedPunch::new(a, leg_at_x - gap);
+        let punch = Size::new(ROUNDED_FLAT, a, leg_at_x - gap);
         acosh_ratio(gap * (leg_at_x + punch.leg), x, punch.half_width.max(TINY))
             * punch.psi
             * punch.leg

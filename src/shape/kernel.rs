@@ -1,0 +1,53 @@
+//! Kernels: the compliance of a flat punch of half-width s, but for a factor and a constant, as every punch of a shape has it.
+
+use crate::numerics::guard::{TINY, quotient};
+
+/// The kernel of a shape.
+#[derive(Clone, Copy)]
+pub(crate) enum Kernel {
+    /// ln(1/s).
+    Line,
+    /// 1/s.
+    Point,
+}
+
+impl Kernel {
+    /// The value, given 1/s.
+    pub fn value(self, reciprocal: f64) -> f64 {
+        match self {
+            Kernel::Line => reciprocal.ln(),
+            Kernel::Point => reciprocal,
+        }
+    }
+
+    /// ds/s over the decrease of the value, and the power of s by which that grows.
+    pub fn reach(self, half_width: f64) -> (f64, f64) {
+        match self {
+            Kernel::Line => (1.0, 0.0),
+            Kernel::Point => (half_width, 1.0),
+        }
+    }
+
+    /// The value less that of s = 1, given also 1 - s².
+    pub fn increase(self, half_width: f64, squares: f64) -> f64 {
+        let square = half_width * half_width;
+        match self {
+            Kernel::Line if square < 0.5 => -0.5 * square.max(TINY).ln(),
+            Kernel::Line => -0.5 * (-squares).max(-0.5).ln_1p(),
+            Kernel::Point => quotient(1.0, half_width) - 1.0,
+        }
+    }
+
+    /// 1 - s², the inverse of `increase`.
+    pub fn squares(self, increase: f64) -> f64 {
+        match self {
+            Kernel::Line => -(-2.0 * increase).exp_m1(),
+            Kernel::Point => {
+                // Infinite for s = 0.
+                let increase = increase.min(1.0 / TINY);
+                let consumed = increase / (1.0 + increase);
+                consumed * (2.0 - consumed)
+            }
+        }
+    }
+}
