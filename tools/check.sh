@@ -34,6 +34,7 @@ rust() {
     step 'coverage: 98 % of the lines of src/' tools/coverage.sh
     step 'accuracy and adversarial histories, 1e5 points' target/debug/verify --points 1e5
     step 'verdicts of 40 fits of each kind' env MICROSLIP_FITS=40 "$CARGO" test $workspace --test wrong_models -- plateau microslip
+    step 'two directions: Jacobians of 10,000 random motions' env MICROSLIP_MOTIONS=10000 "$CARGO" test $workspace --test two_directions jacobians
     step 'random calls and histories' "$CARGO" test $workspace --test ffi --test histories
     step 'references of the interfaces' tools/docs.sh
 }
