@@ -205,13 +205,9 @@ struct Entry<'a> {
 
 /// The functions in the order of `interface.txt`.
 pub fn functions<'a>(prototypes: &'a [Prototype<'a>]) -> Result<Vec<Function<'a>>, String> {
-    functions_by(FACTS, prototypes)
-}
-
-fn functions_by<'a>(facts: &'a str, prototypes: &'a [Prototype<'a>]) -> Result<Vec<Function<'a>>, String> {
     let (mut common, mut statuses) = (HashMap::new(), HashMap::new());
     let (mut entries, mut section): (Vec<Entry>, _) = (Vec::new(), Vec::new());
-    for line in facts.lines().filter(|line| !line.starts_with('#') && !line.is_empty()) {
+    for line in FACTS.lines().filter(|line| !line.starts_with('#') && !line.is_empty()) {
         if let Some(title) = line.strip_prefix("---") {
             section.push(title.trim());
         } else if let Some(fact) = line.strip_prefix("    ") {
@@ -290,75 +286,5 @@ fn function<'a>(
             let (result, comment) = (prototype.result.base, prototype.comment.clone());
             Ok(Function { name, result, arguments, comment, words, section })
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    const HEADER: &str = "
-extern \"C\" {
-
-// A step.
-//
-// Returns MSLIP_BAD_STATE.
-int32_t mslip_step(size_t n, const struct mslip_contact *contacts, const double *state_old,
-                   const double *x, double *force);
-
-}  // extern \"C\"
-";
-    const FACTS: &str = "
-contacts: The contacts.
-state_old: The old state.
-state MSLIP_BAD_STATE
-mslip_step
-    x (m, n): Positions.
-    force (n) !: Forces.
-";
-
-    fn error(facts: &str) -> String {
-        let header = Header::new(HEADER).unwrap();
-        functions_by(facts, &header.prototypes().unwrap()).err().unwrap_or_default()
-    }
-
-    #[test]
-    fn facts_and_declarations_are_combined() {
-        let header = Header::new(HEADER).unwrap();
-        let prototypes = header.prototypes().unwrap();
-        let functions = functions_by(FACTS, &prototypes).unwrap();
-        let [function] = &functions[..] else { panic!("one function") };
-        assert_eq!(
-            (function.name, &function.comment[..]),
-            ("mslip_step", &["A step.".into(), "Returns MSLIP_BAD_STATE.".into()][..])
-        );
-        let kinds =
-            function.arguments.iter().map(|a| (a.name(), &a.extents[..], a.is_input(), a.is_output(), a.required));
-        assert_eq!(
-            kinds.collect::<Vec<_>>(),
-            [
-                ("n", "", false, false, false),
-                ("contacts", "", false, false, false),
-                ("state_old", "", false, false, false),
-                ("x", "mn", true, false, false),
-                ("force", "n", false, true, true),
-            ]
-        );
-        assert!(function.arguments[2].is_memory());
-    }
-
-    #[test]
-    fn what_is_missing_or_unknown_is_reported() {
-        for (from, to, message) in [
-            ("mslip_step", "mslip_path", "mslip_step is missing"),
-            ("    x (m, n): Positions.\n", "", "mslip_step: x is missing"),
-            ("    x (", "    y (m): Y.\n    x (", "mslip_step: y is not in the source"),
-            ("state_old: The old state.\n", "", "mslip_step: state_old has no comment"),
-            ("(m, n)", "(m, q)", "unknown extents: x (m, q): Positions."),
-            ("mslip_step\n", "mslip_step = mslip_other\n", "no mslip_other"),
-        ] {
-            assert_eq!(error(&FACTS.replacen(from, to, 1)), message);
-        }
-        assert_eq!(error(&(FACTS.to_owned() + "mslip_path\n")), "mslip_path is not in the source");
     }
 }
