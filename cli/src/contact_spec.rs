@@ -2,7 +2,7 @@
 
 use crate::error::{CliError, Result, input, usage};
 use crate::files::{PARAMETERS_SIZE, read_text};
-use crate::number::{format_list, format_number, parse_number};
+use crate::number::{format_list, parse_number};
 use crate::units::{Quantity, Units};
 use clap::{Args, ValueEnum};
 use microslip::element::{Directions, Element, NormalInput};
@@ -103,7 +103,7 @@ impl ContactSpec {
             given.add(parse(&read_text(path, PARAMETERS_SIZE)?).map_err(|reason| CliError::in_file(path, reason))?)?;
         }
         given.check_presence()?;
-        let contact = given.contact(1.0)?.map_err(|error| {
+        let contact = given.contact()?.map_err(|error| {
             let (message, parameter) = given.explain(error);
             let others =
                 given.implausible().into_iter().filter(|text| parameter.is_none_or(|name| !text.starts_with(name)));
@@ -122,7 +122,7 @@ impl ContactSpec {
         if self.given.normal_force == Some(0.0) {
             return input("without a normal force the contact is open: normal_force must be > 0");
         }
-        let element = match self.given.shape(1.0)? {
+        let element = match self.given.shape()? {
             ShapeParameters::Flat(parameters) => Element::rounded_flat(&parameters, directions, normal_input),
             ShapeParameters::Ellipse(parameters) => Element::elliptic(&parameters, directions, normal_input),
         };
@@ -211,7 +211,7 @@ impl ContactArgs {
     pub fn implausible(&self) -> Vec<String> {
         let units = self.units.unwrap_or(Units::Si);
         let metre = Some(1.0 / units.in_si(Quantity::Length));
-        let warnings: Vec<_> = match self.shape(1.0) {
+        let warnings: Vec<_> = match self.shape() {
             Ok(ShapeParameters::Flat(parameters)) => parameters.warnings(metre).collect(),
             Ok(ShapeParameters::Ellipse(parameters)) => parameters.warnings(metre).collect(),
             Err(_) => Vec::new(),
@@ -268,16 +268,14 @@ impl ContactArgs {
         usage(format!("missing parameters: {}; give them in a parameter file or by {options}{why}", names.join(", ")))
     }
 
-    /// The contact, with length and normal force multiplied by the same factor.
-    fn contact(&self, factor: f64) -> Result<std::result::Result<Contact, Error>> {
-        Ok(match self.shape(factor)? {
+    fn contact(&self) -> Result<std::result::Result<Contact, Error>> {
+        Ok(match self.shape()? {
             ShapeParameters::Flat(parameters) => Contact::rounded_flat(&parameters),
             ShapeParameters::Ellipse(parameters) => Contact::elliptic(&parameters),
         })
     }
 
-    /// The parameters, with length and normal force multiplied by the same factor.
-    fn shape(&self, factor: f64) -> Result<ShapeParameters> {
+    fn shape(&self) -> Result<ShapeParameters> {
         let of_both = |values: &[f64]| match *values {
             [both] => Ok([both; 2]),
             [first, second] => Ok([first, second]),
@@ -303,8 +301,8 @@ impl ContactArgs {
         Ok(ShapeParameters::Flat(Parameters {
             flat_half_width: number(self.flat_half_width),
             edge_radius: number(self.edge_radius),
-            length: factor * number(self.length),
-            normal_force: factor * normal_force,
+            length: number(self.length),
+            normal_force,
             friction_coefficient,
             material,
             displacement_reference: match self.displacement_reference {
@@ -319,7 +317,7 @@ impl ContactArgs {
 
     /// Tangential over normal compliance of a rough surface: (2-ν)/(2(1-ν)), the mean of both bodies by their shares of 1/E*.
     pub fn tangential_ratio(&self) -> Result<f64> {
-        let material = match self.shape(1.0)? {
+        let material = match self.shape()? {
             ShapeParameters::Flat(parameters) => parameters.material,
             ShapeParameters::Ellipse(parameters) => parameters.material,
         };
@@ -336,7 +334,7 @@ impl ContactArgs {
             // It is given: missing parameters were reported.
             Some(Reference::RigidStrip) | None => microslip_fit::DisplacementReference::RigidStrip,
         };
-        let (geometry, normal_force, friction_coefficient, material) = match self.shape(1.0)? {
+        let (geometry, normal_force, friction_coefficient, material) = match self.shape()? {
             ShapeParameters::Flat(p) => {
                 let Parameters { flat_half_width, edge_radius, length, .. } = p;
                 let geometry =
@@ -358,34 +356,7 @@ impl ContactArgs {
         let numbers = self.numbers();
         let subject = message.split(' ').find_map(|word| numbers.iter().find(|(name, _)| word == *name));
         let Some((name, values)) = subject else { return (message, None) };
-        let detail = match error {
-            Error::LengthTooShort => self.length_limits().unwrap_or_default(),
-            _ => format!(", not {}", format_list(values)),
-        };
-        (message.clone() + &detail, Some(name))
-    }
-
-    /// Half-width b, and the smallest length that the library accepts under this normal force.
-    fn length_limits(&self) -> Option<String> {
-        // b depends on N/L only.
-        let half_width = self.contact(1e9).ok()?.ok()?.half_width;
-        let is_accepted = |length: f64| {
-            let longer = ContactArgs { length: Some(length), ..self.clone() };
-            longer.contact(1.0).is_ok_and(|contact| contact.is_ok())
-        };
-        let (length, unit) = (self.length?, self.units.unwrap_or(Units::Si).unit(Quantity::Length));
-        let mut high = (1..100).map(|i| length * f64::from(i).exp2()).find(|length| is_accepted(*length))?;
-        let mut low = 0.5 * high;
-        for _ in 0..50 {
-            let middle = 0.5 * (low + high);
-            *(if is_accepted(middle) { &mut high } else { &mut low }) = middle;
-        }
-        // The limit is rounded up.
-        let (length, limit) = (format_number(length), 1.0005 * high);
-        Some(format!(
-            "; length = {length} {unit}, b = {half_width:.3e} {unit}; \
-             under this normal force length must exceed {limit:.3e} {unit}"
-        ))
+        (format!("{message}, not {}", format_list(values)), Some(name))
     }
 
     /// The options that define the same contact.
