@@ -124,14 +124,12 @@ pub enum Command {
   microslip fit contact.toml --measured rig1.csv,rig2.csv --column x --force-column F --normal-force-column N --fix shape"
     ))]
     Fit(ContactCommand<Fit>),
-    /// Layer in series with the contact, from measured stiffnesses of both together, the rms height of the roughness (Persson), or the
-    /// asperities (Greenwood and Williamson, normally distributed heights)
+    /// Layer in series with the contact, from measured stiffnesses of both together, or the rms height of the roughness (Persson)
     #[command(after_help = help!(
         "quantity, value, lower, upper (of the literature), unit; comments have the lines of a parameter file and of Fortran",
         "layer contact.toml --measured-stiffness 60e6 --at 300
   microslip layer contact.toml --measured-stiffness 40e6,60e6 --at 150,300
-  microslip layer contact.toml --rms-height 0.8e-6
-  microslip layer contact.toml --asperity-radius 50e-6 --asperity-density 1e9 --height-deviation 0.5e-6"
+  microslip layer contact.toml --rms-height 0.8e-6"
     ))]
     Layer(ContactCommand<LayerOptions>),
     /// Print a parameter file with comments
@@ -205,15 +203,6 @@ pub struct LayerOptions {
     /// Root mean square of the heights of both surfaces
     #[arg(long, value_name = "m", value_parser = parse_number, allow_hyphen_values = true)]
     pub rms_height: Option<f64>,
-    /// Radius of the asperities
-    #[arg(long, value_name = "m", value_parser = parse_number, allow_hyphen_values = true)]
-    pub asperity_radius: Option<f64>,
-    /// Number of asperities per area
-    #[arg(long, value_name = "1/m^2", value_parser = parse_number, allow_hyphen_values = true)]
-    pub asperity_density: Option<f64>,
-    /// Standard deviation of the heights of the asperities
-    #[arg(long, value_name = "m", value_parser = parse_number, allow_hyphen_values = true)]
-    pub height_deviation: Option<f64>,
 }
 
 #[derive(Debug, Args)]
