@@ -1,18 +1,14 @@
 //! The commands: each computes a table and a picture.
 
-use crate::args::{Amplitudes, Curve, History, Iwan, Loop, Tractions};
-use crate::columns::{ColumnSpec, InputTable, parse_columns, read_table};
+use crate::args::{Amplitudes, Curve, Iwan, Loop, Tractions};
 use crate::contact_spec::ContactSpec;
 use crate::error::{CliError, Result, input, usage};
 use crate::number::format_number;
 use crate::plot::{Axis, Line, Panel, Picture, Row, rounded};
 use crate::table::Table;
-use crate::units::Quantity::{self, Energy, Force, Length, Number, Pressure, Stiffness, StiffnessSlope};
+use crate::units::Quantity::{Energy, Force, Length, Number, Pressure, Stiffness, StiffnessSlope};
 use crate::varying_load;
 use microslip::constant_load::equivalents::{SpringSlider, iwan, jenkins};
-use microslip::constant_load::state::state_length;
-use microslip::constant_load::{ConstantLoad, Law};
-use microslip::element::NormalInput;
 use microslip::{Contact, CurvePoint, Error};
 use std::f64::consts::PI;
 use std::ops::RangeInclusive;
@@ -339,75 +335,6 @@ pub fn stiffness(options: &Amplitudes, spec: &ContactSpec) -> Result<Report> {
     let panels = vec![Panel { x: AMPLITUDE, y: Axis::linear("complex stiffness", Stiffness), lines }.into()];
     let report = Report::new(spec, Table::of_numbers(&columns, spec.units, &rows), panels);
     Ok(report.with_remark("dk_real, dk_imag: derivatives by the amplitude; dissipated: energy per cycle"))
-}
-
-/// The last columns of a history.
-pub const ENERGIES: [(&str, Quantity); 2] = [("dissipated", Energy), ("dissipated_total", Energy)];
-pub const ENERGIES_REMARK: &str = "dissipated: energy of each step; dissipated_total: energy up to the end of the step";
-
-/// Points of a picture of a history: between the rows it follows the branches.
-const POINTS_OF_HISTORY: usize = 100_000;
-
-/// Into how many parts a picture divides the steps of a history.
-pub fn parts_of_step(rows: usize) -> u32 {
-    (POINTS_OF_HISTORY / rows).clamp(1, 500) as u32
-}
-
-pub fn history(options: &History, spec: &ContactSpec) -> Result<Report> {
-    let path = &options.displacements;
-    let new = |option, selected, names, quantity| ColumnSpec::new(option, selected, names, quantity, spec.units);
-    let column = new("--column", &options.column, &["displacement", "displacement_x"], Length);
-    let column_y = new("--column-y", &options.column_y, &["displacement_y"], Length);
-    // A selected column of normal forces leaves no choice.
-    let approach: &[&str] = if options.normal_force_column.is_some() { &[] } else { &["approach"] };
-    let specs = [
-        column,
-        column_y,
-        new("--approach-column", &options.approach_column, approach, Length),
-        new("--normal-force-column", &options.normal_force_column, &["normal_force"], Force),
-    ];
-    let table =
-        parse_columns(&read_table(path)?, options.skip, &specs).map_err(|reason| CliError::in_file(path, reason))?;
-    let inputs = [(2, NormalInput::Approach), (3, NormalInput::Force)];
-    let input = inputs.into_iter().find(|(column, _)| table.has(*column)).map(|(_, input)| input);
-    let mut report = match input {
-        _ if table.has(1) => varying_load::history_in_two_directions(options, spec, input, &table),
-        None => constant_load_history(options, spec, &table),
-        Some(input) => varying_load::history(options, spec, input, &table),
-    }?;
-    report.warnings.extend(table.warning);
-    Ok(report)
-}
-
-fn constant_load_history(options: &History, spec: &ContactSpec, table: &InputTable) -> Result<Report> {
-    let (contact, path, count) = (&spec.contact, &options.displacements, table.rows.len());
-    // A history has no more reversals than rows: none is merged, and the results are exact.
-    let mut state = vec![0.0; state_length(count)];
-    ConstantLoad::state_init(&mut state).map_err(|error| CliError::in_file(path, error))?;
-    let parts = parts_of_step(count);
-    let (mut rows, mut points, mut from) = (Vec::new(), vec![(0.0, 0.0)], 0.0);
-    let mut total = 0.0;
-    for row in &table.rows {
-        let displacement = row.values[0] * if options.relative { contact.slip_displacement } else { 1.0 };
-        // Long histories have long states: copied only if steps are divided.
-        let mut divided = if parts > 1 { state.clone() } else { Vec::new() };
-        let step = ConstantLoad::step(contact, &mut state, displacement)
-            .map_err(|error| CliError::in_file(path, format!("{}: {error}", table.place(row, 0))))?;
-        points.extend((1..parts).filter_map(|part| {
-            let between = from + (displacement - from) * f64::from(part) / f64::from(parts);
-            Some((between, ConstantLoad::step(contact, &mut divided, between).ok()?.force))
-        }));
-        points.push((displacement, step.force));
-        total += step.dissipated;
-        rows.push(vec![displacement, step.force, step.tangent, step.dissipated, total]);
-        from = displacement;
-    }
-    let columns = [("displacement", Length), ("force", Force), ("stiffness", Stiffness)];
-    let columns = [&columns[..], &ENERGIES].concat();
-    let line = Line { stroke: 0, name: String::new(), points };
-    let panels = vec![Panel { x: DISPLACEMENT, y: FORCE, lines: vec![line] }.into()];
-    let report = Report::new(spec, Table::of_numbers(&columns, spec.units, &rows), panels);
-    Ok(report.with_remark(ENERGIES_REMARK))
 }
 
 /// A word of a shell command, on one line.

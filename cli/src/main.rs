@@ -1,6 +1,6 @@
 //! The command line program of microslip: properties, curves and hysteresis of a contact, as CSV and as pictures.
 //!
-//! `args` defines the command line, `contact_spec` and `columns` read the input, `commands`, `varying_load`, `fit` and `layer` compute, `plot`
+//! `args` defines the command line, `contact_spec` and `columns` read the input, `commands`, `varying_load`, `history`, `fit` and `layer` compute, `plot`
 //! draws, and `files` reads and writes.
 
 mod args;
@@ -11,6 +11,7 @@ mod contact_spec;
 mod error;
 mod files;
 mod fit;
+mod history;
 mod layer;
 mod number;
 mod plot;
@@ -62,7 +63,7 @@ fn run(command: &Command) -> Result<u8> {
         Command::Curve(command) => execute(command, &[], commands::curve),
         Command::Loop(command) => execute(command, &[], commands::hysteresis_loop),
         Command::Stiffness(command) => execute(command, &[], commands::stiffness),
-        Command::History(command) => execute(command, &[&command.options.displacements], commands::history),
+        Command::History(command) => execute(command, &[&command.options.displacements], history::history),
         Command::Normal(command) => execute(command, &[], varying_load::normal),
         Command::Jenkins(command) => execute(command, &[], commands::jenkins_equivalent),
         Command::Iwan(command) => execute(command, &[], commands::iwan_equivalent),

@@ -845,7 +845,7 @@ fn errors_in_files_name_file_and_line() {
         (b"a,b\n1.5,2,3\n", "--column a", "line 2: no column a; the 3 columns have no names; line 1 has 2"),
         (b"u\n1\n2e-\n", "", "line 3: \"2e-\": not a number; is the file cut off?"),
         (b"\x89PNG\0\0", "", "this is no text"),
-        (b"# c\nu\n1e-6\ninf", "", &format!("line 4: {}", Error::BadDisplacement)),
+        (b"# c\nu\n1e-6\ninf", "", &format!("line 4: NaN: {}", Error::BadDisplacement)),
         (b"u\n0\n0,5e-6\n", "", "line 2: \"0\" has 1 columns, but line 3 has 2; is a comma the decimal separator?"),
         (b"t,u\n0\n", "--column u", "line 2: only 1 of 2 columns"),
         (
@@ -867,7 +867,7 @@ fn errors_in_files_name_file_and_line() {
         ),
         (b"0,.1\n", "--column 3", "line 1: no column 3; the 2 columns have no names, by their numbers 1 to 2"),
         (b"", "", "the table has no displacements"),
-        (b"t,u\n0,1\n0,x\n", "--column u", &format!("line 3, column u: {}", Error::BadDisplacement)),
+        (b"t,u\n0,1\n0,x\n", "--column u", &format!("line 3, column u: NaN: {}", Error::BadDisplacement)),
         (b"displacement,normal_force\n0,1\n0,-2\n", "", "line 3, column normal_force: -2: normal_force must be"),
         (b"displacement,approach\n0,1\n", "", "line 2, column approach: 1: length too small for the half-width"),
         (b"u,N\n0,1\n", "--column u --approach-column u", "line 1: --column and --approach-column select the same"),
