@@ -42,11 +42,6 @@ fn since(line: &str) -> String {
     name.map_or(String::new(), |name| format!("//\n// Since {}.\n", interface::since(name)))
 }
 
-/// The functions of the interface, in the order of the source.
-pub fn symbols() -> Vec<String> {
-    bindings().dynamic_symbols_names().map(str::to_owned).collect()
-}
-
 /// The generated files, as paths in the repository, with the texts that they should have.
 fn generated() -> Result<[(&'static str, String); 7], String> {
     let header = header();
