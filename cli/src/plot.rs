@@ -429,61 +429,6 @@ impl Scale {
 mod tests {
     use super::*;
 
-    fn picture(x: Axis, points: &[Point]) -> Picture {
-        let lines = vec![Line { stroke: 0, name: String::new(), points: points.to_vec() }];
-        let panel = Panel { x, y: Axis::linear("force", Quantity::Force), lines };
-        Picture { caption: String::new(), units: Units::Si, rows: vec![panel.into()] }
-    }
-
-    #[test]
-    fn every_axis_has_ticks_and_contains_its_values() {
-        let sizes = [-1e150, -3.0, -1e-9, 0.0, 1e-300, 2.5e-7, 0.999, 1.0, 1.0 + f64::EPSILON, 1234.5, 1e150];
-        for (i, low) in sizes.into_iter().enumerate() {
-            for (high, logarithmic) in sizes.into_iter().skip(i).flat_map(|high| [(high, false), (high, true)]) {
-                let axis = Axis { name: "x", quantity: Quantity::Length, logarithmic };
-                let scale = Scale::of(axis, Units::Mm, [low, high].into_iter(), 10.0, 0.5);
-                assert!((2..=11).contains(&scale.ticks.len()), "{low} {high} {scale:?}");
-                for value in [low, high].into_iter().filter(|value| !logarithmic || *value > 0.0) {
-                    assert!((0.0..=1.0).contains(&scale.fraction(scale.place(value))), "{low} {high} {scale:?}");
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn labels_have_suitable_units_and_digits() {
-        let scale = |axis, units, values: [f64; 2]| Scale::of(axis, units, values.into_iter(), 10.0, 0.5);
-        for (largest, quantity, label) in [
-            (2.5e-3, Quantity::Length, " [µm]"),
-            (1500.0, Quantity::Pressure, " [GPa]"),
-            (700.0, Quantity::Stiffness, " [kN/m]"),
-        ] {
-            assert_eq!(scale(Axis::linear("", quantity), Units::Mm, [0.0, largest]).label, label);
-        }
-        for (value, quantity, units, text) in [
-            (0.9999, Quantity::Length, Units::Mm, "1000 µm"),
-            (-12.34, Quantity::Force, Units::Si, "-12.3 N"),
-            (0.0, Quantity::Energy, Units::Si, "0.00 J"),
-            (1e30, Quantity::Force, Units::Si, "1.00 1e30 N"),
-        ] {
-            assert_eq!(rounded(value, quantity, units), text);
-        }
-        for (axis, values, labels) in [
-            (Axis::linear("", Quantity::Force), [-1.0, 1.0], ["-1.0", "-0.5", "0.0", "0.5", "1.0"]),
-            (Axis::logarithmic("", Quantity::Force), [1e-3, 20.0], ["1e-3", "0.01", "0.1", "1", "10"]),
-        ] {
-            let scale = scale(axis, Units::Si, values);
-            assert_eq!(scale.ticks.iter().map(|tick| scale.tick_label(*tick)).collect::<Vec<_>>(), labels);
-        }
-    }
-
-    #[test]
-    fn lines_are_interrupted_at_points_that_are_not_finite() {
-        let points = [(0.0, 1.0), (1.0, 2.0), (2.0, f64::NAN), (3.0, 1.0), (4.0, 2.0)];
-        let svg = picture(Axis::linear("", Quantity::Length), &points).draw(Format::Svg).unwrap();
-        assert_eq!(String::from_utf8(svg).unwrap().matches("stroke-width=\"2\"").count(), 2);
-    }
-
     /// Boxes of the texts: left, right, top, bottom.
     #[derive(Default)]
     struct Texts(Vec<([f64; 4], String)>);
