@@ -1,7 +1,7 @@
 //! The command line.
 
 use crate::contact_spec::ContactArgs;
-use crate::number::{Amount, parse_amount, parse_number};
+use crate::number::parse_number;
 use crate::units::DataUnits;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
@@ -80,7 +80,7 @@ pub enum Command {
   with --normal-amplitude: amplitude, phase, displacement, normal_force, force, dissipated,
   dissipated_constant (energy per cycle under the constant normal force)",
         "loop contact.toml --amplitude 5e-7,1e-6 --plot loop.svg
-  microslip loop contact.toml --amplitude 1e-6 --normal-amplitude 40% --phase 0,90 --plot loop.svg"
+  microslip loop contact.toml --amplitude 1e-6 --normal-amplitude 320 --phase 0,90 --plot loop.svg"
     ))]
     Loop(ContactCommand<Loop>),
     /// Complex stiffness K' + iK'' over the displacement amplitude
@@ -233,10 +233,10 @@ pub struct Loop {
     /// Number of points of a period, uniformly spaced in time; the first is repeated at the end
     #[arg(long, value_name = "COUNT", default_value_t = 200, value_parser = at_least_two())]
     pub points: u32,
-    /// Amplitude of a harmonic variation of the normal force about normal_force: a force, or a percentage of normal_force; the
-    /// contact is open while the sum is negative
-    #[arg(long, value_name = "N|%", value_parser = parse_amount, allow_hyphen_values = true, requires = "phase")]
-    pub normal_amplitude: Option<Amount>,
+    /// Amplitude of a harmonic variation of the normal force about normal_force; the contact is open while the sum is
+    /// negative
+    #[arg(long, value_name = "N", value_parser = parse_number, allow_hyphen_values = true, requires = "phase")]
+    pub normal_amplitude: Option<f64>,
     /// Phases by which the normal force leads the displacement, from -360 to 360
     #[arg(long, value_name = "DEGREES", value_delimiter = ',', value_parser = parse_number, allow_hyphen_values = true)]
     #[arg(requires = "normal_amplitude")]

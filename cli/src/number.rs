@@ -24,18 +24,3 @@ pub fn parse_number(text: &str) -> Result<f64, &'static str> {
         _ => "not a number",
     })
 }
-
-/// A number, or a percentage of a quantity that is known later.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Amount {
-    Absolute(f64),
-    Fraction(f64),
-}
-
-/// A number, or a percentage: 40%.
-pub fn parse_amount(text: &str) -> Result<Amount, &'static str> {
-    match text.trim().strip_suffix('%') {
-        Some(percent) => parse_number(percent).map(|percent| Amount::Fraction(percent / 100.0)),
-        None => parse_number(text).map(Amount::Absolute),
-    }
-}

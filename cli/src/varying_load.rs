@@ -4,7 +4,7 @@ use crate::args::{Loop, Normal};
 use crate::commands::{DISPLACEMENT, FORCE, Report, STIFFNESS, check_range, grid, pairs, panel, scaled};
 use crate::contact_spec::ContactSpec;
 use crate::error::{CliError, Result};
-use crate::number::{Amount, format_number};
+use crate::number::format_number;
 use crate::plot::{Axis, Line, Panel, rounded};
 use crate::table::Table;
 use crate::units::Quantity::{Angle, Energy, Force, Length, Stiffness};
@@ -67,12 +67,7 @@ const STEPS_OF_PERIOD: usize = 4096;
 pub fn swinging_loop(options: &Loop, spec: &ContactSpec, amplitudes: &[f64]) -> Result<Report> {
     let (element, units) = (spec.element(Directions::One, NormalInput::Force)?, spec.units);
     let (mean, n) = (element.normal_force, options.points as usize);
-    let given = match options.normal_amplitude {
-        Some(Amount::Fraction(fraction)) => fraction * mean,
-        Some(Amount::Absolute(multiple)) if options.relative => multiple * mean,
-        Some(Amount::Absolute(force)) => force,
-        None => 0.0,
-    };
+    let given = options.normal_amplitude.unwrap_or_default() * if options.relative { mean } else { 1.0 };
     if !(given >= 0.0 && given.is_finite()) {
         return Err(CliError::in_option("--normal-amplitude", given, Error::BadForceAmplitude));
     }

@@ -495,9 +495,9 @@ fn a_swinging_load_changes_the_energy_of_a_loop() {
         assert!((still[2] - constant[1]).abs() < 1e-21 && (still[4] - constant[2]).abs() < 1e-12 * 60.0);
         assert!((still[5] / still[6] - 1.0).abs() < 1e-12, "{still:?}");
     }
-    // The load is in phase with the displacement, then leads by a quarter of a period; beyond 100 % the contact opens.
+    // The load is in phase with the displacement, then leads by a quarter of a period; beyond 1 the contact opens.
     let energy = |phase: &str| {
-        let rows = swinging(&format!("--normal-amplitude 40% --phase {phase} --points 4"));
+        let rows = swinging(&format!("--normal-amplitude 0.4 --phase {phase} --points 4"));
         let loads: Vec<_> = rows.iter().map(|row| row[3].round()).collect();
         (loads, rows[0][5] / rows[0][6])
     };
@@ -505,11 +505,9 @@ fn a_swinging_load_changes_the_energy_of_a_loop() {
     assert_eq!(in_phase, [210.0, 150.0, 90.0, 150.0, 210.0]);
     assert_eq!(leading, [150.0, 90.0, 150.0, 210.0, 150.0]);
     assert!(least < most, "{least} {most}");
-    // Newtons, per cent and multiples are the same load.
-    let per_cent = swinging("--normal-amplitude 40% --phase 45");
-    assert_eq!(swinging("--normal-amplitude 0.4 --phase 45"), per_cent);
-    let amplitude = per_cent[0][0];
-    assert_eq!(numbers(&run(&format!("--amplitude {amplitude} --normal-amplitude 60 --phase 45"))), per_cent);
+    let relative = swinging("--normal-amplitude 0.4 --phase 45");
+    let amplitude = relative[0][0];
+    assert_eq!(numbers(&run(&format!("--amplitude {amplitude} --normal-amplitude 60 --phase 45"))), relative);
 }
 
 /// Quantities of the table of a fit: value and status.
@@ -684,7 +682,7 @@ fn the_command_in_a_result_repeats_it() {
             "history contact.toml --displacements two.csv --column u --column-y v --approach-column N --relative",
             "history contact.toml --displacements two.csv --column u --column-y 2",
             "normal contact.toml --points 5",
-            "loop contact.toml --points 4 --normal-amplitude 30% --phase 0,-45 --relative --amplitude 0.7",
+            "loop contact.toml --points 4 --normal-amplitude 0.3 --phase 0,-45 --relative --amplitude 0.7",
         ] {
             let table = shell.stdout(&format!("microslip {command}"));
             assert_eq!(shell.stdout(table.lines().nth(1).unwrap().strip_prefix("# ").unwrap()), table);
@@ -731,7 +729,7 @@ fn messages_name_the_error_and_what_is_allowed() {
         ("iwan $FLAT --count 0", "--count 0: ", Error::BadCount, ""),
         ("normal $FLAT --force 10,-2", "--force -2: ", Error::BadNormalForce, ""),
         ("normal $FLAT --to 1", "--to 1: ", Error::LengthTooShort, ""),
-        ("loop $FLAT --phase 0 --normal-amplitude -5%", "--normal-amplitude -7.5: ", Error::BadForceAmplitude, ""),
+        ("loop $FLAT --phase 0 --normal-amplitude -7.5", "--normal-amplitude -7.5: ", Error::BadForceAmplitude, ""),
     ] {
         shell.check_error(&format!("microslip {arguments}"), 1, &format!("{before}{error}{after}"));
     }
@@ -746,11 +744,11 @@ fn messages_name_the_error_and_what_is_allowed() {
         (1, "curve $FLAT --to -1", "--to -1: must be 0 or more"),
         // An error may be the consequence of other units.
         (1, "curve flat.toml --flat-half-width 0.2", "; flat_half_width is implausible: a flank is at most 0.2 m"),
-        (2, "loop $FLAT --normal-amplitude 10%", "--phase <DEGREES>"),
+        (2, "loop $FLAT --normal-amplitude 10", "--phase <DEGREES>"),
         (
             2,
-            "loop $FLAT --normal-amplitude 4O% --phase 0",
-            "invalid value '4O%' for '--normal-amplitude <N|%>': not a number",
+            "loop $FLAT --normal-amplitude 4O --phase 0",
+            "invalid value '4O' for '--normal-amplitude <N>': not a number",
         ),
         (2, "", "Usage: microslip <COMMAND>"),
         (
@@ -952,7 +950,7 @@ fn every_command_draws() {
             draw(&format!("history {given} --displacements {table} --relative"), picture);
         }
         draw(&format!("normal {given}"), "normal.svg");
-        draw(&format!("loop {given} --normal-amplitude 130% --phase 0,90 --amplitude 1e-6"), "swinging.svg");
+        draw(&format!("loop {given} --normal-amplitude 195 --phase 0,90 --amplitude 1e-6"), "swinging.svg");
     }
     draw("loop flat.toml --amplitude 1e-6,2e-6", "loop.svg");
     for text in
