@@ -6,6 +6,7 @@ import logging
 
 import microslip
 import numpy as np
+import pyharm_costs
 import pytest
 from numpy.testing import assert_allclose
 from pyHarm import extension
@@ -27,6 +28,13 @@ SLIP = contact.slip_displacement
 def test_response_of_two_masses_is_that_of_the_fortran_example():
     # The Fortran example stops at a residual of 1e-12 of the displacement.
     assert deviation(REPOSITORY / "fortran_examples" / "expected" / "two_dof.csv") < 1e-11
+
+
+def test_the_costs_of_the_benchmarks_are_measured(capsys):
+    pyharm_costs.main(rounds=1)
+    rows = [line.split() for line in capsys.readouterr().out.splitlines()[-3:]]
+    assert [int(row[1]) for row in rows] == [1, 5, 9]
+    assert all(int(row[7]) < int(row[3]) < 1e6 for row in rows)  # microslip, Jenkins
 
 
 def connector(law, **others):
