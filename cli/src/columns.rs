@@ -195,6 +195,8 @@ struct Source<'a> {
     header: usize,
     names: Vec<String>,
     units: Vec<String>,
+    /// The number of names in the line above the rows, if it is not that of the columns.
+    other_names: Option<(usize, usize)>,
     rows: Vec<(usize, &'a str)>,
     /// What follows the last row.
     rest: Option<(usize, &'a str)>,
@@ -304,6 +306,7 @@ impl<'a> Source<'a> {
         let of_names = headers.iter().find(|(_, cells)| is_wanted(cells));
         let of_names = of_names.or(headers.iter().find(|(_, cells)| *cells != units)).or(headers.first());
         let (header, names) = of_names.cloned().unwrap_or((rows[0].0, Vec::new()));
+        let other_names = next.filter(|_| names.is_empty()).map(|(number, columns, _)| (number, columns));
         let may_be_decimal = |(_, line): &(usize, &str)| {
             let cells = form.split(line);
             !line.contains('.') && cells.windows(2).any(|pair| number(&pair.join(","), ',').is_some())
@@ -316,7 +319,7 @@ impl<'a> Source<'a> {
             ));
         }
         let count = count.max(names.len());
-        Ok(Source { form, count, header, names, units, rows, rest })
+        Ok(Source { form, count, header, names, units, other_names, rows, rest })
     }
 }
 
@@ -361,8 +364,10 @@ pub fn parse_columns(text: &str, skipped: usize, specs: &[ColumnSpec]) -> std::r
         }
         let cells = form.split(row);
         let (count, expected) = (length(&cells), source.count);
+        let is_last = source.rows.last().is_some_and(|(last, _)| *last == line);
+        let cut_off = if is_last { "; is the file cut off?" } else { "" };
         if cells.len() <= needed {
-            return Err(format!("line {line}: only {count} of {expected} columns"));
+            return Err(format!("line {line}: only {count} of {expected} columns{cut_off}"));
         }
         if count > expected {
             let comma = of_comma(form.separator);
@@ -373,13 +378,17 @@ pub fn parse_columns(text: &str, skipped: usize, specs: &[ColumnSpec]) -> std::r
             let value = match specs[table.found[i]].quantity {
                 _ if is_missing(cell) => Some(f64::NAN),
                 // No result depends on a time.
-                Quantity::Time => Some(number(cell, mark).unwrap_or(f64::NAN)),
+                Quantity::Time => Some(seconds(cell, mark).unwrap_or(f64::NAN)),
                 _ => number(cell, mark),
             };
             let invalid = || {
                 let other = if mark == '.' { "points" } else { "commas" };
-                let is_valid = number(cell, ',').or(number(cell, '.')).is_some();
-                let hint = if is_valid { format!("; other numbers have decimal {other}") } else { String::new() };
+                let is_valid = |cell: &str| number(cell, ',').or(number(cell, '.')).is_some();
+                let hint = match cell.trim_end_matches(|letter: char| letter.is_alphabetic() || letter == ' ') {
+                    _ if is_valid(cell) => format!("; other numbers have decimal {other}"),
+                    start if start.len() < cell.len() && is_valid(start) => "; write its unit in the header".to_owned(),
+                    _ => cut_off.to_owned(),
+                };
                 format!("{}: {cell:?}: not a number{hint}", place(line, table.labels.get(i)))
             };
             value.map(|value| factor * value).ok_or_else(invalid)
@@ -420,6 +429,20 @@ fn number(cell: &str, mark: char) -> Option<f64> {
         return None;
     }
     parse_number(&(whole.replace(ends, "") + &fraction.replace(mark, "."))).ok()
+}
+
+/// A time, also one of day, with a date or without: `2024-03-01 12:00:01.5`, `12:00:01,5 PM`.
+fn seconds(cell: &str, mark: char) -> Option<f64> {
+    let mut words = cell.split([' ', 'T', 'Z', '+']);
+    let Some(clock) = words.clone().find(|word| word.contains(':')) else { return number(words.next()?, mark) };
+    let mut parts = clock.split(':').map(|part| number(&part.replace(',', "."), '.')).collect::<Option<Vec<_>>>()?;
+    if let [_, _, _, milliseconds] = &mut parts[..] {
+        *milliseconds *= 60e-3;
+    }
+    if cell.ends_with('M') {
+        parts[0] = parts[0] % 12.0 + if cell.ends_with("PM") { 12.0 } else { 0.0 };
+    }
+    Some(parts.iter().zip([3600.0, 60.0, 1.0, 1.0 / 60.0]).map(|(part, unit)| part * unit).sum())
 }
 
 /// The name in a cell of the header, and its unit: in brackets, or the last word after a blank or a mark if that is a unit.
@@ -492,7 +515,11 @@ impl<'a> ColumnSpec<'a> {
         let option = self.option;
         let name = self.selected.unwrap_or(self.default_name());
         let columns = match source.names.iter().map(|cell| name_of(cell)).collect::<Vec<_>>() {
-            names if names.is_empty() => format!("the {} columns have no names", source.count),
+            names if names.is_empty() => {
+                let comma = if source.other_names.is_some() { of_comma(source.form.separator) } else { "" };
+                let others = source.other_names.map(|(line, names)| format!("; line {line} has {names}{comma}"));
+                format!("the {} columns have no names{}", source.count, others.unwrap_or_default())
+            }
             names => format!("the columns are {}", names.join(", ")),
         };
         let number = self.selected.and_then(|selected| selected.parse::<usize>().ok());

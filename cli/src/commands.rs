@@ -176,8 +176,14 @@ fn maximum_pressure(spec: &ContactSpec) -> f64 {
     contact.pressure(0.5 * (low + high))
 }
 
+/// The point of the monotonic curve at a force.
 fn point_at_force(contact: &Contact, force: f64) -> Result<CurvePoint<'_>> {
-    contact.curve_at_force(force).map_err(|error| CliError::in_option("--force", force, error))
+    contact.curve_at_force(force).map_err(|error| match CliError::in_option("--force", force, error) {
+        CliError::Input(message) if error == Error::ForceExceedsSlip => {
+            CliError::Input(format!("{message}, which is {} N", format_number(contact.slip_force)))
+        }
+        other => other,
+    })
 }
 
 pub fn tractions(options: &Tractions, spec: &ContactSpec) -> Result<Report> {

@@ -9,6 +9,7 @@ use microslip::element::{Directions, Element, NormalInput};
 use microslip::parameters::{CENTRE_POINT, RIGID_STRIP};
 use microslip::{Contact, EllipticParameters, Error, Layer, Material, Parameters};
 use serde::Deserialize;
+use std::ffi::CStr;
 use std::path::Path;
 
 /// Parameters of the file or of the options.
@@ -206,7 +207,7 @@ impl ContactArgs {
         scalars.into_iter().chain(lists).collect()
     }
 
-    /// Warnings of the library about implausible parameters; each begins with the name of one.
+    /// Warnings of the library about implausible parameters, with the value of the parameter with which each begins.
     pub fn implausible(&self) -> Vec<String> {
         let units = self.units.unwrap_or(Units::Si);
         let metre = Some(1.0 / units.in_si(Quantity::Length));
@@ -215,7 +216,19 @@ impl ContactArgs {
             Ok(ShapeParameters::Ellipse(parameters)) => parameters.warnings(metre).collect(),
             Err(_) => Vec::new(),
         };
-        warnings.into_iter().map(|text| text.to_string_lossy().into_owned()).collect()
+        let with_value = |text: &CStr| {
+            let text = text.to_string_lossy();
+            let name = text.split(' ').next()?;
+            let (_, values) = self.numbers().into_iter().find(|(known, _)| *known == name)?;
+            let unit = match name {
+                "friction_coefficient" => String::new(),
+                "young_modulus" => format!(" {}", units.unit(Quantity::Pressure)),
+                "normal_force" => format!(" {}", units.unit(Quantity::Force)),
+                _ => format!(" {}", units.unit(Quantity::Length)),
+            };
+            Some(format!("{name} = {}{unit}{}", format_list(&values), &text[name.len()..]))
+        };
+        warnings.into_iter().filter_map(with_value).collect()
     }
 
     /// Adds the parameters of the file that are not given yet.

@@ -559,7 +559,7 @@ fn a_fit_recovers_the_contact_of_its_loops() {
     // The same in other units, without header, with a normal force for each table, and parameters that are fixed.
     for amplitude in ["0.7", "1.5"] {
         shell.stdout(&format!(
-            "grep '^[0-9]' {amplitude}.csv | awk -F, '{{printf \"%s,%s,%06.3f\\n\", $3, 1e6*$2, NR/10}}' > um{amplitude}.csv"
+            "grep '^[0-9]' {amplitude}.csv | awk -F, '{{printf \"%s,%s,1:00:%06.3f PM\\n\", $3, 1e6*$2, NR/10}}' > um{amplitude}.csv"
         ));
     }
     let fixed = "--fix contact_compliance,shape --fix series_compliance=0";
@@ -721,7 +721,7 @@ fn messages_name_the_error_and_what_is_allowed() {
         ("curve flat.toml --normal-force -1e-3", "error: ", Error::BadNormalForce, ", not -1e-3"),
         ("curve flat.toml --young-modulus 2e11,nan", "error: ", Error::BadYoungModulus, ", not 2e11,NaN"),
         ("curve flat.toml --length 1e-6", "error: ", Error::LengthTooShort, ", not 1e-6"),
-        ("tractions $FLAT --force 61", "--force 61: ", Error::ForceExceedsSlip, ""),
+        ("tractions $FLAT --force 61", "--force 61: ", Error::ForceExceedsSlip, ", which is 60 N"),
         ("curve $FLAT --displacement 1e151", "--displacement 1e151: ", Error::BadDisplacement, ""),
         ("curve $FLAT --to nan", "--to NaN: ", Error::BadDisplacement, ""),
         ("loop $FLAT --amplitude 1e-6,-1", "--amplitude -1: ", Error::BadAmplitude, ""),
@@ -743,7 +743,11 @@ fn messages_name_the_error_and_what_is_allowed() {
         (1, "loop $FLAT --phase 0,400 --normal-amplitude 1", "--phase 400: must be -360 to 360"),
         (1, "curve $FLAT --to -1", "--to -1: must be 0 or more"),
         // An error may be the consequence of other units.
-        (1, "curve flat.toml --flat-half-width 0.2", "; flat_half_width is implausible: a flank is at most 0.2 m"),
+        (
+            1,
+            "curve flat.toml --flat-half-width 0.2",
+            "; flat_half_width = 0.2 m is implausible: a flank is at most 0.2 m",
+        ),
         (2, "loop $FLAT --normal-amplitude 10", "--phase <DEGREES>"),
         (
             2,
@@ -773,16 +777,16 @@ fn messages_name_the_error_and_what_is_allowed() {
         shell.check_error(&format!("microslip {arguments}"), status, text);
     }
     for (options, text, count) in [
-        ("flat.toml --edge-radius 1e-5", "edge_radius is below flat_half_width", 1),
-        ("flat.toml --length 2e-4", "length is below two widths", 1),
+        ("flat.toml --edge-radius 1e-5", "edge_radius = 1e-5 m is below flat_half_width", 1),
+        ("flat.toml --length 2e-4", "length = 2e-4 m is below two widths", 1),
         ("flat.toml --length 0.1", "", 0),
-        ("flat.toml --length 10", "length is implausible", 1),
-        ("flat.toml --length 0.1 --normal-force 1e7", "normal_force is implausible: b - a > R/4", 1),
-        ("--semi-axis-x 0.01 ${ELLIPSE#--semi-axis-x 0.2}", "normal_force is implausible: the semi-axes", 1),
+        ("flat.toml --length 10", "length = 10 m is implausible", 1),
+        ("flat.toml --length 0.1 --normal-force 1e7", "normal_force = 1e7 N is implausible: b - a > R/4", 1),
+        ("--semi-axis-x 0.01 ${ELLIPSE#--semi-axis-x 0.2}", "normal_force = 400 N is implausible: the semi-axes", 1),
         // Millimetres as metres, and pascals as megapascals.
-        ("flat.toml --units mm", "young_modulus is implausible", 3),
-        ("--semi-axis-x 200 ${ELLIPSE#--semi-axis-x 0.2}", "semi_axis_x is implausible", 1),
-        ("flat.toml --friction-coefficient 50", "friction_coefficient is implausible", 1),
+        ("flat.toml --units mm", "young_modulus = 2e11,1.14e11 MPa is implausible", 3),
+        ("--semi-axis-x 200 ${ELLIPSE#--semi-axis-x 0.2}", "semi_axis_x = 200 mm is implausible", 1),
+        ("flat.toml --friction-coefficient 50", "friction_coefficient = 50 is implausible", 1),
     ] {
         let output = shell.run(&format!("microslip contact {options}"));
         let warning = String::from_utf8(output.stderr).unwrap();
@@ -835,9 +839,9 @@ fn errors_in_files_name_file_and_line() {
         (b"u [mil]\n1\n", "", "line 1: column u is in \"mil\", which is no unit of m, cm, mm, um, nm"),
         (b"u [N]\n1\n", "", "line 1: column u is in N, not in m"),
         (b"u\n1\nu\n2\n", "", "line 3: \"u\" is no row of the table, which starts in line 2; give each table a file"),
-        (b"u [um]\n1.5um\n", "", "line 2: \"1.5um\": not a number"),
-        (b"a,b\n1.5,2,3\n", "--column a", "line 2: no column a; the 3 columns have no names"),
-        (b"u\n1\n2e-\n", "", "line 3: \"2e-\": not a number"),
+        (b"u [um]\n1.5um\n", "", "line 2: \"1.5um\": not a number; write its unit in the header"),
+        (b"a,b\n1.5,2,3\n", "--column a", "line 2: no column a; the 3 columns have no names; line 1 has 2"),
+        (b"u\n1\n2e-\n", "", "line 3: \"2e-\": not a number; is the file cut off?"),
         (b"\x89PNG\0\0", "", "this is no text"),
         (b"# c\nu\n1e-6\ninf", "", &format!("line 4: NaN: {}", Error::BadDisplacement)),
         (b"u\n0\n0,5e-6\n", "", "line 2: \"0\" has 1 columns, but line 3 has 2; is a comma the decimal separator?"),
