@@ -51,7 +51,7 @@ impl Real {
         self.0.cmp0() == Some(Ordering::Greater)
     }
 
-    unary!(sqrt cbrt abs ln ln_1p exp atan acosh square);
+    unary!(sqrt cbrt abs ln exp atan acosh square);
 
     pub fn atan2(&self, x: &Real) -> Real {
         Real(self.0.clone().atan2(&x.0))

@@ -25,7 +25,7 @@ pub fn imaginary_part(law: &Law, x: &Real, point: &Point) -> [Real; 2] {
 /// K' and its derivative in units, from Eq. 10 and the first harmonic of Eq. 11: with X the displacement of a stick zone over the
 /// amplitude, K' x = (8/π) ∫ √(X (1-X)) dτ over the stick zones up to the amplitude.
 pub fn real_part(law: &Law, rule: &Quadrature, x: &Real) -> [Real; 2] {
-    let from = law.w(&law.at_x(x));
+    let from = law.at_x(x).w;
     // The amplitude of that stick zone to all bits, so that 1 - X keeps its digits near it.
     let x = &if from.is_zero() { x.clone() } else { law.at_w(&from).x };
     let integrals = rule.integrals(1e-25, &from, &law.w_range(), |w| {

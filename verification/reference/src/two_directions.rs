@@ -11,7 +11,7 @@
 use crate::family::{Family, Given, Size};
 use crate::{Input, Real};
 use microslip::parameters::CENTRE_POINT;
-use microslip::{EllipticParameters, Layer, Parameters};
+use microslip::{EllipticParameters, Parameters};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Force at the end of a row of a path, and energy dissipated in the row.
@@ -100,8 +100,6 @@ impl Contact {
         let (nu, young) = (material[0].poisson_ratio, material[0].young_modulus);
         let modulus = 0.5 * young / (1.0 - nu * nu);
         let reference_load = if layer.reference_load > 0.0 { layer.reference_load } else { normal_force };
-        // The layer of both directions is here.
-        let input = &input.with_layer(Layer::none());
         let knee = if layer.stiffening_load > 0.0 { layer.stiffening_load } else { f64::INFINITY };
         let (flat, line, turned) = match *input {
             Input::Flat(p) => {

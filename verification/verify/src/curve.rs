@@ -43,43 +43,26 @@ pub fn at_forces(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
     }
 }
 
-/// The bits that a layer may lose beyond the contact: a stick zone that carries 2⁻¹⁰⁰ of the load, and N/N_c up to 2¹⁰.
-const OF_LAYER: i32 = 400;
-
-/// The output, or that of a contact with a layer.
-fn named(case: &Case, [alone, with_layer]: [&'static str; 2]) -> &'static str {
-    if case.has_layer() { with_layer } else { alone }
-}
-
 pub fn at_force(case: &Case, force: f64, range: &'static str, tally: &mut Tally) {
     let Case { contact, reference, kind } = case;
-    let extra = if case.has_layer() { OF_LAYER } else { 0 };
-    let (law, point) = reference.at_force_with(force, extra);
+    let (law, point) = reference.at_force(force);
     let place = || format!("{} T {force:e}", text(&reference.input));
     let [displacement, compliance, stick] = call::displacement(contact, force);
     let (rate, stiff) = (point.rate(), point.compliance.f64());
     let around = |f: &dyn Fn(&Law, &Point) -> Real| -> Vec<Real> {
-        let at = |units| reference.at_force_with(moved(force, units), extra);
+        let at = |units| reference.at_force(moved(force, units));
         [-4.0, 4.0].map(at).map(|(law, point)| f(&law, &point)).into()
     };
-    let key = |names| (named(case, names), *kind, range);
     let exact = &law.displacement_unit * &point.x;
-    // With a layer the rounding of T enters too.
-    let (of_length, of_force) = ((&point.tau / &point.x).f64(), (&point.tau * &point.compliance / &point.x).f64());
-    let condition = if case.has_layer() { of_length + of_force } else { of_length };
-    tally.check(key(["displacement", "layer_displacement"]), displacement, &exact, condition, place);
+    let condition = (&point.tau / &point.x).f64();
+    tally.check(("displacement", kind, range), displacement, &exact, condition, place);
     let of = |law: &Law, point: &Point| &point.compliance / &law.stiffness_unit;
     let (exact, soft) = (of(&law, &point), (1.0 + rate) / stiff);
-    let compliances = key(["compliance", "layer_compliance"]);
-    tally.check_between(compliances, compliance, &exact, &exact, soft, place, || around(&of));
-    let change = 4.0 * (&point.tau * &point.compliance - &point.x) * &point.tau / &point.energy;
-    let condition = if case.has_layer() { change.f64() } else { 0.0 };
-    let energies = key(["dissipated_energy", "layer_dissipated_energy"]);
-    tally.check(energies, call::energy(contact, force), &(law.energy_unit() * &point.energy), condition, place);
-    if !case.has_layer() {
-        let exact = size(&law, &point);
-        tally.check_between(("stick_half_width", kind, range), stick, &exact, &exact, rate, place, || around(&size));
-    }
+    tally.check_between(("compliance", kind, range), compliance, &exact, &exact, soft, place, || around(&of));
+    let exact = size(&law, &point);
+    tally.check_between(("stick_half_width", kind, range), stick, &exact, &exact, rate, place, || around(&size));
+    let exact = law.energy_unit() * &point.energy;
+    tally.check(("dissipated_energy", kind, range), call::energy(contact, force), &exact, 0.0, place);
 }
 
 /// A displacement over that of gross slip, and its range.
@@ -126,26 +109,15 @@ pub fn at_displacement(case: &Case, displacement: f64, range: &'static str, tall
         let at = |units| reference.at_displacement(moved(displacement, units));
         [-units, units].map(at).map(|(law, point)| f(&law, &point)).into()
     };
-    let key = |names| (named(case, names), *kind, range);
     let stiff = point.compliance.f64();
     let rate = ((&point.x + &point.tau) * &point.curvature).f64() / stiff;
     let (soft, rate) = (1.0 / stiff, if point.slips() { 0.0 } else { rate });
-    let exact = &law.slip_force * &point.tau;
-    tally.check(key(["force", "layer_force"]), force, &exact, soft, place);
+    tally.check(("force", kind, range), force, &(&law.slip_force * &point.tau), soft, place);
     let exact = of_stiffness(&law, &point);
-    // With a layer the force is rounded after the displacement.
-    let of_force = ((&point.x / &point.compliance + &point.tau) * &point.curvature).f64() / stiff;
-    let condition = match case.has_layer() {
-        true if point.slips() => soft,
-        true => soft + of_force * (1.0 + soft),
-        false => soft * (1.0 + rate),
-    };
-    let stiffnesses = key(["stiffness", "layer_stiffness"]);
-    tally.check_between(stiffnesses, stiffness, &exact, &exact, condition, place, || around(&of_stiffness));
-    if !case.has_layer() {
-        let (key, exact) = (("stick_half_width_inverse", *kind, range), of_size(&law, &point));
-        tally.check_between(key, stick, &exact, &exact, rate, place, || around(&of_size));
-    }
+    let (key, condition) = (("stiffness", *kind, range), soft * (1.0 + rate));
+    tally.check_between(key, stiffness, &exact, &exact, condition, place, || around(&of_stiffness));
+    let (key, exact) = (("stick_half_width_inverse", *kind, range), of_size(&law, &point));
+    tally.check_between(key, stick, &exact, &exact, rate, place, || around(&of_size));
 }
 
 /// At given displacements: derivatives of the force with respect to the parameters, against differences.

@@ -76,11 +76,7 @@ fn of_contact(row: &Row, input: Input, arguments: &str, tally: &mut Tally) -> bo
         (None, ..) => curve::fields(case, &mut crate::Sampler::new(0), tally),
         (Some("c_t"), _, &[tangential_compliance, stiffening_load, value]) => {
             let layer = Layer { normal_compliance: 0.0, tangential_compliance, stiffening_load, reference_load: 0.0 };
-            let Some(layered) = layer::with_layer(case, input.with_layer(layer)) else { return false };
-            match words[2] {
-                "T" => curve::at_force(&layered, value, range, tally),
-                _ => curve::at_displacement(&layered, value, range, tally),
-            }
+            layer::at(case, layer, (words[2], value), range, tally);
         }
         (Some("T"), 1, &[force]) => curve::at_force(case, force, range, tally),
         (Some("T"), 2, &[force, x]) => tractions::at_positions(case, force, &[(x, range)], true, tally),

@@ -6,7 +6,7 @@ use microslip::parameters::{CENTRE_POINT, RIGID_STRIP};
 use microslip::{EllipticParameters, Layer, Material, Parameters};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
-use reference::family::load_of_size;
+use reference::law::load_of_size;
 use reference::{Input, Reference};
 use std::f64::consts::PI;
 
@@ -15,12 +15,6 @@ pub struct Case {
     pub contact: mslip_contact,
     pub reference: Reference,
     pub kind: &'static str,
-}
-
-impl Case {
-    pub fn has_layer(&self) -> bool {
-        self.reference.input.layer().tangential_compliance > 0.0
-    }
 }
 
 /// An element of the library, and the same in multi-precision.
