@@ -1,6 +1,6 @@
 #!/bin/sh
 # fpm.sh PREFIX: a client built by the Fortran package manager, with the installed module and archive. fpm
-# comes from PyPI into target/tools where there is none; where it cannot, the status is 77.
+# is installed from PyPI into target/tools if it is missing; the exit status is 77 if that is not possible.
 set -eu
 
 prefix=$(cd "$1" && pwd)

@@ -19,7 +19,7 @@ use super::path::PathInContact;
 use super::shells::Pressed;
 use super::step::{Displacements, LoadedContact, SlipStep, StepMotion, bounded};
 use super::tangent::{
-    self, ContactSlopes, END, ParameterChanges, ParameterTerms, REFERENCE, START, SpringChanges, propagate,
+    self, ContactSlopes, END, PARAMETERS, ParameterChanges, ParameterTerms, REFERENCE, START, SpringChanges, propagate,
     slopes_of_nodes,
 };
 use crate::element::{Element, Normal};
@@ -238,7 +238,7 @@ struct Walk<'a> {
     step: &'a mut SlipStep,
     /// Derivatives of the contact before and of the present one, by the normal component and by the reference size, if they are known.
     slopes: [Option<[ContactSlopes; 2]>; 2],
-    terms: &'a mut [ParameterTerms; 3],
+    terms: &'a mut [ParameterTerms; PARAMETERS],
 }
 
 /// What a step gives besides the springs.
@@ -256,7 +256,7 @@ impl<'a> Walk<'a> {
         element: &'a Element,
         (units, nodes): (Units, &'a Nodes),
         top: f64,
-        (step, terms): (&'a mut SlipStep, &'a mut [ParameterTerms; 3]),
+        (step, terms): (&'a mut SlipStep, &'a mut [ParameterTerms; PARAMETERS]),
     ) -> Walk<'a> {
         let mut walk = Walk {
             element,
@@ -345,7 +345,7 @@ fn differentiate(
     let [forces_x, forces_y] = [forces_x, forces_y].map(Total::blocks_mut::<COLUMNS>);
     for (block, (columns, (to_x, to_y))) in blocks.iter_mut().zip(forces_x.iter_mut().zip(forces_y)).enumerate() {
         let mut by = [Columns::ZERO; 2];
-        let mut parameters = ParameterChanges { terms, changes: [Lanes::ZERO; 3] };
+        let mut parameters = ParameterChanges { terms, changes: [Lanes::ZERO; PARAMETERS] };
         for lane in 0..BLOCK.min(n - BLOCK * block) {
             let c = BLOCK * block + lane;
             for k in 0..2 {
@@ -417,7 +417,7 @@ fn walk(element: &Element, workspace: &mut TwoDirectionsWorkspace, displacement:
             workspace.changes.fill(0.0);
             workspace.sums.fill(0.0);
         }
-        let (mut step, mut terms) = (SlipStep::NONE, [ParameterTerms::NONE; 3]);
+        let (mut step, mut terms) = (SlipStep::NONE, [ParameterTerms::NONE; PARAMETERS]);
         let mut walk = Walk::new(element, (units, &nodes[0]), top, (&mut step, &mut terms));
         let slopes = slopes_of_nodes([&nodes[1], &nodes[2]]);
         // The reference size is not that of the largest load if this is below the least reference load.

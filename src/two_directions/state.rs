@@ -22,7 +22,8 @@ use super::path::{LONGEST, PathInContact};
 use super::shells::{Pressed, VALUES};
 use super::step::{Displacements, LEAST, LoadedContact, SlipStep, StepMotion, bounded, dissipated, separated};
 use super::tangent::{
-    self, ContactSlopes, END, ParameterChanges, ParameterTerms, REFERENCE, SpringChanges, propagate, slopes_of_nodes,
+    self, ContactSlopes, END, PARAMETERS, ParameterChanges, ParameterTerms, REFERENCE, SpringChanges, propagate,
+    slopes_of_nodes,
 };
 use crate::element::{Directions, Element, Normal};
 use crate::error::Error;
@@ -344,7 +345,7 @@ fn tangent(
     outgrown: Option<(&Outgrown, &Element, &Units)>,
 ) -> [[f64; 3]; 2] {
     let (mut by, mut changes) = ([Lanes::<4>::ZERO; 2], SpringChanges::ZERO);
-    let (mut terms, mut by_parameters) = ([ParameterTerms::NONE; 3], [Lanes::ZERO; 3]);
+    let (mut terms, mut by_parameters) = ([ParameterTerms::NONE; PARAMETERS], [Lanes::ZERO; PARAMETERS]);
     (by_parameters[END][END], by_parameters[REFERENCE][REFERENCE]) = (1.0, 1.0);
     for k in 0..2 {
         (by[k][END], by[k][ALONG[k]]) = (path.per_input[k][1], 1.0);

@@ -34,7 +34,7 @@ impl<const L: usize> SpringChanges<L> {
 pub(crate) const END: usize = 0;
 pub(crate) const START: usize = 1;
 pub(crate) const REFERENCE: usize = 2;
-const PARAMETERS: usize = 3;
+pub(crate) const PARAMETERS: usize = 3;
 
 /// A contact's derivatives by one of its parameters.
 #[derive(Debug, Clone, Copy)]

@@ -148,7 +148,7 @@ static void call_element(results *r, const mslip_element *e)
     free(workspace);
 }
 
-/* A factor of up to so many decades, from a sequence; 1 if that has not begun. */
+/* A random factor within the given number of decades, from a sequence of random numbers; 1 if the sequence is 0. */
 static double decades(uint64_t *sequence, int most)
 {
     double factor = 1.0;
