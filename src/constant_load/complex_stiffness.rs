@@ -44,9 +44,8 @@ pub struct ComplexStiffness {
     pub dissipated: f64,
 }
 
-/// Gauss's rules for `ρ_0` from 1/4, 1/20 and 1e-3, with an error of 4e-15; from 1e-6, and beyond -1e-6 up to -0.05, from where the
+/// Gauss's rules for `ρ_0` from 1/20 and 1e-3, with an error of 4e-15; from 1e-6, and beyond -1e-6 up to -0.05, from where the
 /// contact has weights: 2e-15 of F and 1e-13 of dF/dx_0; next to gross slip: 2e-15 and 4e-14; and for all amplitudes of a curve without weights, which has a knee or is nearly singular: 5e-15 and 1e-12.
-static RULE_FROM_QUARTER: [[[f64; 4]; 2]; 4] = gauss_even();
 static RULE_FROM_TWENTIETH: [[[f64; 4]; 2]; 6] = gauss_even();
 static RULE_FROM_MILLI: [[[f64; 4]; 2]; 8] = gauss_even();
 static RULE_FROM_MICRO: [[[f64; 4]; 2]; 11] = gauss_even();
@@ -128,7 +127,6 @@ impl Contact {
         }
         if rho_0 > IN_SLIP {
             let rule: &[_] = match rho_0 {
-                0.25.. => &RULE_FROM_QUARTER,
                 0.05.. => &RULE_FROM_TWENTIETH,
                 1e-3.. => &RULE_FROM_MILLI,
                 1e-6.. | ..-1e-6 => &RULE_FROM_MICRO,

@@ -100,7 +100,7 @@ pub const BOUNDS: &[Bound] = &[
     bound("loop_force", 10.0, "sum of the sizes of its terms", "1/Λ",
         "any amplitude", "two points of the curve, and a sine"),
     bound("k_real", 64.0, "value", "1/Λ",
-        "any amplitude", "16 to 92 nodes that integrate to 1e-15 of the initial stiffness"),
+        "any amplitude", "24 to 92 nodes that integrate to 1e-15 of the initial stiffness"),
     bound("k_imag", 512.0, "value", "3/Λ; beyond gross slip also 4x/e (6/512), from that of x_s",
         "any amplitude", "the energy, and the force of the amplitude"),
     bound("dk_real", 6000.0, "abs(K)/amplitude", "1/Λ",
