@@ -44,11 +44,12 @@ pub struct ComplexStiffness {
     pub dissipated: f64,
 }
 
-/// Gauss's rules for `ρ_0` from 1/20 and 1e-3, with an error of 4e-15; from 1e-6, and beyond -1e-6 up to -0.05, from where the
-/// contact has weights: 2e-15 of F and 1e-13 of dF/dx_0; next to gross slip: 2e-15 and 4e-14; and for all amplitudes of a curve without weights, which has a knee or is nearly singular: 5e-15 and 1e-12.
-static RULE_FROM_TWENTIETH: [[[f64; 4]; 2]; 6] = gauss_even();
-static RULE_FROM_MILLI: [[[f64; 4]; 2]; 8] = gauss_even();
-static RULE_FROM_MICRO: [[[f64; 4]; 2]; 11] = gauss_even();
+/// Gauss's rules for `ρ_0` from 1/5, 1/100 and 1e-3, and from there to -0.05, beyond which the contact has weights. Their errors are
+/// largest where ρ_0 is smallest, for Λ just above the smallest one with weights: 2e-14 of F and 5e-15 of dF/dx_0; much smaller
+/// elsewhere. The last one is for all amplitudes of a curve without weights, which has a knee or is nearly singular: 5e-15 and 1e-12.
+static RULE_FROM_FIFTH: [[[f64; 4]; 2]; 6] = gauss_even();
+static RULE_FROM_CENTI: [[[f64; 4]; 2]; 8] = gauss_even();
+static RULE_FROM_MILLI: [[[f64; 4]; 2]; 11] = gauss_even();
 static RULE_AT_SLIP: [[[f64; 4]; 2]; BLOCKS_IN_SLIP] = gauss_even();
 static RULE_WITHOUT_WEIGHTS: [[[f64; 4]; 2]; 23] = gauss_even();
 const IN_SLIP: f64 = -0.05;
@@ -127,9 +128,9 @@ impl Contact {
         }
         if rho_0 > IN_SLIP {
             let rule: &[_] = match rho_0 {
-                0.05.. => &RULE_FROM_TWENTIETH,
+                0.2.. => &RULE_FROM_FIFTH,
+                0.01.. => &RULE_FROM_CENTI,
                 1e-3.. => &RULE_FROM_MILLI,
-                1e-6.. | ..-1e-6 => &RULE_FROM_MICRO,
                 _ => &RULE_AT_SLIP,
             };
             return self.integrals(rule, x_0, rho_0);
