@@ -172,7 +172,7 @@ class Element(_Law):
         d force.ravel()[i] / d displacement.ravel()[j], (m(2H+1), m(2H+1)), None if not requested. The element is pressed by the
         largest normal force of the period without a tangential displacement, then displaced. It advances through the periods of the
         workspace and one more, which is returned. With two directions a vibration across a mean tangential force reduces that force
-        over many periods: `drift` is the change in the last period.
+        over many periods: `drift` estimates how far the returned period is from the steady state, over mu times the largest N.
         """
         return self._harmonic_force(workspace, displacement, jacobian)
 

@@ -6,10 +6,10 @@
 //! displaced to that sample at constant normal force, and advanced along a number of periods and one more from there, which counts. The
 //! nodes are those of the largest normal force.
 //!
-//! Static shear is shaken out over many periods. Those before the last two are advanced by fewer samples; the drift estimates what is left
-//! from changes between periods of the same samples.
+//! Static shear is shaken out over many periods. Those before the last two are advanced by fewer samples, and after the second of them the
+//! springs are extrapolated; the drift estimates what is left.
 //!
-//! The Jacobian is the exact derivative of these steps: changes of the springs by all coefficients are propagated. What the
+//! The Jacobian is the exact derivative of all this: changes of the springs by all coefficients are propagated. What the
 //! parameters of the contact add, the load at both ends and the reference size of the nodes, is computed once a step; the changes are
 //! propagated for a few coefficients at once.
 
@@ -40,7 +40,7 @@ pub fn workspace_length(harmonics: usize, samples: usize) -> usize {
 }
 
 /// Initialises a workspace: tables for the given harmonics and samples, the number of periods before the one that counts (0: the
-/// default, 6), and scratch memory.
+/// default, 3), and scratch memory.
 /// Errors: `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24, `BadPeriods` for more
 /// than 65536; `WorkspaceTooShort`.
 pub fn workspace_init(harmonics: usize, samples: usize, periods: usize, workspace: &mut [f64]) -> Result<(), Error> {
@@ -50,6 +50,10 @@ pub fn workspace_init(harmonics: usize, samples: usize, periods: usize, workspac
 /// Samples of a cycle of the highest harmonic, at least, in the periods that are advanced by fewer. With half of them a sticking core may keep
 /// another force, which more periods do not correct.
 const TRANSIENT: usize = 32;
+
+/// After the second period the springs change by so many times its change at once, if more than one period follows before the one that
+/// counts: what would follow if each period changed them by 0.6 of the one before.
+const AHEAD: f64 = 1.5;
 
 /// Coefficients that are propagated at once, those of the normal component, of u and of v in a block each.
 const BLOCK: usize = 4;
@@ -71,13 +75,15 @@ pub struct TwoDirectionsWorkspace<'a> {
     /// Changes of the springs, and those of both forces, block after block of columns.
     changes: &'a mut [f64],
     forces: &'a mut [f64],
+    /// Changes of the springs after the first period.
+    earlier: &'a mut [f64],
     sums: &'a mut [f64],
 }
 
 impl<'a> Layout<'a> for TwoDirectionsWorkspace<'a> {
     const KIND: Kind = Kind::TwoDirectionsSampling;
     /// Static shear is shaken out over many periods: the table of `periods` in the guide has the errors.
-    const PERIODS: usize = 6;
+    const PERIODS: usize = 3;
 
     fn max_rows(size: Size) -> usize {
         8 * size.samples + 256
@@ -92,6 +98,7 @@ impl<'a> Layout<'a> for TwoDirectionsWorkspace<'a> {
             samples: parts.take(SAMPLE * size.samples)?.blocks_mut(),
             changes: parts.take(CHANGES * columns)?,
             forces: parts.take(2 * columns)?,
+            earlier: parts.take(CHANGES * columns)?,
             sums: parts.take(sums * columns)?,
         })
     }
@@ -305,6 +312,13 @@ impl<'a> Walk<'a> {
         self.contact = LoadedContact::new(self.nodes, &Pressed::new(self.element, &self.units, input, &self.normal));
     }
 
+    fn extrapolate(&mut self, from: &Displacements) {
+        for k in 0..2 {
+            self.springs.v[k] = self.springs.v[k] + AHEAD * (self.springs.v[k] - from.v[k]);
+            self.springs.edge[k] += AHEAD * (self.springs.edge[k] - from.edge[k]);
+        }
+    }
+
     /// The change of the force from other springs, over its bound.
     fn change(&self, from: &Displacements) -> f64 {
         let change = both(|k| {
@@ -374,6 +388,10 @@ fn differentiate(
     }
 }
 
+fn extrapolate(values: &mut [f64], before: &[f64]) {
+    values.iter_mut().zip(before).for_each(|(value, before)| *value += AHEAD * (*value - before));
+}
+
 /// Changes below are 0, after this number of steps: memory that fades would end in subnormal numbers, which are slow.
 const LEAST_CHANGE: f64 = 1e-200;
 const FADING: usize = 8;
@@ -423,10 +441,11 @@ fn walk(element: &Element, workspace: &mut TwoDirectionsWorkspace, displacement:
         // The reference size is not that of the largest load if this is below the least reference load.
         let by_top = if walk.normal.load >= units.load * 0.99 { 0.5 * walk.contact.slopes.size } else { 0.0 };
         let mut before = None;
-        let (mut start, mut changes) = (walk.springs, [0.0; 2]);
+        let (mut start, mut changes, mut extrapolated) = (walk.springs, [0.0; 2], 0.0);
         for step in 0..=(periods + 1) * count {
             let counts = step > periods * count;
-            if step < (periods - 1) * count && !step.is_multiple_of(stride) {
+            let place = step.checked_rem(count).unwrap_or(0);
+            if step < (periods - 1) * count && !place.is_multiple_of(stride) {
                 continue;
             }
             let index = (largest + step).checked_rem(count).unwrap_or(0);
@@ -455,10 +474,17 @@ fn walk(element: &Element, workspace: &mut TwoDirectionsWorkspace, displacement:
             }
             if count > 0 && step > 0 && step.is_multiple_of(count) {
                 changes = [changes[1], walk.change(&start)];
+                if step == count {
+                    workspace.earlier.iter_mut().zip(&*workspace.changes).for_each(|(place, change)| *place = *change);
+                } else if step == 2 * count && periods > 2 {
+                    extrapolated = changes[1];
+                    walk.extrapolate(&start);
+                    extrapolate(workspace.changes, workspace.earlier);
+                }
                 start = walk.springs;
             }
         }
-        left = remaining(changes);
+        left = remaining(changes).max(extrapolated.min(HIDDEN * changes[1]));
     } else {
         without_friction(element, workspace.samples);
     }
@@ -478,6 +504,10 @@ fn walk(element: &Element, workspace: &mut TwoDirectionsWorkspace, displacement:
         *drift = if slides && !opens { left } else { 0.0 };
     }
 }
+
+/// An extrapolation cancels a part of the next changes: what is left is estimated by so many times the last one at least, up to the change
+/// that was extrapolated.
+const HIDDEN: f64 = 5.0;
 
 /// What a sequence of changes leaves, of which these are the last two: that of a geometric one.
 fn remaining([before, last]: [f64; 2]) -> f64 {
