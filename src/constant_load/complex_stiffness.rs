@@ -44,13 +44,12 @@ pub struct ComplexStiffness {
     pub dissipated: f64,
 }
 
-/// Gauss's rules for `ρ_0` from 1/5, 1/100 and 1e-3, and from there to -0.05, beyond which the contact has weights. Their errors are
-/// largest where ρ_0 is smallest, for Λ just above the smallest one with weights: 2e-14 of F and 5e-15 of dF/dx_0; much smaller
-/// elsewhere. The last one is for all amplitudes of a curve without weights, which has a knee or is nearly singular: 5e-15 and 1e-12.
-static RULE_FROM_FIFTH: [[[f64; 4]; 2]; 6] = gauss_even();
-static RULE_FROM_CENTI: [[[f64; 4]; 2]; 8] = gauss_even();
-static RULE_FROM_MILLI: [[[f64; 4]; 2]; 11] = gauss_even();
-static RULE_AT_SLIP: [[[f64; 4]; 2]; BLOCKS_IN_SLIP] = gauss_even();
+/// Gauss's rules for `ρ_0` from 1/50, and from 0; from there to -0.05, beyond which the contact has weights; and for all amplitudes of a
+/// curve without weights, which has a knee or is nearly singular. The error of F is 5e-15, that of dF/dx_0 5e-15 before slip, 1e-13 in
+/// slip, and 1e-12 without weights.
+static RULE_BEFORE_SLIP: [[[f64; 4]; 2]; 6] = gauss_even();
+static RULE_NEAR_SLIP: [[[f64; 4]; 2]; 9] = gauss_even();
+static RULE_AFTER_SLIP: [[[f64; 4]; 2]; 10] = gauss_even();
 static RULE_WITHOUT_WEIGHTS: [[[f64; 4]; 2]; 23] = gauss_even();
 const IN_SLIP: f64 = -0.05;
 
@@ -128,10 +127,9 @@ impl Contact {
         }
         if rho_0 > IN_SLIP {
             let rule: &[_] = match rho_0 {
-                0.2.. => &RULE_FROM_FIFTH,
-                0.01.. => &RULE_FROM_CENTI,
-                1e-3.. => &RULE_FROM_MILLI,
-                _ => &RULE_AT_SLIP,
+                0.02.. => &RULE_BEFORE_SLIP,
+                0.0.. => &RULE_NEAR_SLIP,
+                _ => &RULE_AFTER_SLIP,
             };
             return self.integrals(rule, x_0, rho_0);
         }
@@ -185,10 +183,10 @@ impl Contact {
         series.compliance * series.compliance / (2.0 * series.initial_curvature() * self.stick_zones().slip_shift)
     }
 
-    /// The weights of F in gross slip; 0 without an interpolant, or if Λ is so small that the rule does not converge.
+    /// The weights of F in gross slip; 0 without an interpolant, or if Λ is so small that few nodes are not enough.
     #[inline(never)]
     pub(crate) fn weights_of_curve(&self) -> PolynomialRows<BLOCKS_IN_SLIP> {
-        if !self.interpolant().is_converged() || self.relative_distance_of_zero_compliance() < 0.375 {
+        if !self.interpolant().is_converged() || self.relative_distance_of_zero_compliance() < 0.7 {
             return PolynomialRows::default();
         }
         RULE_IN_SLIP.map(|[rho, x, weights]| {

@@ -4,7 +4,7 @@
 //! that bends the curve strongly, the stick zone is found by iteration.
 
 use crate::constant_load::contact::Contact;
-use crate::constant_load::interpolant::{END_OF_PIECES, Interval, root_of};
+use crate::constant_load::interpolant::{END_OF_PIECES, Interval, last_root_of, root_of};
 use crate::numerics::lanes::Lanes;
 use crate::numerics::polynomial::values_and_slopes;
 use crate::numerics::total::Total;
@@ -54,26 +54,14 @@ impl Contact {
         let zone = self.stick_zone_at_displacement(displacement);
         Response { force: self.force_of(&zone), stiffness: self.stiffness_of(&zone) }
     }
+}
 
-    /// The tangent stiffnesses at x and the remaining ρ = 1 - x over the displacement of gross slip, one by one. Beyond the polynomials of
-    /// the force they follow from the last ones; without an interpolant the stick zones are found.
-    #[inline(never)]
-    fn relative_stiffnesses_one_by_one(&self, x: &[f64; 4], rho: &[f64; 4]) -> [f64; 4] {
-        let (zones, slip) = (self.stick_zones(), self.stick_zones().slip_shift);
-        let (mut stiffnesses, is_converged) = ([0.0; 4], self.interpolant().is_converged());
-        for k in 0..4 {
-            let of_last = rho[k] * self.slip_displacement * self.outer_scale;
-            stiffnesses[k] = if !is_converged {
-                self.stiffness_of(&zones.at_shift(Complement { consumed: x[k] * slip, remaining: rho[k] * slip }))
-            } else if of_last < END_OF_PIECES {
-                let [slope] = self.interpolant().last_slopes(&[of_last]);
-                self.outer_stiffness() * slope
-            } else {
-                self.response(x[k] * self.slip_displacement).stiffness
-            };
-        }
-        stiffnesses
-    }
+/// The polynomial on which a displacement is, for integrals: near gross slip one that the force has not.
+#[derive(Clone, Copy, PartialEq)]
+enum Part {
+    Inner,
+    Outer(Interval),
+    Last(Interval),
 }
 
 /// Four values from an index on.
@@ -177,28 +165,43 @@ impl Contact {
         }
     }
 
-    /// Tangent stiffnesses over the initial one, for integrals, at four rising x and remaining ρ = 1 - x over the displacement of gross
-    /// slip: at once if all are on one polynomial of the force or beyond all of them.
+    /// Tangent stiffnesses over the initial one, for integrals, at four x and remaining ρ = 1 - x over the displacement of gross slip.
+    /// Without an interpolant the stick zones are found.
     pub(crate) fn relative_stiffnesses(&self, x: Lanes<4>, rho: Lanes<4>) -> Lanes<4> {
-        let slip = self.slip_displacement;
-        let (displacement, remaining) = (x * slip, rho * slip * self.outer_scale);
-        let mut stiffnesses = None;
+        let mut stiffnesses = Lanes::ZERO;
         if self.interpolant().is_converged() {
-            if remaining.0[0] < END_OF_PIECES {
-                stiffnesses = Some(Lanes(self.interpolant().last_slopes(&remaining.0)) * self.outer_stiffness());
-            } else if displacement.0[3] * self.inner_scale <= 1.0 {
-                stiffnesses = Some(self.inner::<4, true>(displacement).1);
-            } else {
-                let roots = ((slip - displacement) * self.outer_scale).map(root_of);
-                let interval = Interval::new(roots.0[0]);
-                let is_one = displacement.0[0] * self.inner_scale > 1.0 && Interval::new(roots.0[3]) == interval;
-                if is_one && interval.is_covered() {
-                    stiffnesses = Some(self.outer::<4, true>(interval, roots).1);
+            let (displacement, remaining) =
+                (x * self.slip_displacement, rho * self.slip_displacement * self.outer_scale);
+            let (roots, last_roots) = (remaining.map(root_of), remaining.map(last_root_of));
+            let parts: [Part; 4] = core::array::from_fn(|k| match () {
+                () if remaining[k] < END_OF_PIECES => Part::Last(Interval::new(last_roots[k])),
+                () if displacement[k] * self.inner_scale <= 1.0 => Part::Inner,
+                () => Part::Outer(Interval::new(roots[k])),
+            });
+            for k in 0..4 {
+                // All four are evaluated on a polynomial for those that are on it: in most cases all.
+                if k > 0 && parts[..k].contains(&parts[k]) {
+                    continue;
+                }
+                let values = match parts[k] {
+                    Part::Inner => self.inner::<4, true>(displacement).1,
+                    Part::Outer(interval) => self.outer::<4, true>(interval, roots).1,
+                    Part::Last(interval) => {
+                        self.interpolant().last_slopes(interval, last_roots) * self.outer_stiffness()
+                    }
+                };
+                for j in k..4 {
+                    stiffnesses[j] = if parts[j] == parts[k] { values[j] } else { stiffnesses[j] };
                 }
             }
+        } else {
+            let (zones, slip) = (self.stick_zones(), self.stick_zones().slip_shift);
+            for k in 0..4 {
+                let place = Complement { consumed: x[k] * slip, remaining: rho[k] * slip };
+                stiffnesses[k] = self.stiffness_of(&zones.at_shift(place));
+            }
         }
-        stiffnesses.unwrap_or_else(|| Lanes(self.relative_stiffnesses_one_by_one(&x.0, &rho.0)))
-            * (1.0 / self.initial_stiffness)
+        stiffnesses * (1.0 / self.initial_stiffness)
     }
 
     /// Forces and, if requested, stiffnesses at displacements in the range of the first polynomial.

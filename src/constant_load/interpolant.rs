@@ -68,7 +68,7 @@ pub(crate) struct ForceInterpolant {
     inner: Polynomial,
     /// 1 - τ over 2ʲ⁺² √ρ - 3, from -1 to 1.
     pieces: [Polynomial; PIECES],
-    /// (1 - τ)/ρ over z of a [`DyadicPlace`].
+    /// (1 - τ)/ρ over 2ʲ⁺² z - 3.
     last: [Polynomial; LAST_PIECES],
     /// 1 if all polynomials are accurate to rounding; 0 if the curvature is too strong, for Λ near 0 or with a layer.
     converged: u64,
@@ -149,58 +149,14 @@ impl ForceInterpolant {
         (remaining, if SLOPES { 2.0 * scale * slope / root } else { slope })
     }
 
-    /// The derivatives at places below the last interval of √ρ, for integrals, if converged.
-    pub fn last_slopes<const N: usize>(&self, rho: &[f64; N]) -> [f64; N] {
-        // Roots of several take the time of one.
-        let (mut roots, mut slopes) = ([0.0; N], [0.0; N]);
-        for k in 0..N {
-            roots[k] = eighth_root(rho[k] * (1.0 / END_OF_PIECES));
-        }
-        for k in 0..N {
-            let place = DyadicPlace::new(roots[k], LAST_PIECES);
-            // Every place is on a piece; the other polynomial only spares a check that could fail.
-            let piece = self.last.get(place.piece).unwrap_or(&self.inner);
-            slopes[k] = place.product_slope(value_and_slope(piece, place.z));
-        }
-        slopes
+    /// The derivatives of 1 - τ with respect to ρ at [`last_root_of`] places on one interval of the last ones, if converged; any value at
+    /// others.
+    pub fn last_slopes(&self, Interval(exponent): Interval, root: Lanes<4>) -> Lanes<4> {
+        let z = 4.0 * (power_of(exponent) * root) - 3.0;
+        let piece = self.last.get((1022 - exponent) as usize).unwrap_or(&self.inner);
+        let (value, slope) = values_and_slopes::<_, 4, true>(piece, z);
+        value + (0.125 * (3.0 + z)) * slope
     }
-}
-
-/// The piece and the argument on it of a small distance, by its eighth root z: pieces are the dyadic intervals 2⁻ʲ⁻¹ <= z <= 2⁻ʲ.
-#[derive(Debug, Clone, Copy)]
-struct DyadicPlace {
-    pub piece: usize,
-    /// 4 2ʲ times the eighth root, less 3: from -1 to 1.
-    pub z: f64,
-}
-
-impl DyadicPlace {
-    /// The place of an eighth root on one of some pieces, that of the end of the last one if it is below.
-    pub fn new(root: f64, pieces: usize) -> DyadicPlace {
-        let root = root.max(f64::from_bits((1023 - pieces as u64) << 52));
-        let Interval(exponent) = Interval::new(root);
-        DyadicPlace { piece: (1022 - exponent) as usize, z: 4.0 * (power_of(exponent) * root) - 3.0 }
-    }
-
-    /// The eighth root.
-    pub fn root(&self) -> f64 {
-        0.25 * (3.0 + self.z) * f64::from_bits((1023 - self.piece as u64) << 52)
-    }
-
-    /// Its eighth power.
-    pub fn distance(&self) -> f64 {
-        let square = self.root() * self.root();
-        (square * square) * (square * square)
-    }
-
-    /// `d(d f)/dd` with respect to the distance d, of a function f of z with this value and slope.
-    pub fn product_slope(&self, (value, slope): (f64, f64)) -> f64 {
-        value + 0.125 * (self.z + 3.0) * slope
-    }
-}
-
-fn eighth_root(x: f64) -> f64 {
-    root(x).sqrt().sqrt()
 }
 
 /// The root of ρ, at least a positive one.
@@ -208,7 +164,13 @@ pub(crate) fn root_of(rho: f64) -> f64 {
     rho.max(TINY).sqrt()
 }
 
-/// A dyadic interval of √ρ, by its exponent.
+/// z of a ρ beyond the intervals of √ρ, at least at the end of the last interval.
+pub(crate) fn last_root_of(rho: f64) -> f64 {
+    const END: f64 = 1.0 / (1 << LAST_PIECES) as f64;
+    root(rho * (1.0 / END_OF_PIECES)).sqrt().sqrt().max(END)
+}
+
+/// A dyadic interval of √ρ, or of z, by its exponent.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Interval(u64);
 
@@ -238,7 +200,9 @@ fn last_pieces(
     let mut last = [[[0.0; 4]; _]; LAST_PIECES];
     for (piece, polynomial) in last.iter_mut().enumerate() {
         let tangent = |z: f64| {
-            let rho = END_OF_PIECES * DyadicPlace { piece, z }.distance();
+            let root = 0.25 * (3.0 + z) * f64::from_bits((1023 - piece as u64) << 52);
+            let square = root * root;
+            let rho = END_OF_PIECES * ((square * square) * (square * square));
             let point = at_remaining(remaining * rho);
             let value = point.remaining / rho;
             let tangent = remaining / (compliance + point.compliance_increase);
