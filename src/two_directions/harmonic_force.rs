@@ -288,7 +288,8 @@ impl<'a> Walk<'a> {
         let same = closed[0] && to[2].to_bits() == self.at[2].to_bits();
         let path = PathInContact::new(self.element, &self.units, [self.at, to], closed);
         self.from = self.contact;
-        let motion = StepMotion { before: self.from.now.shift, by: path.by, constant_load: same };
+        let motion =
+            StepMotion { shift_before: self.from.now.shift, displacement: path.displacement, constant_load: same };
         self.at = to;
         let (mut force, mut unbounded) = ([0.0; 2], [0.0; 2]);
         if closed[1] {
@@ -358,14 +359,15 @@ fn differentiate(
     let blocks = workspace.changes.blocks_mut::<COLUMNS>().blocks_mut::<CHANGES>();
     let [forces_x, forces_y] = [forces_x, forces_y].map(Total::blocks_mut::<COLUMNS>);
     for (block, (columns, (to_x, to_y))) in blocks.iter_mut().zip(forces_x.iter_mut().zip(forces_y)).enumerate() {
-        let mut by = [Columns::ZERO; 2];
+        let mut displacement = [Columns::ZERO; 2];
         let mut parameters = ParameterChanges { terms, changes: [Lanes::ZERO; PARAMETERS] };
         for lane in 0..BLOCK.min(n - BLOCK * block) {
             let c = BLOCK * block + lane;
             for k in 0..2 {
                 let [per_start, per_end] = path.per_input[k];
-                by[k][lane] = per_start * (per_scale * start.or_zero(c)) + per_end * (per_scale * end.or_zero(c));
-                by[k][BLOCK * (k + 1) + lane] = path.per_distance * (end.or_zero(c) - start.or_zero(c));
+                displacement[k][lane] =
+                    per_start * (per_scale * start.or_zero(c)) + per_end * (per_scale * end.or_zero(c));
+                displacement[k][BLOCK * (k + 1) + lane] = path.per_distance * (end.or_zero(c) - start.or_zero(c));
             }
             // The load at the start of the first step is that of the largest one.
             let [from, to, top] = [start, end, top].map(|basis| per_scale * basis.or_zero(c));
@@ -376,7 +378,7 @@ fn differentiate(
             v: both(|k| core::array::from_fn(|j| Lanes(columns[k * N + j]))),
             edge: both(|k| Lanes(columns[2 * N + k])),
         };
-        let forces = propagate(contact, own_nodes, (motion, &by), values, &mut changes, &parameters);
+        let forces = propagate(contact, own_nodes, (motion, &displacement), values, &mut changes, &parameters);
         let forces = tangent::bounded(*unbounded, contact.now.load, forces, &parameters);
         for k in 0..2 {
             for j in 0..N {
@@ -439,7 +441,7 @@ fn walk(element: &Element, workspace: &mut TwoDirectionsWorkspace, displacement:
         let mut walk = Walk::new(element, (units, &nodes[0]), top, (&mut step, &mut terms));
         let slopes = slopes_of_nodes([&nodes[1], &nodes[2]]);
         // The reference size is not that of the largest load if this is below the least reference load.
-        let by_top = if walk.normal.load >= units.load * 0.99 { 0.5 * walk.contact.slopes.size } else { 0.0 };
+        let by_top = if walk.normal.load >= units.load * 0.99 { 0.5 * walk.contact.slopes.square } else { 0.0 };
         let mut before = None;
         let (mut start, mut changes, mut extrapolated) = (walk.springs, [0.0; 2], 0.0);
         for step in 0..=(periods + 1) * count {

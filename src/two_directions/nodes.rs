@@ -70,7 +70,7 @@ pub(crate) const NEIGHBOUR: f64 = 1e-6;
 /// Rows: N_j; S_j of both directions; w_j² = s_j² - a²; x_i² - a²; ψ_j.
 pub(crate) const LOAD: usize = 0;
 pub(crate) const SHIFT: usize = 1;
-pub(crate) const SIZE: usize = 3;
+pub(crate) const SQUARE: usize = 3;
 pub(crate) const POINTS: usize = 4;
 const WEIGHT: usize = 5;
 /// Rows: ΔN_j and ΔS_j of both directions of whole shells, 1 and the compliances of the shells under the flat; F_ij, a row for each shell but
@@ -103,7 +103,7 @@ impl Units {
 
 /// The first shell that is not empty.
 pub(crate) fn first_shell(nodes: &Nodes) -> usize {
-    if nodes[SIZE][0] < 0.0 { 0 } else { FLAT_EDGE }
+    if nodes[SQUARE][0] < 0.0 { 0 } else { FLAT_EDGE }
 }
 
 /// The outermost node whose shift across the line is less than the present one.
@@ -122,7 +122,7 @@ pub(crate) fn fill(nodes: &mut Nodes, element: &Element, units: &Units, referenc
     let w = places(element, units, reference);
     for j in FLAT_EDGE..N {
         let [load, x, y] = if j > FLAT_EDGE { shape.load_and_shifts(w[j] * units.size) } else { [0.0; 3] };
-        (nodes[LOAD][j], nodes[SIZE][j]) = (load / units.load, w[j] * w[j]);
+        (nodes[LOAD][j], nodes[SQUARE][j]) = (load / units.load, w[j] * w[j]);
         (nodes[SHIFT][j], nodes[SHIFT + 1][j]) = (x / units.shift, y / units.shift);
         let to = if j + 1 < N { w[j + 1] } else { reference };
         nodes[POINTS][j] = w[j] * w[j] + {
@@ -137,7 +137,7 @@ pub(crate) fn fill(nodes: &mut Nodes, element: &Element, units: &Units, referenc
             nodes[SHIFT_STEP + k][j] = (nodes[SHIFT + k][j + 1] - nodes[SHIFT + k][j]).max(TINY);
         }
         for i in FLAT_EDGE..=j {
-            nodes[PRESSURE + j][i] = pressure(nodes, j, nodes[SIZE][j + 1], i);
+            nodes[PRESSURE + j][i] = pressure(nodes, j, nodes[SQUARE][j + 1], i);
         }
     }
     if flat > 0.0 {
@@ -146,7 +146,8 @@ pub(crate) fn fill(nodes: &mut Nodes, element: &Element, units: &Units, referenc
         for j in 0..FLAT_EDGE {
             let (from, to) = (ring(j), ring(j + 1));
             let point = |i: usize| ring(i) + POINT * (ring(i + 1) - ring(i));
-            (nodes[SIZE][j], nodes[POINTS][j]) = ((from - flat) * (from + flat), (point(j) - flat) * (point(j) + flat));
+            (nodes[SQUARE][j], nodes[POINTS][j]) =
+                ((from - flat) * (from + flat), (point(j) - flat) * (point(j) + flat));
             nodes[LOAD_STEP][j] = 1.0;
             for k in 0..2 {
                 let compliance = shape.compliance_under_flat(k, 0.5 * units.size * (from + to));
@@ -162,7 +163,7 @@ pub(crate) fn fill(nodes: &mut Nodes, element: &Element, units: &Units, referenc
         }
         for j in FLAT_EDGE..N - 1 {
             for i in 0..FLAT_EDGE {
-                nodes[PRESSURE + j][i] = pressure(nodes, j, nodes[SIZE][j + 1], i);
+                nodes[PRESSURE + j][i] = pressure(nodes, j, nodes[SQUARE][j + 1], i);
             }
         }
     }
@@ -177,18 +178,18 @@ pub(crate) fn fill(nodes: &mut Nodes, element: &Element, units: &Units, referenc
 
 /// F_ij of shell j up to a size with w²: `ψ_j [√(w² - x²) - √(w_j² - x²)]`, the second root 0 if x is beyond, free of cancellation.
 pub(crate) fn pressure(nodes: &Nodes, j: usize, to: f64, i: usize) -> f64 {
-    let (upper, lower) = (to - nodes[POINTS][i], nodes[SIZE][j] - nodes[POINTS][i]);
+    let (upper, lower) = (to - nodes[POINTS][i], nodes[SQUARE][j] - nodes[POINTS][i]);
     let (height, inner) = (root(upper), root(lower));
     let sum = height + inner;
-    let rise = quotient(to - nodes[SIZE][j], sum);
+    let rise = quotient(to - nodes[SQUARE][j], sum);
     nodes[WEIGHT][j] * if lower > 0.0 { rise } else { height }
 }
 
 /// Its derivative by a parameter, from those of w² and of the nodes.
-pub(crate) fn pressure_slope(nodes: &Nodes, by: Option<&Nodes>, j: usize, [to, by_to]: [f64; 2], i: usize) -> f64 {
-    let slope = |row: usize, i: usize| by.map_or(0.0, |nodes| nodes[row][i]);
-    let (upper, lower) = (to - nodes[POINTS][i], nodes[SIZE][j] - nodes[POINTS][i]);
-    let [by_upper, by_lower] = [by_to, slope(SIZE, j)].map(|slope_of| slope_of - slope(POINTS, i));
+pub(crate) fn pressure_slope(nodes: &Nodes, slopes: Option<&Nodes>, j: usize, [to, by_to]: [f64; 2], i: usize) -> f64 {
+    let slope = |row: usize, i: usize| slopes.map_or(0.0, |slopes| slopes[row][i]);
+    let (upper, lower) = (to - nodes[POINTS][i], nodes[SQUARE][j] - nodes[POINTS][i]);
+    let [by_upper, by_lower] = [by_to, slope(SQUARE, j)].map(|slope_of| slope_of - slope(POINTS, i));
     let inner = if lower > 0.0 { by_lower / lower.max(TINY).sqrt() } else { 0.0 };
     let own = 0.5 * nodes[WEIGHT][j] * (by_upper / upper.max(TINY).sqrt() - inner);
     own + quotient(slope(WEIGHT, j), nodes[WEIGHT][j]) * pressure(nodes, j, to, i)
@@ -196,21 +197,21 @@ pub(crate) fn pressure_slope(nodes: &Nodes, by: Option<&Nodes>, j: usize, [to, b
 
 /// F at the own point of the last shell, which lies at the same part of it as in a whole shell.
 pub(crate) fn pressure_at_edge(nodes: &Nodes, j: usize, to: f64) -> f64 {
-    let flat = -nodes[SIZE][0];
-    let [outer, inner] = [to, nodes[SIZE][j]].map(|square| root(square + flat));
+    let flat = -nodes[SQUARE][0];
+    let [outer, inner] = [to, nodes[SQUARE][j]].map(|square| root(square + flat));
     let sum = outer + inner;
-    let distance = quotient(to - nodes[SIZE][j], sum);
+    let distance = quotient(to - nodes[SQUARE][j], sum);
     nodes[WEIGHT][j] * root((1.0 - POINT) * distance * (2.0 * inner + (1.0 + POINT) * distance))
 }
 
 /// Its derivative by a parameter, from those of w² and of the nodes.
-pub(crate) fn pressure_at_edge_slope(nodes: &Nodes, by: Option<&Nodes>, j: usize, [to, by_to]: [f64; 2]) -> f64 {
-    let slope = |row: usize, i: usize| by.map_or(0.0, |nodes| nodes[row][i]);
-    let (flat, at) = (-nodes[SIZE][0], pressure_at_edge(nodes, j, to));
-    let [outer, inner] = [to, nodes[SIZE][j]].map(|square| root(square + flat));
+pub(crate) fn pressure_at_edge_slope(nodes: &Nodes, slopes: Option<&Nodes>, j: usize, [to, by_to]: [f64; 2]) -> f64 {
+    let slope = |row: usize, i: usize| slopes.map_or(0.0, |slopes| slopes[row][i]);
+    let (flat, at) = (-nodes[SQUARE][0], pressure_at_edge(nodes, j, to));
+    let [outer, inner] = [to, nodes[SQUARE][j]].map(|square| root(square + flat));
     let sum = outer + inner;
-    let distance = quotient(to - nodes[SIZE][j], sum);
-    let [by_outer, by_inner] = [(by_to, outer), (slope(SIZE, j), inner)].map(|(by, s)| quotient(0.5 * by, s));
+    let distance = quotient(to - nodes[SQUARE][j], sum);
+    let [by_outer, by_inner] = [(by_to, outer), (slope(SQUARE, j), inner)].map(|(by, s)| quotient(0.5 * by, s));
     let by_distance = by_outer - if inner > 0.0 { by_inner } else { 0.0 };
     let weight = nodes[WEIGHT][j].max(TINY);
     let by_square = (1.0 - POINT)

@@ -10,7 +10,7 @@ pub(super) const LONGEST: f64 = 1e9;
 /// Displacement of the springs and its derivatives, between contacts of which at least one is closed.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct PathInContact {
-    pub by: Both<f64>,
+    pub displacement: Both<f64>,
     pub per_distance: f64,
     /// By the normal component over its scale at the start and at the end, in each direction.
     pub per_input: Both<[f64; 2]>,
@@ -35,7 +35,7 @@ impl PathInContact {
         let longest = (part * distance[0].abs().max(distance[1].abs())).max(LONGEST);
         let per_scale = LONGEST / longest;
         PathInContact {
-            by: distance.map(|distance| part * distance * per_scale),
+            displacement: distance.map(|distance| part * distance * per_scale),
             per_distance: part * per_unit * per_scale,
             per_input: distance.map(|distance| slopes.map(|slope| distance * slope * per_scale)),
             scale: longest / LONGEST,

@@ -25,7 +25,7 @@ use core::ops::Range;
 pub(crate) struct Pressed {
     pub load: f64,
     pub shift: Both<f64>,
-    pub size: f64,
+    pub square: f64,
     pub inside: f64,
     pub inside_shift: Both<f64>,
 }
@@ -42,7 +42,7 @@ const THINNEST: f64 = 1e-9;
 const LEAST_STIFFNESS: f64 = 1e-12;
 
 impl Pressed {
-    pub const NONE: Pressed = Pressed { load: 0.0, shift: [0.0; 2], size: 0.0, inside: 0.0, inside_shift: [0.0; 2] };
+    pub const NONE: Pressed = Pressed { load: 0.0, shift: [0.0; 2], square: 0.0, inside: 0.0, inside_shift: [0.0; 2] };
 
     /// The state of a contact that is closed, and its derivatives by the normal component over its scale.
     pub fn new(element: &Element, units: &Units, input: f64, normal: &Normal) -> [Pressed; 2] {
@@ -61,13 +61,13 @@ impl Pressed {
     }
 
     /// From all its values, in order.
-    pub fn from_values([load, x, y, size, inside, inside_x, inside_y]: [f64; VALUES]) -> Pressed {
-        Pressed { load, shift: [x, y], size, inside, inside_shift: [inside_x, inside_y] }
+    pub fn from_values([load, x, y, square, inside, inside_x, inside_y]: [f64; VALUES]) -> Pressed {
+        Pressed { load, shift: [x, y], square, inside, inside_shift: [inside_x, inside_y] }
     }
 
     pub fn values(&self) -> [f64; VALUES] {
-        let Pressed { load, shift: [x, y], size, inside, inside_shift: [inside_x, inside_y] } = *self;
-        [load, x, y, size, inside, inside_x, inside_y]
+        let Pressed { load, shift: [x, y], square, inside, inside_shift: [inside_x, inside_y] } = *self;
+        [load, x, y, square, inside, inside_x, inside_y]
     }
 }
 
@@ -78,22 +78,22 @@ pub(crate) struct Shells {
     pub first: usize,
     pub last: usize,
     /// ΔN_j and ΔS_j for both directions.
-    pub load: Both<Row>,
-    pub shift: Both<Row>,
+    pub load_step: Both<Row>,
+    pub shift_step: Both<Row>,
     /// F_ij of the last shell.
     last_pressure: Row,
     /// Stiffness of the spring at the edge, from the size inside on.
-    pub edge: Both<f64>,
+    pub edge_stiffness: Both<f64>,
 }
 
 impl Shells {
     pub const NONE: Shells = Shells {
         first: 0,
         last: 0,
-        load: [Row::ZERO; 2],
-        shift: [Row::ZERO; 2],
+        load_step: [Row::ZERO; 2],
+        shift_step: [Row::ZERO; 2],
         last_pressure: Row::ZERO,
-        edge: [0.0; 2],
+        edge_stiffness: [0.0; 2],
     };
 
     pub fn new(nodes: &Nodes, now: &Pressed) -> Shells {
@@ -108,8 +108,8 @@ impl Shells {
         let mut shells = Shells { first, last: last.min(N - 1), ..Shells::NONE };
         for j in 0..shells.last {
             for k in 0..2 {
-                shells.load[k][j] = nodes[LOAD_STEP][j];
-                shells.shift[k][j] = nodes[SHIFT_STEP + k][j];
+                shells.load_step[k][j] = nodes[LOAD_STEP][j];
+                shells.shift_step[k][j] = nodes[SHIFT_STEP + k][j];
             }
         }
         shells
@@ -118,22 +118,22 @@ impl Shells {
     /// The last shell.
     fn set_last(&mut self, nodes: &Nodes, now: &Pressed) {
         let last = self.last.min(N - 1);
-        let (before, mut steps) = (last.max(1) - 1, [0.0; 2]);
+        let (next_to_last, mut steps) = (last.max(1) - 1, [0.0; 2]);
         for k in 0..2 {
             let (node, shift) = (nodes[SHIFT + k][last], now.shift[k] - nodes[SHIFT + k][last]);
             // The polygon of N(S) has its last corner at the size inside.
             let secant = quotient(now.inside - nodes[LOAD][last], now.inside_shift[k] - node);
             let outer = quotient(now.load - now.inside, now.shift[k] - now.inside_shift[k]);
-            (self.load[k][last], self.shift[k][last]) = (secant * shift, shift);
-            self.edge[k] = outer - secant;
-            steps[k] = quotient(shift, nodes[SHIFT_STEP + k][before]);
+            (self.load_step[k][last], self.shift_step[k][last]) = (secant * shift, shift);
+            self.edge_stiffness[k] = outer - secant;
+            steps[k] = quotient(shift, nodes[SHIFT_STEP + k][next_to_last]);
         }
         for i in self.first..last {
-            let own = pressure(nodes, last, now.size, i);
-            let bound = bounded(own, nodes[PRESSURE + before][i], steps);
-            self.last_pressure[i] = if i <= before { bound } else { own };
+            let own = pressure(nodes, last, now.square, i);
+            let bound = bounded(own, nodes[PRESSURE + next_to_last][i], steps);
+            self.last_pressure[i] = if i <= next_to_last { bound } else { own };
         }
-        self.last_pressure[last] = pressure_at_edge(nodes, last, now.size);
+        self.last_pressure[last] = pressure_at_edge(nodes, last, now.square);
     }
 
     /// Derivatives of the last shell, from those of the normal state and of the nodes by one parameter.
@@ -142,38 +142,39 @@ impl Shells {
         nodes: &Nodes,
         of: &Shells,
         now: &Pressed,
-        by: &Pressed,
+        slopes: &Pressed,
         by_nodes: Option<&Nodes>,
     ) {
         let last = of.last.min(N - 1);
         let slope = |row: usize, i: usize| by_nodes.map_or(0.0, |nodes| nodes[row][i]);
-        let (before, mut steps, mut by_steps) = (last.max(1) - 1, [0.0; 2], [0.0; 2]);
+        let (next_to_last, mut steps, mut by_steps) = (last.max(1) - 1, [0.0; 2], [0.0; 2]);
         for k in 0..2 {
             let inner = (now.inside_shift[k] - nodes[SHIFT + k][last]).max(TINY);
-            let (shift, secant) = (of.shift[k][last], (now.inside - nodes[LOAD][last]) / inner);
-            let by_shift = by.shift[k] - slope(SHIFT + k, last);
-            let by_inner = by.inside_shift[k] - slope(SHIFT + k, last);
-            let by_secant = (by.inside - slope(LOAD, last) - secant * by_inner) / inner;
+            let (shift, secant) = (of.shift_step[k][last], (now.inside - nodes[LOAD][last]) / inner);
+            let by_shift = slopes.shift[k] - slope(SHIFT + k, last);
+            let by_inner = slopes.inside_shift[k] - slope(SHIFT + k, last);
+            let by_secant = (slopes.inside - slope(LOAD, last) - secant * by_inner) / inner;
             let edge = (now.shift[k] - now.inside_shift[k]).max(TINY);
-            let by_edge = by.shift[k] - by.inside_shift[k];
-            self.load[k][last] = by_secant * shift + secant * by_shift;
-            self.shift[k][last] = by_shift;
-            self.edge[k] = (by.load - by.inside - (of.edge[k] + secant) * by_edge) / edge - by_secant;
-            let step = nodes[SHIFT_STEP + k][before].max(TINY);
+            let by_edge = slopes.shift[k] - slopes.inside_shift[k];
+            self.load_step[k][last] = by_secant * shift + secant * by_shift;
+            self.shift_step[k][last] = by_shift;
+            self.edge_stiffness[k] =
+                (slopes.load - slopes.inside - (of.edge_stiffness[k] + secant) * by_edge) / edge - by_secant;
+            let step = nodes[SHIFT_STEP + k][next_to_last].max(TINY);
             steps[k] = shift / step;
-            by_steps[k] = (by_shift - steps[k] * slope(SHIFT_STEP + k, before)) / step;
+            by_steps[k] = (by_shift - steps[k] * slope(SHIFT_STEP + k, next_to_last)) / step;
         }
         let k = usize::from(steps[1] <= steps[0]);
         for i in of.first..last {
-            let own = pressure(nodes, last, now.size, i);
-            let is_bound = i <= before && of.last_pressure[i] < own;
+            let own = pressure(nodes, last, now.square, i);
+            let is_bound = i <= next_to_last && of.last_pressure[i] < own;
             self.last_pressure[i] = if is_bound {
-                nodes[PRESSURE + before][i] * by_steps[k] + slope(PRESSURE + before, i) * steps[k]
+                nodes[PRESSURE + next_to_last][i] * by_steps[k] + slope(PRESSURE + next_to_last, i) * steps[k]
             } else {
-                pressure_slope(nodes, by_nodes, last, [now.size, by.size], i)
+                pressure_slope(nodes, by_nodes, last, [now.square, slopes.square], i)
             };
         }
-        self.last_pressure[last] = pressure_at_edge_slope(nodes, by_nodes, last, [now.size, by.size]);
+        self.last_pressure[last] = pressure_at_edge_slope(nodes, by_nodes, last, [now.square, slopes.square]);
     }
 
     /// F_ij of a shell. Without the tables of the nodes, only that of the last shell is not 0.
@@ -194,8 +195,8 @@ impl Shells {
     pub fn middle([from, to]: [&Shells; 2]) -> Shells {
         let mut middle = Shells { first: to.first, last: from.last.max(to.last), ..Shells::NONE };
         for k in 0..2 {
-            middle.load[k] = 0.5 * (from.load[k] + to.load[k]);
-            middle.shift[k] = 0.5 * (from.shift[k] + to.shift[k]);
+            middle.load_step[k] = 0.5 * (from.load_step[k] + to.load_step[k]);
+            middle.shift_step[k] = 0.5 * (from.shift_step[k] + to.shift_step[k]);
         }
         middle
     }
@@ -207,7 +208,7 @@ impl Shells {
 
     /// k_j in a direction, given 1/ΔS_j.
     pub fn stiffness(&self, k: usize, per_shift: &Row) -> Row {
-        let (secant, mut stiffness) = (self.load[k] * *per_shift, Row::ZERO);
+        let (secant, mut stiffness) = (self.load_step[k] * *per_shift, Row::ZERO);
         let mut before = 0.0;
         for j in self.range() {
             let least = LEAST_STIFFNESS * secant[j];
@@ -266,7 +267,7 @@ impl Springs {
         }
         *per_pressure = quotient(1.0, pressures);
         for k in 0..2 {
-            per_shift[k] = quotient(1.0, shells.shift[k]);
+            per_shift[k] = quotient(1.0, shells.shift_step[k]);
             stiffness[k] = shells.stiffness(k, &per_shift[k]);
             let (per_shift, inverse) = (&per_shift[k], &mut inverse[k]);
             inverse.iter_mut().take(shells.range().start).for_each(|row| *row = Row::ZERO);

@@ -104,12 +104,13 @@ impl Slip {
         }
         // First guess: if a point slips, so do those outside that are near their bound, and those inside that turned in the step before.
         beyond |= members(&square(&q), &Lanes([NEAR * NEAR; N])) & within([beyond.trailing_zeros() as usize, N]);
-        let before = members(&self.turned.map(f64::abs), &Row::ZERO);
+        let turned_before = members(&self.turned.map(f64::abs), &Row::ZERO);
         for _ in 0..N {
-            beyond |= beyond >> 1 & before;
+            beyond |= beyond >> 1 & turned_before;
         }
         (points.set, points.e) = (beyond, [x, y]);
         points.turn(&(2.0 * (lanes_of(beyond) * self.turned)));
+        // Sweeps converge from any guess: after the last attempt their directions, which are near the solution, are kept.
         let mut swept = q;
         for _ in 0..ATTEMPTS {
             if self.newton(metric, springs, [trial, &q], load, derivatives) {

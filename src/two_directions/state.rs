@@ -15,7 +15,7 @@
 use super::TwoDirections;
 use super::harmonic_force::{HarmonicOutput, TwoDirectionsWorkspace, harmonic_force};
 use super::nodes::{
-    Both, FLAT_EDGE, N, NEIGHBOUR, Nodes, POINTS, PRESSURE, ROWS, SHIFT, SIZE, Units, both, fill, first_shell,
+    Both, FLAT_EDGE, N, NEIGHBOUR, Nodes, POINTS, PRESSURE, ROWS, SHIFT, SQUARE, Units, both, fill, first_shell,
     last_node, length,
 };
 use super::path::{LONGEST, PathInContact};
@@ -102,12 +102,12 @@ impl Law for TwoDirections {
         }
         let Units { load, shift, size } = at.units;
         let [now, slopes] = &at.pressed;
-        let positive = [at.normal_force, load, shift, size, now.load, now.shift[0], now.shift[1], now.size];
+        let positive = [at.normal_force, load, shift, size, now.load, now.shift[0], now.shift[1], now.square];
         let small = slopes.values().iter().all(|slope| slope.abs() <= 1.0 / LEAST);
         // The nodes lie in order. Only places of points and sizes over that of the flat may be negative, only pressures under sharp edges great.
         let ordered = [SHIFT, SHIFT + 1].into_iter().all(|row| nodes[row].iter().skip(FLAT_EDGE).is_sorted());
         let tables = nodes.iter().enumerate().all(|(row, values)| {
-            let least = if row == SIZE || row == POINTS { f64::MIN } else { 0.0 };
+            let least = if row == SQUARE || row == POINTS { f64::MIN } else { 0.0 };
             let most = if row < PRESSURE { LONGEST } else { LONGEST * LONGEST };
             values.iter().all(|value| (least..=most).contains(value))
         });
@@ -251,7 +251,7 @@ impl State<'_> {
         let energy_unit = unit * element.friction_coefficient * at.units.shift * path.scale;
         if !closes {
             if requested.energy {
-                let energy = separated(self.nodes, &from, &Pressed::default(), path.by, &springs);
+                let energy = separated(self.nodes, &from, &Pressed::default(), path.displacement, &springs);
                 result.dissipated = energy_unit * energy;
             }
             self.open(to);
@@ -263,7 +263,7 @@ impl State<'_> {
             pressed = Some(LoadedContact::new(self.nodes, &at.pressed));
         }
         let contact = pressed.as_ref().unwrap_or(&from);
-        let motion = StepMotion { before: from.now.shift, by: path.by, constant_load: same };
+        let motion = StepMotion { shift_before: from.now.shift, displacement: path.displacement, constant_load: same };
         let mut step = SlipStep::NONE;
         (step.middle.turned, step.end.turned) = (Lanes(self.turned[0]), Lanes(self.turned[1]));
         let contacts = [&from, contact];
@@ -344,11 +344,11 @@ fn tangent(
     (step, springs, force): (&SlipStep, &Displacements, Both<f64>),
     outgrown: Option<(&Outgrown, &Element, &Units)>,
 ) -> [[f64; 3]; 2] {
-    let (mut by, mut changes) = ([Lanes::<4>::ZERO; 2], SpringChanges::ZERO);
+    let (mut displacement, mut changes) = ([Lanes::<4>::ZERO; 2], SpringChanges::ZERO);
     let (mut terms, mut by_parameters) = ([ParameterTerms::NONE; PARAMETERS], [Lanes::ZERO; PARAMETERS]);
     (by_parameters[END][END], by_parameters[REFERENCE][REFERENCE]) = (1.0, 1.0);
     for k in 0..2 {
-        (by[k][END], by[k][ALONG[k]]) = (path.per_input[k][1], 1.0);
+        (displacement[k][END], displacement[k][ALONG[k]]) = (path.per_input[k][1], 1.0);
     }
     let slopes = ContactSlopes::by_load(nodes, contact);
     terms[END].set(contact, (step, motion.constant_load), [None, Some(&slopes)], None);
@@ -375,14 +375,15 @@ fn tangent(
         );
     }
     let slopes = {
-        let (motion, values) = ((motion, &by), (step, springs));
+        let (motion, values) = ((motion, &displacement), (step, springs));
         let parameters = ParameterChanges { terms: &terms, changes: by_parameters };
         let force_slopes = propagate(contact, nodes, motion, values, &mut changes, &parameters);
         tangent::bounded(force, contact.now.load, force_slopes, &parameters)
     };
     // The size is the reference size.
-    slopes
-        .map(|slopes| [slopes[END] + 0.5 * contact.slopes.size * slopes[REFERENCE], slopes[ALONG[0]], slopes[ALONG[1]]])
+    slopes.map(|slopes| {
+        [slopes[END] + 0.5 * contact.slopes.square * slopes[REFERENCE], slopes[ALONG[0]], slopes[ALONG[1]]]
+    })
 }
 
 /// Springs at nodes of another load.

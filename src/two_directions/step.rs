@@ -64,8 +64,8 @@ impl Displacements {
 /// A step, straight in S and in the displacement: S at the start, the displacement, and whether the load is that of the start.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct StepMotion {
-    pub before: Both<f64>,
-    pub by: Both<f64>,
+    pub shift_before: Both<f64>,
+    pub displacement: Both<f64>,
     pub constant_load: bool,
 }
 
@@ -92,18 +92,18 @@ pub(crate) struct Far {
 
 impl Far {
     fn new(to: &LoadedContact, motion: &StepMotion, old: &Displacements) -> Far {
-        let (mut by, mut cut, mut ratio) = (motion.by, [0.0; 2], [0.0; 2]);
+        let (mut slide, mut cut, mut ratio) = (motion.displacement, [0.0; 2], [0.0; 2]);
         for k in 0..2 {
             let limit = to.now.shift[k].max(LEAST);
-            cut[k] = (1.0 - limit / motion.before[k].max(limit)) * f64::from(u8::from(!motion.constant_load));
-            by[k] += cut[k] * old.v[k][to.shells.first.min(FLAT_EDGE)];
-            ratio[k] = by[k] / limit;
+            cut[k] = (1.0 - limit / motion.shift_before[k].max(limit)) * f64::from(u8::from(!motion.constant_load));
+            slide[k] += cut[k] * old.v[k][to.shells.first.min(FLAT_EDGE)];
+            ratio[k] = slide[k] / limit;
         }
         let distance = length(ratio);
-        let per_length = 1.0 / length(by).max(LEAST);
+        let per_length = 1.0 / length(slide).max(LEAST);
         let x = ((distance - FAR[0]) / (FAR[1] - FAR[0])).clamp(0.0, 1.0);
         let slope = 6.0 * x * (1.0 - x) / (FAR[1] - FAR[0]);
-        let e = by.map(|by| by * per_length);
+        let e = slide.map(|slide| slide * per_length);
         Far { part: x * x * (3.0 - 2.0 * x), slope, cut, ratio, distance, e, per_length }
     }
 }
@@ -157,7 +157,7 @@ pub(crate) struct EdgeSpring {
     pub part: Both<f64>,
     pub kept: Both<f64>,
     /// Its limit at the start.
-    pub before: Both<f64>,
+    pub limit_before: Both<f64>,
     pub ratio: Both<f64>,
     pub length: f64,
     pub slips: bool,
@@ -176,7 +176,7 @@ impl SlipStep {
             end: Slip::NONE,
             metric: Metric::NONE,
             far: Far { part: 0.0, slope: 0.0, cut: none, ratio: none, distance: 0.0, e: none, per_length: 0.0 },
-            edge: EdgeSpring { part: none, kept: none, before: none, ratio: none, length: 0.0, slips: false },
+            edge: EdgeSpring { part: none, kept: none, limit_before: none, ratio: none, length: 0.0, slips: false },
         }
     };
 
@@ -209,7 +209,7 @@ impl SlipStep {
                 let gross_slip = self.far.part * self.far.e[k] * to.limits(nodes)[k];
                 springs.v[k] = rest * self.end.points.v[k] + gross_slip;
             }
-            force[k] = dot(&self.springs.stiffness[k], &springs.v[k]) + to.shells.edge[k] * springs.edge[k];
+            force[k] = dot(&self.springs.stiffness[k], &springs.v[k]) + to.shells.edge_stiffness[k] * springs.edge[k];
         }
         force
     }
@@ -219,14 +219,14 @@ impl SlipStep {
         let limits = to.limits(nodes);
         for k in 0..2 {
             self.parts[k] = Lanes([1.0; N]);
-            let rise = to.now.shift[k] - motion.before[k];
+            let rise = to.now.shift[k] - motion.shift_before[k];
             if !motion.constant_load && rise > 0.0 {
                 let parts = limits[k] * (1.0 / rise.max(LEAST));
                 self.parts[k] = parts.map(|part| part.min(1.0));
             }
-            self.trial[k] = to.used() * (self.old.v[k] + self.parts[k] * motion.by[k]);
+            self.trial[k] = to.used() * (self.old.v[k] + self.parts[k] * motion.displacement[k]);
         }
-        let fall = motion.before[0] - to.now.shift[0];
+        let fall = motion.shift_before[0] - to.now.shift[0];
         if motion.constant_load || fall <= (LARGEST_FALL - 1.0) * limits[0][to.shells.last.min(N - 1)] {
             return;
         }
@@ -256,12 +256,12 @@ impl SlipStep {
     fn move_edge(&mut self, [from, to]: [&LoadedContact; 2], motion: &StepMotion, springs: &mut Displacements) {
         let [limit, before] = [to, from].map(|contact| contact.edge_limits().map(|limit| limit.max(LEAST)));
         for k in 0..2 {
-            let rise = to.now.shift[k] - motion.before[k];
+            let rise = to.now.shift[k] - motion.shift_before[k];
             self.edge.part[k] = limit[k] / rise.max(limit[k]);
-            self.edge.before[k] = before[k];
-            self.edge.kept[k] = ((limit[k] - rise) / self.edge.before[k]).clamp(0.0, 1.0);
+            self.edge.limit_before[k] = before[k];
+            self.edge.kept[k] = ((limit[k] - rise) / self.edge.limit_before[k]).clamp(0.0, 1.0);
             let old = self.edge.kept[k] * self.old.edge[k];
-            self.edge.ratio[k] = (old + self.edge.part[k] * motion.by[k]) / limit[k];
+            self.edge.ratio[k] = (old + self.edge.part[k] * motion.displacement[k]) / limit[k];
         }
         self.edge.length = length(self.edge.ratio);
         self.edge.slips = self.edge.length > ROUNDING;
@@ -295,23 +295,26 @@ pub(crate) fn dissipated(
     step: &SlipStep,
     new: &Displacements,
 ) -> f64 {
-    let mut energy =
-        if to.now.shift[0] < from.now.shift[0] { separated(nodes, from, &to.now, motion.by, &step.old) } else { 0.0 };
+    let mut energy = if to.now.shift[0] < from.now.shift[0] {
+        separated(nodes, from, &to.now, motion.displacement, &step.old)
+    } else {
+        0.0
+    };
     if step.middle.points.set != 0 || step.end.points.set != 0 || step.far.part > 0.0 {
         let limits = to.limits(nodes);
-        let follow = both(|k| step.old.v[k] + step.parts[k] * motion.by[k]);
+        let follow = both(|k| step.old.v[k] + step.parts[k] * motion.displacement[k]);
         for j in to.shells.range() {
             let per_limit = both(|k| 1.0 / limits[k][j].max(LEAST));
-            let ratio = (motion.before[0] - nodes[SHIFT][j]).max(0.0) * per_limit[0];
+            let ratio = (motion.shift_before[0] - nodes[SHIFT][j]).max(0.0) * per_limit[0];
             let old = both(|k| step.old.v[k][j] * per_limit[k]);
             let trial = both(|k| follow[k][j] * per_limit[k]);
             let end = both(|k| new.v[k][j] * per_limit[k]);
-            let (by, fall) = ([trial[0] - old[0], trial[1] - old[1]], ratio - 1.0);
+            let (way, fall) = ([trial[0] - old[0], trial[1] - old[1]], ratio - 1.0);
             let m = end[0] * end[0] + end[1] * end[1];
             // |v|² = m² l² along the path: a quadratic equation.
             let part = first_exceedance(
-                by[0] * by[0] + by[1] * by[1] - m * fall * fall,
-                old[0] * by[0] + old[1] * by[1] + m * ratio * fall,
+                way[0] * way[0] + way[1] * way[1] - m * fall * fall,
+                old[0] * way[0] + old[1] * way[1] + m * ratio * fall,
                 old[0] * old[0] + old[1] * old[1] - m * ratio * ratio,
             );
             for k in 0..2 {
@@ -327,17 +330,23 @@ pub(crate) fn dissipated(
 
 /// Energy of springs that lose contact in a step to a lower load: each slips from where it reaches its limit, which falls to 0 within the
 /// part `limit/fall` of the motion, to nothing.
-pub(crate) fn separated(nodes: &Nodes, from: &LoadedContact, now: &Pressed, by: Both<f64>, old: &Displacements) -> f64 {
+pub(crate) fn separated(
+    nodes: &Nodes,
+    from: &LoadedContact,
+    now: &Pressed,
+    displacement: Both<f64>,
+    old: &Displacements,
+) -> f64 {
     let mut energy = 0.0;
     let fall = both(|k| from.now.shift[k] - now.shift[k]);
     let limits = from.limits(nodes);
-    let stiffness = both(|k| from.shells.stiffness(k, &quotient(1.0, from.shells.shift[k])));
+    let stiffness = both(|k| from.shells.stiffness(k, &quotient(1.0, from.shells.shift_step[k])));
     for j in from.shells.range() {
         if now.load > 0.0 && nodes[SHIFT][j] < now.shift[0] {
             continue;
         }
         let limit = both(|k| limits[k][j].max(LEAST));
-        let rate = both(|k| limit[k] / fall[k].max(limit[k]) * by[k]);
+        let rate = both(|k| limit[k] / fall[k].max(limit[k]) * displacement[k]);
         let v = both(|k| old.v[k][j]);
         let (x, y, dx, dy) = (v[0] / limit[0], v[1] / limit[1], rate[0] / limit[0], rate[1] / limit[1]);
         let part = first_exceedance(dx * dx + dy * dy - 1.0, x * dx + y * dy + 1.0, x * x + y * y - 1.0);

@@ -53,23 +53,30 @@ impl ContactSlopes {
     /// By the normal component: of the last shell only.
     pub fn by_load(nodes: &Nodes, contact: &LoadedContact) -> ContactSlopes {
         let slopes = &contact.slopes;
-        let mut by = ContactSlopes { shift: slopes.shift, load: slopes.load, ..ContactSlopes::NONE };
+        let mut slopes_of_contact = ContactSlopes { shift: slopes.shift, load: slopes.load, ..ContactSlopes::NONE };
         if contact.now.load > 0.0 {
-            by.edge_limit = both(|k| slopes.shift[k] - slopes.inside_shift[k]);
-            (by.shells.first, by.shells.last) = (contact.shells.first, contact.shells.last);
-            by.shells.set_last_slopes(nodes, &contact.shells, &contact.now, slopes, None);
+            slopes_of_contact.edge_limit = both(|k| slopes.shift[k] - slopes.inside_shift[k]);
+            (slopes_of_contact.shells.first, slopes_of_contact.shells.last) =
+                (contact.shells.first, contact.shells.last);
+            slopes_of_contact.shells.set_last_slopes(nodes, &contact.shells, &contact.now, slopes, None);
         }
-        by
+        slopes_of_contact
     }
 
     /// By the reference size of the nodes, from derivatives of these.
     pub fn by_reference(nodes: &Nodes, slopes: &Nodes, contact: &LoadedContact) -> ContactSlopes {
-        let mut by = ContactSlopes::NONE;
+        let mut slopes_of_contact = ContactSlopes::NONE;
         if contact.now.load > 0.0 {
-            by.shells = Shells::before(slopes, contact.shells.first, contact.shells.last);
-            by.shells.set_last_slopes(nodes, &contact.shells, &contact.now, &Pressed::default(), Some(slopes));
+            slopes_of_contact.shells = Shells::before(slopes, contact.shells.first, contact.shells.last);
+            slopes_of_contact.shells.set_last_slopes(
+                nodes,
+                &contact.shells,
+                &contact.now,
+                &Pressed::default(),
+                Some(slopes),
+            );
         }
-        by
+        slopes_of_contact
     }
 }
 
@@ -85,14 +92,14 @@ pub(crate) fn slopes_of_nodes([larger, smaller]: [&Nodes; 2]) -> Nodes {
 /// What the derivative by one parameter of a contact adds to the changes of its springs.
 pub(crate) struct ParameterTerms {
     /// S at the start and at the end, S of the nodes, N; stiffnesses at the end, and the limit of the spring at the edge.
-    before: Both<f64>,
-    now: Both<f64>,
+    shift_before: Both<f64>,
+    shift: Both<f64>,
     nodes: Both<Row>,
     load: f64,
     stiffness: Both<Row>,
     edge_stiffness: Both<f64>,
     edge_limit: Both<f64>,
-    edge_before: Both<f64>,
+    edge_limit_before: Both<f64>,
     middle: SlipTerms,
     end: SlipTerms,
 }
@@ -122,7 +129,7 @@ impl SlipTerms {
         if slip.set == 0 {
             return;
         }
-        let (by, mut by_pressure) = (Shells::middle(ends), Row::ZERO);
+        let (shell_slopes, mut by_pressure) = (Shells::middle(ends), Row::ZERO);
         let (mut tractions, mut sums) = ([Row::ZERO; 2], [Row::ZERO; 2]);
         let falls = both(|k| falls(&slip.v[k]) * springs.per_shift[k]);
         let slipped = both(|k| slip.r[k] * springs.per_pressure);
@@ -133,14 +140,14 @@ impl SlipTerms {
             }
             for k in 0..2 {
                 let per_shift = springs.per_shift[k][j];
-                let row = pressure - by.shift[k][j] * per_shift * springs.pressure[j];
+                let row = pressure - shell_slopes.shift_step[k][j] * per_shift * springs.pressure[j];
                 tractions[k] += falls[k][j] * row;
                 sums[k][j] = per_shift * dot(&slipped[k], &row);
             }
         }
         by_pressure = springs.per_pressure * by_pressure;
         for k in 0..2 {
-            self.forces[k] = stiffness_slopes(springs, k, &by) * (trial[k] - slip.v[k]) - rises(&sums[k]);
+            self.forces[k] = stiffness_slopes(springs, k, &shell_slopes) * (trial[k] - slip.v[k]) - rises(&sums[k]);
             self.tractions[k] = springs.per_pressure * tractions[k] - slip.q[k] * by_pressure;
             self.slip[k] = slip.r[k] * by_pressure;
         }
@@ -157,8 +164,9 @@ fn rises(x: &Row) -> Row {
 }
 
 /// Derivatives of k_j.
-fn stiffness_slopes(springs: &Springs, k: usize, by: &Shells) -> Row {
-    let secants = (by.load[k] - springs.shells.load[k] * springs.per_shift[k] * by.shift[k]) * springs.per_shift[k];
+fn stiffness_slopes(springs: &Springs, k: usize, slopes: &Shells) -> Row {
+    let secants = (slopes.load_step[k] - springs.shells.load_step[k] * springs.per_shift[k] * slopes.shift_step[k])
+        * springs.per_shift[k];
     rises(&secants)
 }
 
@@ -166,14 +174,14 @@ impl ParameterTerms {
     pub const NONE: ParameterTerms = {
         let (none, rows) = ([0.0; 2], [Row::ZERO; 2]);
         ParameterTerms {
-            before: none,
-            now: none,
+            shift_before: none,
+            shift: none,
             nodes: rows,
             load: 0.0,
             stiffness: rows,
             edge_stiffness: none,
             edge_limit: none,
-            edge_before: none,
+            edge_limit_before: none,
             middle: SlipTerms::NONE,
             end: SlipTerms::NONE,
         }
@@ -190,9 +198,9 @@ impl ParameterTerms {
     ) {
         let none = ContactSlopes::NONE;
         // By the load, only the last shells have derivatives.
-        let lasts = [from, to].map(|by| by.map_or(N, |by| by.shells.last));
+        let lasts = [from, to].map(|slopes| slopes.map_or(N, |slopes| slopes.shells.last));
         let first = if nodes.is_some() { 0 } else { lasts[0].min(lasts[1]) };
-        let [from, to] = [from, to].map(|by| by.unwrap_or(&none));
+        let [from, to] = [from, to].map(|slopes| slopes.unwrap_or(&none));
         let ends = [&from.shells, &to.shells];
         let between = if constant_load { &step.springs } else { &step.between };
         let half = both(|k| 0.5 * (step.old.v[k] + step.trial[k]));
@@ -202,8 +210,9 @@ impl ParameterTerms {
         self.end.set(&step.springs, ([ends[1]; 2], nodes, first), &beyond, &step.end);
         self.stiffness = both(|k| stiffness_slopes(&step.springs, k, ends[1]));
         self.nodes = both(|k| nodes.map_or(Row::ZERO, |nodes| Lanes(nodes[SHIFT + k])));
-        (self.before, self.now, self.load) = (from.shift, to.shift, to.load);
-        (self.edge_before, self.edge_limit, self.edge_stiffness) = (from.edge_limit, to.edge_limit, to.shells.edge);
+        (self.shift_before, self.shift, self.load) = (from.shift, to.shift, to.load);
+        (self.edge_limit_before, self.edge_limit, self.edge_stiffness) =
+            (from.edge_limit, to.edge_limit, to.shells.edge_stiffness);
     }
 }
 
@@ -223,7 +232,7 @@ impl ParameterChanges<'_> {
 
     /// Changes of the limit of a spring.
     fn limit(&self, k: usize, j: usize) -> Lanes<4> {
-        self.sum(|terms| terms.now[k] - terms.nodes[k][j])
+        self.sum(|terms| terms.shift[k] - terms.nodes[k][j])
     }
 }
 
@@ -232,7 +241,7 @@ impl ParameterChanges<'_> {
 pub(crate) fn propagate<const L: usize>(
     contact: &LoadedContact,
     nodes: &Nodes,
-    (motion, by): (&StepMotion, &Both<Lanes<L>>),
+    (motion, displacement): (&StepMotion, &Both<Lanes<L>>),
     (step, new): (&SlipStep, &super::step::Displacements),
     springs: &mut SpringChanges<L>,
     parameters: &ParameterChanges,
@@ -241,14 +250,14 @@ pub(crate) fn propagate<const L: usize>(
     let SpringChanges { v, edge } = springs;
     let old = *v;
     for k in 0..2 {
-        let rise = contact.now.shift[k] - motion.before[k];
+        let rise = contact.now.shift[k] - motion.shift_before[k];
         for j in 0..N {
-            v[k][j] = used[j] * (v[k][j] + step.parts[k][j] * by[k]);
+            v[k][j] = used[j] * (v[k][j] + step.parts[k][j] * displacement[k]);
             if step.parts[k][j] < 1.0 {
                 // The part of springs that are engaged in the step is their limit over the rise.
-                let rises = parameters.sum(|terms| terms.now[k] - terms.before[k]);
+                let rises = parameters.sum(|terms| terms.shift[k] - terms.shift_before[k]);
                 let part = used[j] * parameters.limit(k, j) - step.parts[k][j] * rises;
-                v[k][j].add_first((motion.by[k] / rise.max(LEAST)) * part);
+                v[k][j].add_first((motion.displacement[k] / rise.max(LEAST)) * part);
             }
         }
     }
@@ -269,9 +278,9 @@ pub(crate) fn propagate<const L: usize>(
         }
         step.end.differentiate(&step.springs, v, parameters, |terms| &terms.end);
     }
-    *edge = move_edge(contact, (motion, by), step, edge, parameters);
+    *edge = move_edge(contact, (motion, displacement), step, edge, parameters);
     if far.part > 0.0 {
-        let changes = FarChanges::new(contact, (motion, by), step, &old, parameters);
+        let changes = FarChanges::new(contact, (motion, displacement), step, &old, parameters);
         let (limits, edge_limits) = (contact.limits(nodes), contact.edge_limits());
         for k in 0..2 {
             for j in 0..N {
@@ -290,7 +299,7 @@ pub(crate) fn propagate<const L: usize>(
         for j in 0..N {
             force[k] += step.springs.stiffness[k][j] * v[k][j];
         }
-        force[k] += contact.shells.edge[k] * edge[k];
+        force[k] += contact.shells.edge_stiffness[k] * edge[k];
         force[k].add_first(
             parameters.sum(|terms| dot(&new.v[k], &terms.stiffness[k]) + new.edge[k] * terms.edge_stiffness[k]),
         );
@@ -307,14 +316,14 @@ fn release<const L: usize>(
     v: &mut Both<Changes<L>>,
     parameters: &ParameterChanges,
 ) {
-    let fall = motion.before[0] - contact.now.shift[0];
+    let fall = motion.shift_before[0] - contact.now.shift[0];
     if motion.constant_load || fall <= 0.0 {
         return;
     }
     let limits = contact.limits(nodes);
     for j in contact.shells.range() {
         let limit = [limits[0][j].max(LEAST), limits[1][j].max(LEAST)];
-        let trial = [step.old.v[0][j] + motion.by[0], step.old.v[1][j] + motion.by[1]];
+        let trial = [step.old.v[0][j] + motion.displacement[0], step.old.v[1][j] + motion.displacement[1]];
         let released = Released::new(limit, fall, trial);
         if released.scale >= 1.0 {
             continue;
@@ -323,7 +332,7 @@ fn release<const L: usize>(
         let divisors = Lanes([limit[0], limit[1], released.length.max(1.0), limit[0] + fall]);
         let [per_x, per_y, per_length, per_before] = *(1.0 / divisors);
         let by_limit = both(|k| parameters.limit(k, j));
-        let by_before = parameters.sum(|terms| terms.before[0] - terms.nodes[0][j]);
+        let by_before = parameters.sum(|terms| terms.shift_before[0] - terms.nodes[0][j]);
         let by_part = released.part * (per_x * by_limit[0] - per_before * by_before);
         let mut ratio = [v[0][j], v[1][j]];
         for k in 0..2 {
@@ -349,23 +358,23 @@ struct FarChanges<const L: usize> {
 impl<const L: usize> FarChanges<L> {
     fn new(
         contact: &LoadedContact,
-        (motion, by): (&StepMotion, &Both<Lanes<L>>),
+        (motion, displacement): (&StepMotion, &Both<Lanes<L>>),
         step: &SlipStep,
         old: &Both<Changes<L>>,
         parameters: &ParameterChanges,
     ) -> Self {
         let (far, first) = (&step.far, contact.shells.first.min(FLAT_EDGE));
-        let (mut way, mut distance) = (*by, Lanes::ZERO);
+        let (mut way, mut distance) = (*displacement, Lanes::ZERO);
         for k in 0..2 {
-            let (limit, before) = (contact.now.shift[k].max(LEAST), motion.before[k].max(LEAST));
+            let (limit, before) = (contact.now.shift[k].max(LEAST), motion.shift_before[k].max(LEAST));
             way[k] += far.cut[k] * old[k][first];
             // A constant load is the limit of falling ones.
-            if contact.now.shift[k] <= motion.before[k] {
-                let cut = parameters.sum(|terms| (limit / before) * terms.before[k] - terms.now[k]);
+            if contact.now.shift[k] <= motion.shift_before[k] {
+                let cut = parameters.sum(|terms| (limit / before) * terms.shift_before[k] - terms.shift[k]);
                 way[k].add_first((step.old.v[k][first] / before) * cut);
             }
             let mut ratio = way[k];
-            ratio.add_first(-far.ratio[k] * parameters.sum(|terms| terms.now[k]));
+            ratio.add_first(-far.ratio[k] * parameters.sum(|terms| terms.shift[k]));
             distance += (quotient(far.ratio[k], far.distance) / limit) * ratio;
         }
         FarChanges { part: far.slope * distance, e: across(far.e, far.per_length, way) }
@@ -393,7 +402,7 @@ fn across<const L: usize>(e: Both<f64>, factor: f64, [x, y]: Both<Lanes<L>>) -> 
 /// Changes of the spring at the edge.
 fn move_edge<const L: usize>(
     contact: &LoadedContact,
-    (motion, by): (&StepMotion, &Both<Lanes<L>>),
+    (motion, displacement): (&StepMotion, &Both<Lanes<L>>),
     step: &SlipStep,
     old: &Both<Lanes<L>>,
     parameters: &ParameterChanges,
@@ -401,16 +410,16 @@ fn move_edge<const L: usize>(
     let (mut ratio, edge) = ([Lanes::ZERO; 2], &step.edge);
     let limit = contact.edge_limits().map(|limit| limit.max(LEAST));
     for k in 0..2 {
-        ratio[k] = edge.part[k] * by[k] + edge.kept[k] * old[k];
-        let rise = (contact.now.shift[k] - motion.before[k]).max(limit[k]);
-        let [per_rise, per_before] = [motion.by[k] / rise, step.old.edge[k] / edge.before[k]];
+        ratio[k] = edge.part[k] * displacement[k] + edge.kept[k] * old[k];
+        let rise = (contact.now.shift[k] - motion.shift_before[k]).max(limit[k]);
+        let [per_rise, per_before] = [motion.displacement[k] / rise, step.old.edge[k] / edge.limit_before[k]];
         ratio[k].add_first(parameters.sum(|terms| {
-            let (rise, mut sum) = (terms.now[k] - terms.before[k], -edge.ratio[k] * terms.edge_limit[k]);
+            let (rise, mut sum) = (terms.shift[k] - terms.shift_before[k], -edge.ratio[k] * terms.edge_limit[k]);
             if edge.part[k] < 1.0 {
                 sum += per_rise * (terms.edge_limit[k] - edge.part[k] * rise);
             }
             if edge.kept[k] < 1.0 && edge.kept[k] > 0.0 {
-                sum += per_before * (terms.edge_limit[k] - rise - edge.kept[k] * terms.edge_before[k]);
+                sum += per_before * (terms.edge_limit[k] - rise - edge.kept[k] * terms.edge_limit_before[k]);
             }
             sum
         }));
