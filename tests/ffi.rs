@@ -295,7 +295,7 @@ fn invalid_memory(call: &Call, law: &Law, arguments: &mut Arguments, place: usiz
     }
     let words = arguments.memory(place).values::<u64>().to_vec();
     let header = match argument.kind {
-        Workspace => 4,
+        Workspace => 8,
         _ => words.len(),
     };
     for byte in [0, 0x77_77_77_77_77_77_77_77, u64::MAX] {

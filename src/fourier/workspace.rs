@@ -1,7 +1,7 @@
 //! Workspaces of the harmonic force: size, header and layout.
 //!
 //! ```text
-//! [tag, harmonics, samples, periods | tables | scratch memory]
+//! [tag, harmonics, samples, periods, length, 0, 0, 0 | tables | scratch memory]
 //! ```
 //!
 //! The tables are filled once and only read afterwards. Each quadrature rule implements [`Layout`].
@@ -11,7 +11,7 @@ use crate::numerics::total::Total;
 use crate::tag::{Kind, count, stored};
 
 /// Doubles before the tables, which keep the alignment of the workspace.
-pub(crate) const HEADER: usize = 4;
+pub(crate) const HEADER: usize = 8;
 
 /// Doubles in blocks of four.
 pub(crate) type Blocks = [[f64; 4]];
@@ -93,20 +93,23 @@ pub(crate) trait Layout<'a>: Sized {
         let (header, buffers) = memory.split_first_chunk_mut::<HEADER>().ok_or(Error::WorkspaceTooShort)?;
         Self::take(size, &mut Parts::Taking(buffers))?.fill();
         let Size { harmonics, samples, periods } = size;
-        *header = [Self::KIND.tag(), stored(harmonics), stored(samples), stored(periods)];
+        let [tag, counts @ ..] = header;
+        *tag = Self::KIND.tag();
+        counts.copy_from(&[harmonics, samples, periods, Self::length(size)].map(stored));
         Ok(())
     }
 
     /// Size and number of doubles of an initialised workspace, from its header.
-    fn read(&[tag, ref counts @ ..]: &[f64; HEADER]) -> Result<(Size, usize), Error> {
-        let [Some(harmonics), Some(samples), Some(periods @ 1..)] = counts.map(count) else {
+    fn read(&[tag, harmonics, samples, periods, length, ..]: &[f64; HEADER]) -> Result<(Size, usize), Error> {
+        let counts = [harmonics, samples, periods, length].map(count);
+        let [Some(harmonics), Some(samples), Some(periods @ 1..), Some(length)] = counts else {
             return Err(Error::BadWorkspace);
         };
         if !Self::KIND.is_tag(tag) {
             return Err(Error::BadWorkspace);
         }
         let size = Self::check_size(Size { harmonics, samples, periods }).map_err(|_| Error::BadWorkspace)?;
-        Ok((size, Self::length(size)))
+        Ok((size, length))
     }
 
     /// Opens an initialised workspace.
