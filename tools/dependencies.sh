@@ -31,6 +31,7 @@ cmake           check                                                 : command 
 meson           check                                                 : command meson
 ninja-build     check                                                 : command ninja
 doxygen         check docs                                            : command doxygen
+pandoc          check docs                                            : command pandoc
 libjs-bootstrap5 check docs                                           : file /usr/share/javascript/bootstrap5
 python3         bench figures host                                    : command python3
 python3-venv    test check docs python host                           : command python3 -c "import ensurepip"

@@ -1,5 +1,5 @@
 """site.py DIRECTORY: makes the references one site that opens from a file, without a network: FORD's pages take Bootstrap from Debian's
-copy, and MathJax, for which the module has no formulas, from nowhere; long names wrap. Fails if a link leads to no file."""
+copy, and MathJax, for which the module has no formulas, from nowhere; long names wrap. Fails if a link leads nowhere."""
 
 import re
 import shutil
@@ -42,7 +42,7 @@ for page in root.rglob("*.html"):
         parts = urlsplit(link)
         number += 1
         remote = parts.scheme in ("http", "https")
-        if (remote and tag != "a") or (not parts.scheme and parts.path and not (page.parent / unquote(parts.path)).is_file()):
+        if (remote and tag != "a") or (not parts.scheme and parts.path and not (page.parent / unquote(parts.path)).exists()):
             broken.append(f"{page.relative_to(root)}: {link}")
 if broken or not number:
     sys.exit("\n".join(broken) or "no links")
