@@ -28,6 +28,7 @@ rust() {
 documents() {
     git ls-files -z | xargs -0 cp --parents --target-directory $out
     for document in $(git ls-files '*.md' ':!docs/reference'); do
+        # shellcheck disable=SC2016 # backticks of Markdown
         sed 's/\$`/$/g; s/`\$/$/g' "$document" |
             pandoc --from commonmark_x+gfm_auto_identifiers --to html5 --standalone --mathml --toc --fail-if-warnings \
                 --variable pagetitle="$(sed -n '1s/^#* *//p' "$document")" --lua-filter docs/reference/links.lua \
