@@ -1,156 +1,32 @@
-//! The promised error of each output: |error| <= k ε (1 + κ) scale, ε = 2⁻⁵².
+//! The promised error of each output, a row of `docs/promises.csv`: |error| <= k ε (1 + κ) scale, ε = 2⁻⁵².
 
-#[derive(Debug)]
-pub struct Bound {
-    pub output: &'static str,
-    /// k, in ε.
-    pub k: f64,
-    /// What the error is relative to.
-    pub scale: &'static str,
-    /// κ: relative change of the exact result per relative change of rounded inputs.
-    pub condition: &'static str,
-    pub domain: &'static str,
-    pub reason: &'static str,
-}
+use std::sync::LazyLock;
 
 pub const EPSILON: f64 = f64::EPSILON;
 
-const fn bound(
-    output: &'static str,
-    k: f64,
-    scale: &'static str,
-    condition: &'static str,
-    domain: &'static str,
-    reason: &'static str,
-) -> Bound {
-    Bound { output, k, scale, condition, domain, reason }
+/// Output, domain, k, scale, condition, then three columns that are measured, and the reason.
+pub const PROMISES: &str = include_str!("../../../docs/promises.csv");
+
+/// Outputs and their k, in the order of the table.
+pub static BOUNDS: LazyLock<Vec<(&str, f64)>> = LazyLock::new(|| {
+    let bound = |row| {
+        let cells = cells(row);
+        (cells[0], cells[2].parse().unwrap_or_else(|_| panic!("{row}: no k")))
+    };
+    PROMISES.lines().skip(1).map(bound).collect()
+});
+
+/// The cells of a row, which may be quoted.
+pub fn cells(row: &str) -> Vec<&str> {
+    let mut quoted = false;
+    let separates = |character: char| {
+        quoted ^= character == '"';
+        character == ',' && !quoted
+    };
+    row.split(separates).collect()
 }
 
-/// Output, k, scale, κ; domain and reason.
-#[rustfmt::skip]
-pub const BOUNDS: &[Bound] = &[
-    bound("composite_modulus", 3.0, "value", "0",
-        "every contact", "1-ν² as a product is free of cancellation: seven roundings"),
-    bound("half_width", 5.0, "value", "0",
-        "every contact", "w from Halley's iteration to rounding, a hypotenuse, and the rounding of E* and N/L"),
-    bound("slip_force", 0.5, "value", "0",
-        "every contact", "one product"),
-    bound("slip_displacement", 6.0, "value", "1/x_s",
-        "every contact", "x_s = Λ + β: the error of ln(2L/b) is absolute, and x_s may be below 1"),
-    bound("initial_stiffness", 6.0, "value", "1/Λ",
-        "every contact", "the error of ln(2L/b) is absolute, and Λ may be near 0"),
-    bound("slip_energy", 48.0, "value", "0",
-        "every contact", "β - γ, whose closed forms beyond ψ = π/3 lose up to four bits to cancellation"),
-    bound("displacement", 10.0, "value", "τ/x",
-        "0 <= T <= mu N", "up to τ = 1/2 a polynomial of positive curvature, beyond it Λτ + h(τ)"),
-    bound("compliance", 5.0, "value", "(1 + τ h'')/(Λ+λ)",
-        "0 <= T <= mu N", "Λ + λ, both positive; λ is sensitive to the rounding of T"),
-    bound("stick_half_width", 5.0, "value", "τ h''",
-        "0 <= T <= mu N", "a hypotenuse; c is sensitive to the rounding of T"),
-    bound("dissipated_energy", 512.0, "value", "0",
-        "0 <= T <= mu N", "just above τ = 1/2 the closed form is a difference of terms forty times as large"),
-    bound("force", 8.0, "value", "1/(Λ+λ)",
-        "any displacement", "two polynomials; at small Λ the closed form is inverted, with the rounding of Λ"),
-    bound("stiffness", 10.0, "value", "(1 + (x+τ) h''/(Λ+λ))/(Λ+λ)",
-        "any displacement", "the derivative of the same polynomial; sensitive to the rounding of the displacement and of Λ"),
-    bound("sensitivity_by_normal_force", 16.0, "T (1 + 1/(Λ+λ)) over the parameter", "(1 + rate)/(Λ+λ) + rate, rate = (x+τ) h''/(Λ+λ)",
-        "any displacement but within 16 ε (1 + 1/x_s) of gross slip", "λ and the compliance from a polynomial, or from the closed form beyond τ = 1/2"),
-    bound("sensitivity_by_friction", 16.0, "T (1 + 1/(Λ+λ)) over the parameter", "(1 + rate)/(Λ+λ) + rate, rate = (x+τ) h''/(Λ+λ)",
-        "any displacement", "the moment ∫ t h'' dt, a polynomial of positive terms up to τ = 1/2, beyond it λ less the next one"),
-    bound("sensitivity_by_flat", 16.0, "T (1 + 1/(Λ+λ)) over the parameter", "(1 + rate)/(Λ+λ) + rate, rate = (x+τ) h''/(Λ+λ)",
-        "any displacement", "the moment ∫ w h'' dt, which loses two bits to cancellation; b instead of a in the scale"),
-    bound("sensitivity_by_radius", 16.0, "T (1 + 1/(Λ+λ)) over the parameter", "(1 + rate)/(Λ+λ) + rate, rate = (x+τ) h''/(Λ+λ)",
-        "any displacement", "the moment ∫ (1-t) h'' dt"),
-    bound("sensitivity_by_length", 16.0, "T (1 + 1/(Λ+λ)) over the parameter", "(1 + rate)/(Λ+λ) + rate, rate = (x+τ) h''/(Λ+λ)",
-        "any displacement", "terms of both signs"),
-    bound("sensitivity_by_modulus", 16.0, "T (1 + 1/(Λ+λ)) over the parameter", "(1 + rate)/(Λ+λ) + rate, rate = (x+τ) h''/(Λ+λ)",
-        "any displacement", "terms of both signs"),
-    bound("layer_displacement", 32.0, "value", "τ/x of the contact and T/u₂ du₂/dT of the layer, each times its part",
-        "layers of 1e-3 to 1e3 times the compliance 1/K(0), N_c >= 1e-3 N; 0 <= T <= mu N",
-        "a sum of both; the logarithm of the layer is sensitive to the rounding of T for N_c << N"),
-    bound("layer_compliance", 64.0, "value", "that of `compliance` times the part of the contact, and T C₂'/C",
-        "the same layers, 0 <= T <= mu N", "a sum of both; up to τ = 1/2 with the derivative of a polynomial for both"),
-    bound("layer_dissipated_energy", 512.0, "value", "4 T (T du₂/dT - u₂)/E",
-        "the same layers, 0 <= T <= mu N", "as `dissipated_energy`"),
-    bound("layer_force", 64.0, "value", "1/(Λ+λ) times the part of the contact in the compliance",
-        "the same layers, any displacement", "one polynomial, or Newton's iteration for small N_c"),
-    bound("layer_stiffness", 64.0, "value", "(u/C + T) C'/C, times 1 and that of `layer_force`",
-        "the same layers, any displacement", "the derivative of the same polynomial, or a sum of both compliances"),
-    bound("stick_half_width_inverse", 10.0, "value", "(x+τ) h''/(Λ+λ)",
-        "any displacement", "the stick zone by inversion of the closed form"),
-    bound("pressure", 128.0, "value", "x/(b-x)",
-        "any x", "antiderivatives that may lose six bits to cancellation; at an edge between the exact values at x (1 ± 8 ε)"),
-    bound("shear", 128.0, "value", "x/(b-x) + x/abs(x-c) (1 + τ h'')",
-        "any x, 0 <= T <= mu N",
-        "as the pressure, over the slip zone only; at an edge between the exact values for 8 ε in x, b, c"),
-    bound("slip", 128.0, "value", "1.5 x/(x-c) (1 + τ h'')",
-        "any x, 0 <= T <= mu N", "as the shear"),
-    bound("damage", 192.0, "value", "sum of both",
-        "any x, 0 <= T <= mu N", "pressure times slip"),
-    bound("masing_force", 8.0, "sum of the sizes of its terms", "1/Λ",
-        "any history", "each reversal adds a term of the curve"),
-    bound("masing_stiffness", 12.0, "value", "that of `stiffness`",
-        "any history", "that of the branch; within some ε of gross slip between the exact values of neighbouring displacements"),
-    bound("masing_dissipated", 512.0, "sum of its terms; 4 mu N times the farthest displacement if that slips", "3/Λ",
-        "any history", "differences of cycle energies"),
-    bound("masing_shear", 128.0, "sum of the sizes of its terms", "(x/abs(x-c) + 1/Λ)(1 + τ h'') + x/(b-x)",
-        "any history, any x", "each reversal adds a traction; position and stick zones are rounded"),
-    bound("loop_displacement", 3.0, "amplitude", "0",
-        "any amplitude", "the cosine of a rounded angle up to π"),
-    bound("loop_force", 10.0, "sum of the sizes of its terms", "1/Λ",
-        "any amplitude", "two points of the curve, and a sine"),
-    bound("k_real", 64.0, "value", "1/Λ",
-        "any amplitude", "24 to 92 nodes that integrate to 1e-15 of the initial stiffness"),
-    bound("k_imag", 512.0, "value", "3/Λ; beyond gross slip also 4x/e (6/512), from that of x_s",
-        "any amplitude", "the energy, and the force of the amplitude"),
-    bound("dk_real", 6000.0, "abs(K)/amplitude", "1/Λ",
-        "any amplitude", "the same nodes, with larger weights"),
-    bound("dk_imag", 2048.0, "abs(K)/amplitude", "3/Λ; below gross slip also (6/2048) 4 (1+x_s) h''/(π (Λ+λ)³ abs(K)), from that of x_s",
-        "any amplitude", "a difference of the derivative of the energy and of K''"),
-    bound("harmonic_force", 8.0, "largest force, and initial stiffness times the sum of the coefficients", "1/Λ",
-        "uniform sampling, against the definition of the rule", "sums over samples of points of the curve"),
-    bound("harmonic_jacobian", 32.0, "initial stiffness", "1/Λ + Λ h''/(Λ+λ)³ times the sum of the coefficients",
-        "uniform sampling, no sample within 1e-9 of gross slip", "sums over samples of stiffnesses"),
-    bound("harmonic_dissipated", 512.0, "sum of its terms; 4 mu N times the coefficients if they slip", "3/Λ",
-        "uniform sampling", "as `masing_dissipated`"),
-    bound("jenkins_stiffness", 512.0, "value", "3/Λ",
-        "any amplitude", "K' and K''"),
-    bound("jenkins_slip_force", 512.0, "value", "3/Λ",
-        "any amplitude", "K' and K''"),
-    bound("iwan_force_error", 1e10, "value, and 1e-9 of mu N", "0",
-        "1 to 12 sliders", "bisection to 1e-6: against the largest distance of the sliders' polygon from the curve"),
-    bound("normal_force", 12.0, "value", "1/K_U",
-        "element, any approach", "one polynomial; its coefficients have the rounding of the inverse law and of ln(2L/s), which is absolute"),
-    bound("normal_stiffness", 128.0, "value", "1/K_U",
-        "element, any approach", "the derivative of the polynomial, whose argument is up to 16 half-lengths of its interval"),
-    bound("normal_half_width_inverse", 8.0, "value", "1/K_U",
-        "element, any approach", "that of the normal force"),
-    bound("normal_approach", 12.0, "value", "(1 + abs(K_S - K_U))/K_U",
-        "element, any load", "S from a polynomial, less the difference of both K"),
-    bound("normal_compliance", 1024.0, "value", "(1 + abs(K_S - K_U))/K_U",
-        "element, any load", "as normal_stiffness; for an ellipse, S of the power 2/3, the twelve terms of the polynomial show at the ends of its interval"),
-    bound("normal_half_width", 5.0, "value", "0",
-        "element, any load", "as half_width"),
-    bound("element_normal_force", 12.0, "value", "1/K_U",
-        "element, any history", "as normal_force"),
-    bound("element_normal_stiffness", 128.0, "value", "(1 + abs(K_S - K_U))/min(K_U, K_S)",
-        "element, any history", "as normal_stiffness"),
-    bound("element_force", 32.0, "mu N of the largest load so far", "1/K + u/(mu N K_t) of the largest load",
-        "element, any history", "a sum over the pieces left, whose knots have the rounding of displacements and shifts"),
-    bound("element_force_present", 32.0, "present mu N", "1/K + u/(mu N K_t) of the present load",
-        "element, any history", "as element_force: a falling load discards the knots beyond it with their errors"),
-    bound("element_stiffness", 1024.0, "1/K_t of the present size", "as described below",
-        "element, any history", "the derivative of a polynomial, at a size or at the edge of the slip zone; in stick a secant"),
-    bound("element_force_by_input", 1024.0, "mu dN/d(input)", "that of element_stiffness",
-        "element, any history", "a difference of two stiffnesses"),
-    bound("element_dissipated", 512.0, "value, and the rounding of the slip over the slip zone: mu (N_b - N_c)(u + mu S)", "3/K",
-        "element, any history", "positive quadratures, or potentials over wide intervals, which lose six bits to cancellation"),
-    bound("element_pressure", 128.0, "value", "x/(b-x) (1 + 1/K)",
-        "element, any history, any x", "as pressure; b has the rounding of the load"),
-    bound("element_shear", 128.0, "mu times the largest pressure", "as described below",
-        "element, any history, any x", "each piece adds a pressure; positions and knots are rounded"),
-];
-
-pub fn find(output: &str) -> &'static Bound {
-    BOUNDS.iter().find(|bound| bound.output == output).unwrap_or_else(|| panic!("no bound for {output}"))
+/// k of an output.
+pub fn find(output: &str) -> f64 {
+    BOUNDS.iter().find(|bound| bound.0 == output).unwrap_or_else(|| panic!("no bound for {output}")).1
 }

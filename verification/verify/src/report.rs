@@ -1,6 +1,6 @@
 //! The tables: a row for each output, and a row for each region.
 
-use crate::bounds::BOUNDS;
+use crate::bounds::{BOUNDS, PROMISES, cells};
 use crate::tally::{Cell, Key, Tally};
 use std::fmt::Write;
 use std::path::Path;
@@ -17,14 +17,14 @@ fn worst<'a>(tally: &'a Tally, output: &'a str) -> Option<(&'a Key, &'a Cell)> {
 /// Number of outputs within their bound, and beyond it; the latter are printed.
 pub fn summary(tally: &Tally) -> (usize, usize) {
     let (mut passed, mut failed) = (0, 0);
-    for bound in BOUNDS {
-        let Some((key, cell)) = worst(tally, bound.output) else { continue };
-        let broken: u64 = of(tally, bound.output).map(|(_, cell)| cell.broken).sum();
+    for (output, k) in BOUNDS.iter() {
+        let Some((key, cell)) = worst(tally, output) else { continue };
+        let broken: u64 = of(tally, output).map(|(_, cell)| cell.broken).sum();
         if broken == 0 {
             passed += 1;
         } else {
             failed += 1;
-            println!("{}: {broken} of {} beyond {} ε", bound.output, tally.points(bound.output), bound.k);
+            println!("{output}: {broken} of {} beyond {k} ε", tally.points(output));
             println!("  worst {:.2} ε, error {:.1e}, κ {:.1e}", cell.worst, cell.error, cell.condition);
             println!("  {}, {}: {}", key.1, key.2, cell.inputs);
         }
@@ -32,19 +32,20 @@ pub fn summary(tally: &Tally) -> (usize, usize) {
     (passed, failed)
 }
 
-/// A row for each output.
+/// The table of promises with the new worst errors.
 pub fn write_promises(tally: &Tally, path: &Path) {
-    let mut csv = "output,domain,promised_k,relative_to,condition,worst_k,worst_plain_error,points,reason\n".to_owned();
-    for bound in BOUNDS {
-        let Some((_, cell)) = worst(tally, bound.output) else { continue };
-        let plain = of(tally, bound.output).map(|(_, cell)| cell.plain).fold(0.0, f64::max);
-        let points = tally.points(bound.output) as f64;
-        writeln!(
-            csv,
-            "{},\"{}\",{},\"{}\",\"{}\",{:.2},{plain:.1e},{points:.1e},\"{}\"",
-            bound.output, bound.domain, bound.k, bound.scale, bound.condition, cell.worst, bound.reason
-        )
-        .unwrap();
+    let mut rows = PROMISES.lines();
+    let mut csv = rows.next().expect("a head").to_owned() + "\n";
+    for row in rows {
+        let mut cells = cells(row).into_iter().map(str::to_owned).collect::<Vec<_>>();
+        let output = &cells[0];
+        if let Some((_, cell)) = worst(tally, output) {
+            let plain = of(tally, output).map(|(_, cell)| cell.plain).fold(0.0, f64::max);
+            let points = tally.points(output) as f64;
+            let measured = [format!("{:.2}", cell.worst), format!("{plain:.1e}"), format!("{points:.1e}")];
+            cells.splice(5..8, measured);
+        }
+        csv += &(cells.join(",") + "\n");
     }
     write(path, &csv);
 }

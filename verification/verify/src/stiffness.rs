@@ -47,7 +47,7 @@ pub fn at_amplitude(case: &Case, amplitude: f64, range: &'static str, tally: &mu
     let slope_unit = unit / &law.displacement_unit;
     // Beyond gross slip E = E_slip + 4 (x - x_s), with the promised error of x_s.
     let slips = amplitude > contact.slip_displacement;
-    let slip = if slips { find("slip_displacement").k / find("k_imag").k * (4.0 * &x / &energy).f64() } else { 0.0 };
+    let slip = if slips { find("slip_displacement") / find("k_imag") * (4.0 * &x / &energy).f64() } else { 0.0 };
     let [real, real_rate] = real(case, &x);
     let size = (real.square() + imaginary.square()).sqrt();
     // dE/dx = 4 (τ - x/(Λ+λ)) changes by 4 x h''/(Λ+λ)³ per distance from gross slip, which has the promised error of x_s.
@@ -56,7 +56,7 @@ pub fn at_amplitude(case: &Case, amplitude: f64, range: &'static str, tally: &mu
     } else {
         (&point.curvature / (&point.compliance * point.compliance.square() * &size)).f64()
     };
-    let near = find("slip_displacement").k / find("dk_imag").k * 4.0 / PI * (1.0 + law.x_slip.f64()) * slope;
+    let near = find("slip_displacement") / find("dk_imag") * 4.0 / PI * (1.0 + law.x_slip.f64()) * slope;
     let scale = size / &x * &slope_unit;
     let exact = [unit * &real, unit * &imaginary, &slope_unit * real_rate, &slope_unit * imaginary_rate];
     let conditions = [soft, 3.0 * soft + slip, soft, 3.0 * soft + near];

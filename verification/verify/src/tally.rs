@@ -66,7 +66,7 @@ impl Tally {
         if !exact.is_zero() && exact.exponent() < -1000 && exact.exponent() > -100_000 {
             return;
         }
-        let k = bounds::find(key.0).k;
+        let k = bounds::find(key.0);
         let both = got == exact.f64() && (exact.is_zero() || got.is_infinite());
         let mut error = if both { 0.0 } else { ((Real::new(exact.bits(), got) - exact) / scale).abs().f64() };
         if error.is_nan() {
