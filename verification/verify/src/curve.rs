@@ -9,21 +9,15 @@ use reference::{Law, Point, Real};
 pub fn fields(case: &Case, _: &mut Sampler, tally: &mut Tally) {
     let Case { contact, reference, kind } = case;
     let law = reference.law(0);
-    let place = || text(&reference.input);
-    let mut check = |name, got, exact: Real, condition: f64| {
-        tally.check((name, kind, "contacts"), got, &exact, condition, place);
-    };
-    check("composite_modulus", contact.composite_modulus, law.composite_modulus.clone(), 0.0);
-    check("half_width", contact.half_width, law.half_width.clone(), 0.0);
-    check("slip_force", contact.slip_force, law.slip_force.clone(), 0.0);
-    check("slip_displacement", contact.slip_displacement, &law.displacement_unit * &law.x_slip, 1.0 / law.x_slip.f64());
-    check(
-        "initial_stiffness",
-        contact.initial_stiffness,
-        &law.stiffness_unit / &law.full_stick,
-        1.0 / law.full_stick.f64(),
-    );
-    check("slip_energy", contact.slip_energy, law.energy_unit() * law.slip_point().energy, 0.0);
+    let mut at = tally.at(kind, "contacts", || text(&reference.input));
+    at.check("composite_modulus", contact.composite_modulus, &law.composite_modulus, 0.0);
+    at.check("half_width", contact.half_width, &law.half_width, 0.0);
+    at.check("slip_force", contact.slip_force, &law.slip_force, 0.0);
+    let exact = &law.displacement_unit * &law.x_slip;
+    at.check("slip_displacement", contact.slip_displacement, &exact, 1.0 / law.x_slip.f64());
+    let exact = &law.stiffness_unit / &law.full_stick;
+    at.check("initial_stiffness", contact.initial_stiffness, &exact, 1.0 / law.full_stick.f64());
+    at.check("slip_energy", contact.slip_energy, &(law.energy_unit() * law.slip_point().energy), 0.0);
 }
 
 /// A value changed by the given number of ε.
@@ -46,7 +40,7 @@ pub fn at_forces(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
 pub fn at_force(case: &Case, force: f64, range: &'static str, tally: &mut Tally) {
     let Case { contact, reference, kind } = case;
     let (law, point) = reference.at_force(force);
-    let place = || format!("{} T {force:e}", text(&reference.input));
+    let mut at = tally.at(kind, range, || format!("{} T {force:e}", text(&reference.input)));
     let [displacement, compliance, stick] = call::displacement(contact, force);
     let (rate, stiff) = (point.rate(), point.compliance.f64());
     let around = |f: &dyn Fn(&Law, &Point) -> Real| -> Vec<Real> {
@@ -55,14 +49,14 @@ pub fn at_force(case: &Case, force: f64, range: &'static str, tally: &mut Tally)
     };
     let exact = &law.displacement_unit * &point.x;
     let condition = (&point.tau / &point.x).f64();
-    tally.check(("displacement", kind, range), displacement, &exact, condition, place);
+    at.check("displacement", displacement, &exact, condition);
     let of = |law: &Law, point: &Point| &point.compliance / &law.stiffness_unit;
     let (exact, soft) = (of(&law, &point), (1.0 + rate) / stiff);
-    tally.check_between(("compliance", kind, range), compliance, &exact, &exact, soft, place, || around(&of));
+    at.check_between("compliance", compliance, &exact, &exact, soft, || around(&of));
     let exact = size(&law, &point);
-    tally.check_between(("stick_half_width", kind, range), stick, &exact, &exact, rate, place, || around(&size));
+    at.check_between("stick_half_width", stick, &exact, &exact, rate, || around(&size));
     let exact = law.energy_unit() * &point.energy;
-    tally.check(("dissipated_energy", kind, range), call::energy(contact, force), &exact, 0.0, place);
+    at.check("dissipated_energy", call::energy(contact, force), &exact, 0.0);
 }
 
 /// A displacement over that of gross slip, and its range.
@@ -98,7 +92,7 @@ pub fn at_displacements(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
 
 pub fn at_displacement(case: &Case, displacement: f64, range: &'static str, tally: &mut Tally) {
     let Case { contact, reference, kind } = case;
-    let place = || format!("{} u {displacement:e}", text(&reference.input));
+    let mut at = tally.at(kind, range, || format!("{} u {displacement:e}", text(&reference.input)));
     let [force, stiffness, stick] = call::force(contact, displacement);
     let (law, point) = reference.at_displacement(displacement);
     let of_stiffness = |law: &Law, point: &Point| &law.stiffness_unit * point.stiffness();
@@ -112,12 +106,12 @@ pub fn at_displacement(case: &Case, displacement: f64, range: &'static str, tall
     let stiff = point.compliance.f64();
     let rate = ((&point.x + &point.tau) * &point.curvature).f64() / stiff;
     let (soft, rate) = (1.0 / stiff, if point.slips() { 0.0 } else { rate });
-    tally.check(("force", kind, range), force, &(&law.slip_force * &point.tau), soft, place);
+    at.check("force", force, &(&law.slip_force * &point.tau), soft);
     let exact = of_stiffness(&law, &point);
-    let (key, condition) = (("stiffness", *kind, range), soft * (1.0 + rate));
-    tally.check_between(key, stiffness, &exact, &exact, condition, place, || around(&of_stiffness));
-    let (key, exact) = (("stick_half_width_inverse", *kind, range), of_size(&law, &point));
-    tally.check_between(key, stick, &exact, &exact, rate, place, || around(&of_size));
+    let condition = soft * (1.0 + rate);
+    at.check_between("stiffness", stiffness, &exact, &exact, condition, || around(&of_stiffness));
+    let exact = of_size(&law, &point);
+    at.check_between("stick_half_width_inverse", stick, &exact, &exact, rate, || around(&of_size));
 }
 
 /// At given displacements: derivatives of the force with respect to the parameters, against differences.
@@ -146,7 +140,7 @@ pub fn sensitivity(case: &Case, displacement: f64, range: &'static str, tally: &
     if (x - 1.0).abs().f64() < 16.0 * f64::EPSILON * (1.0 + 1.0 / law.x_slip.f64()) {
         return;
     }
-    let place = || format!("{} u {displacement:e}", text(&reference.input));
+    let mut at = tally.at(kind, range, || format!("{} u {displacement:e}", text(&reference.input)));
     let (_, got) = call::sensitivity(contact, displacement);
     let exact = reference.differences(displacement);
     let stiff = point.compliance.f64();
@@ -155,10 +149,9 @@ pub fn sensitivity(case: &Case, displacement: f64, range: &'static str, tally: &
     let force = &law.slip_force * &point.tau;
     let scale = &force * law.real(1.0 + 1.0 / stiff);
     let values = reference.values();
-    for (parameter, exact) in exact.iter().enumerate() {
-        let name = NAMES[parameter];
-        let got = law.real(got[parameter]) * &values[parameter];
-        tally.check_scaled((name, kind, range), got.f64(), exact, &scale, (1.0 + rate) / stiff + rate, place);
+    for (((name, exact), got), value) in NAMES.into_iter().zip(&exact).zip(got).zip(values) {
+        let got = law.real(got) * value;
+        at.check_scaled(name, got.f64(), exact, &scale, (1.0 + rate) / stiff + rate);
     }
 }
 
@@ -202,5 +195,5 @@ pub fn of_sliders(case: &Case, n: usize, tally: &mut Tally) {
     let inputs = || format!("{} sliders {n}", text(&reference.input));
     // Errors below 1e-9 of mu N count as that.
     let scale = &worst + 1e-9;
-    tally.check_scaled(("iwan_force_error", kind, "1 to 12 sliders"), reported, &worst, &scale, 0.0, inputs);
+    tally.at(kind, "1 to 12 sliders", inputs).check_scaled("iwan_force_error", reported, &worst, &scale, 0.0);
 }

@@ -4,7 +4,7 @@ use crate::call::quiet;
 use crate::curve::moved;
 use crate::histories;
 use crate::sampler::{ElementCase, Sampler, text};
-use crate::tally::Tally;
+use crate::tally::{At, Tally};
 use microslip::one_direction::tractions::tractions;
 use microslip::one_direction::{self as state, Law, OneDirection};
 use reference::element::{Element as Exact, Kind, State, Step};
@@ -46,16 +46,16 @@ pub fn normal_law(case: &ElementCase, sampler: &mut Sampler, tally: &mut Tally) 
 pub fn at_load(case: &ElementCase, load: f64, range: &'static str, tally: &mut Tally) -> f64 {
     let ElementCase { element, reference, kind, input, .. } = case;
     let at_load = quiet("approach_under", || element.approach_under(load));
-    let place = || format!("{} N {load:e}", text(input));
+    let mut at = tally.at(kind, range, || format!("{} N {load:e}", text(input)));
     let family = &reference.family;
     let exact = family.find(Given::Load, &reference.real(load));
     let [normal, tangential] = family.log_compliances(&exact);
     // S is tabulated, and U less than S by the difference of both K times N.
     let condition = ((normal - tangential).abs() + 1.0) / normal;
-    tally.check(("normal_approach", kind, range), at_load.value, &exact.approach, condition, place);
-    tally.check(("normal_compliance", kind, range), at_load.slope, &exact.normal_compliance, condition, place);
+    at.check("normal_approach", at_load.value, &exact.approach, condition);
+    at.check("normal_compliance", at_load.slope, &exact.normal_compliance, condition);
     let half_width = element.half_width_under(load);
-    tally.check(("normal_half_width", kind, range), half_width, &exact.half_width, 0.0, place);
+    at.check("normal_half_width", half_width, &exact.half_width, 0.0);
     at_load.value
 }
 
@@ -64,16 +64,15 @@ pub fn at_approach(case: &ElementCase, approach: f64, range: &'static str, tally
     let ElementCase { element, reference, kind, input, .. } = case;
     let family = &reference.family;
     let at_approach = quiet("normal_force_at", || element.normal_force_at(approach));
-    let place = || format!("{} w {approach:e}", text(input));
+    let mut at = tally.at(kind, range, || format!("{} w {approach:e}", text(input)));
     let exact = family.find(Given::Approach, &reference.real(approach));
     let [normal, _] = family.log_compliances(&exact);
     let condition = 1.0 / normal;
-    tally.check(("normal_force", kind, range), at_approach.value, &exact.load, condition, place);
+    at.check("normal_force", at_approach.value, &exact.load, condition);
     let stiffness = 1.0 / &exact.normal_compliance;
-    tally.check(("normal_stiffness", kind, range), at_approach.slope, &stiffness, condition, place);
+    at.check("normal_stiffness", at_approach.slope, &stiffness, condition);
     let half_width = element.half_width_under(at_approach.value);
-    let key = ("normal_half_width_inverse", *kind, range);
-    tally.check(key, half_width, &exact.half_width, condition, place);
+    at.check("normal_half_width_inverse", half_width, &exact.half_width, condition);
 }
 
 /// Steps along a history, and tractions at its end.
@@ -82,8 +81,7 @@ pub fn along_a_path(case: &ElementCase, sampler: &mut Sampler, tally: &mut Tally
     let (path, range) = (histories::of_element(case, sampler, kind, 32), histories::RANGES[kind]);
     let (state, exact, farthest) = steps(case, &path, range, tally);
     if exact.size.is_some() {
-        let place = || format!("{} path {path:?}", text(&case.input));
-        tractions_at(case, &state, &exact, farthest, sampler, tally, place);
+        tractions_at(case, &state, &exact, farthest, sampler, &path, tally);
     }
 }
 
@@ -107,14 +105,14 @@ pub fn steps(case: &ElementCase, path: &[[f64; 2]], range: &'static str, tally: 
         {
             largest = Some(size.clone());
         }
-        let place = || format!("{} path {:?}", text(input), &path[..=i]);
-        let check = Check { case, kind, range, farthest, before, displacement, normal };
-        check.energy(got.dissipated, &step, &exact, tally, place);
+        let mut at = tally.at(kind, range, || format!("{} path {:?}", text(input), &path[..=i]));
+        let check = Check { case, farthest, before, displacement, normal };
+        check.energy(got.dissipated, &step, &exact, &mut at);
         if let (Some(size), Some(largest)) = (&exact.size, &largest) {
-            check.forces(got.force, &step, size, largest, tally, place);
-            check.tangent(got.tangent, &step, size, tally, place);
+            check.forces(got.force, &step, size, largest, &mut at);
+            check.tangent(got.tangent, &step, size, &mut at);
         } else {
-            assert!(got.force == [0.0; 2] && got.tangent == [0.0; 4], "{}: open, but {got:?}", place());
+            assert!(got.force == [0.0; 2] && got.tangent == [0.0; 4], "{}: open, but {got:?}", at.inputs());
         }
     }
     (library, exact, farthest)
@@ -123,8 +121,6 @@ pub fn steps(case: &ElementCase, path: &[[f64; 2]], range: &'static str, tally: 
 /// A step of a history, for comparisons.
 struct Check<'a> {
     case: &'a ElementCase,
-    kind: &'static str,
-    range: &'static str,
     farthest: f64,
     before: State,
     displacement: Real,
@@ -163,28 +159,25 @@ impl Check<'_> {
         step: &Step,
         size: &Size,
         largest: &Size,
-        tally: &mut Tally,
-        place: impl Fn() -> String,
+        at: &mut At<impl Fn() -> String>,
     ) {
         let friction = &self.case.reference.family.friction;
-        let key = |name| (name, self.kind, self.range);
         let [normal, _] = self.case.reference.family.log_compliances(size);
-        tally.check(key("element_normal_force"), load, &step.load, 1.0 / normal, &place);
+        at.check("element_normal_force", load, &step.load, 1.0 / normal);
         for (name, size) in [("element_force", largest), ("element_force_present", size)] {
             let scale = friction * &size.load;
-            tally.check_scaled(key(name), force, &step.force, &scale, self.condition(size), &place);
+            at.check_scaled(name, force, &step.force, &scale, self.condition(size));
         }
     }
 
-    fn tangent(&self, got: [f64; 4], step: &Step, size: &Size, tally: &mut Tally, place: impl Fn() -> String) {
+    fn tangent(&self, got: [f64; 4], step: &Step, size: &Size, at: &mut At<impl Fn() -> String>) {
         let [by_displacement, normal_by_displacement, by_input, load_slope] = got;
         assert!(normal_by_displacement == 0.0);
         let reference = &self.case.reference;
         let family = &reference.family;
         let [normal, tangential] = family.log_compliances(size);
-        let key = |name| (name, self.kind, self.range);
         let soft = ((normal - tangential).abs() + 1.0) / normal.min(tangential);
-        tally.check(key("element_normal_stiffness"), load_slope, &step.load_slope, soft, &place);
+        at.check("element_normal_stiffness", load_slope, &step.load_slope, soft);
         // The edge of the slip zone, and the rise of the load, are known to the rounding of displacements and shifts.
         let reach = self.reach(&size.shift);
         let rise = self.before.size.as_ref().map_or(size.shift.clone(), |before| &size.shift - &before.shift);
@@ -206,17 +199,15 @@ impl Check<'_> {
             };
         let [exact, exact_by_input] = &step.tangent;
         let stiffness = 1.0 / &size.tangential_compliance;
-        let name = key("element_stiffness");
         let around = |i: usize| self.around(size, |step| step.tangent[i].clone());
-        tally.check_between(name, by_displacement, exact, &stiffness, condition, &place, || around(0));
-        let name = key("element_force_by_input");
+        at.check_between("element_stiffness", by_displacement, exact, &stiffness, condition, || around(0));
         let scale = &family.friction * &step.load_slope;
-        tally.check_between(name, by_input, exact_by_input, &scale, condition, &place, || around(1));
+        at.check_between("element_force_by_input", by_input, exact_by_input, &scale, condition, || around(1));
     }
 
-    fn energy(&self, got: f64, step: &Step, exact: &State, tally: &mut Tally, place: impl Fn() -> String) {
+    fn energy(&self, got: f64, step: &Step, exact: &State, at: &mut At<impl Fn() -> String>) {
         let family = &self.case.reference.family;
-        assert!(got >= 0.0, "{}: dissipated {got:e}", place());
+        assert!(got >= 0.0, "{}: dissipated {got:e}", at.inputs());
         // The larger one of both sizes, whose slip zone slips by a difference of displacements and shifts.
         let sizes = [&self.before.size, &exact.size];
         let Some(size) =
@@ -229,9 +220,8 @@ impl Check<'_> {
         let [normal, tangential] = family.log_compliances(size);
         let scale = &step.dissipated + &rounding;
         let condition = 3.0 / normal.min(tangential);
-        let key = ("element_dissipated", self.kind, self.range);
         let around = || self.around(size, |step| step.dissipated.clone());
-        tally.check_between(key, got, &step.dissipated, &scale, condition, place, around);
+        at.check_between("element_dissipated", got, &step.dissipated, &scale, condition, around);
     }
 }
 
@@ -241,10 +231,10 @@ fn tractions_at(
     exact: &State,
     farthest: f64,
     sampler: &mut Sampler,
+    path: &[[f64; 2]],
     tally: &mut Tally,
-    place: impl Fn() -> String,
 ) {
-    let ElementCase { element, reference, kind, .. } = case;
+    let ElementCase { element, reference, kind, input } = case;
     let family = &reference.family;
     let size = exact.size.as_ref().expect("closed");
     let half_width = size.half_width.f64();
@@ -253,7 +243,7 @@ fn tractions_at(
     quiet("tractions", || tractions(element, library, &x, Some(&mut pressure), Some(&mut shear))).expect("a state");
     let peak = &family.friction * family.pressure(size, &reference.real(0.0));
     for ((&x, pressure), shear) in x.iter().zip(pressure).zip(shear) {
-        let place = || format!("{} x {x:e}", place());
+        let mut at = tally.at(kind, "any history", || format!("{} path {path:?} x {x:e}", text(input)));
         let spot = reference.real(x).abs();
         let [exact_pressure, exact_shear] = reference.tractions(exact, &spot);
         let gap = |edge: &Real| (edge / (&spot - edge)).abs().f64();
@@ -261,8 +251,7 @@ fn tractions_at(
         let soft = 1.0 / normal.min(tangential);
         let at_edge = gap(&size.half_width) * (1.0 + soft);
         let corners = || [-UNITS, UNITS].map(|units| family.pressure(size, &(&spot * moved(1.0, units)))).into();
-        let key = ("element_pressure", *kind, "any history");
-        tally.check_between(key, pressure, &exact_pressure, &exact_pressure, at_edge, place, corners);
+        at.check_between("element_pressure", pressure, &exact_pressure, &exact_pressure, at_edge, corners);
         // Each knot is known to the rounding of displacements and shifts, over the change of D.
         let reach = farthest / &family.friction + &size.shift;
         let mut condition = at_edge + soft + (&reach / &size.shift).f64();
@@ -270,7 +259,7 @@ fn tractions_at(
             let edge = &pair[0].end;
             condition += gap(&edge.half_width) * (1.0 + (&reach / (&edge.load * &edge.tangential_compliance)).f64());
         }
-        tally.check_scaled(("element_shear", *kind, "any history"), shear, &exact_shear, &peak, condition, place);
+        at.check_scaled("element_shear", shear, &exact_shear, &peak, condition);
     }
 }
 

@@ -52,20 +52,20 @@ pub fn at(case: &Case, samples: usize, displacement: &[f64], range: &'static str
     if jumps {
         return; // the Jacobian is discontinuous at gross slip
     }
-    let place = || format!("{} samples {samples} u {displacement:?}", text(&reference.input));
+    let mut at = tally.at(kind, range, || format!("{} samples {samples} u {displacement:?}", text(&reference.input)));
     let soft = 1.0 / law.full_stick.f64();
     // The displacement of a sample has the rounding of all coefficients.
     let scale = &law.slip_force * law.real(exact.size + soft * total);
     for (got, exact) in force.iter().zip(&exact.force) {
-        tally.check_scaled(("harmonic_force", kind, range), *got, &(&law.slip_force * exact), &scale, soft, place);
+        at.check_scaled("harmonic_force", *got, &(&law.slip_force * exact), &scale, soft);
     }
     let scale = &law.stiffness_unit / &law.full_stick;
     for (got, exact) in jacobian.iter().zip(&exact.jacobian) {
         let exact = &law.stiffness_unit * exact;
-        tally.check_scaled(("harmonic_jacobian", kind, range), *got, &exact, &scale, soft + condition, place);
+        at.check_scaled("harmonic_jacobian", *got, &exact, &scale, soft + condition);
     }
     let slip = if total > law.x_slip.f64() { 4.0 * total } else { 0.0 };
     let scale = law.energy_unit() * (&exact.dissipated.size + slip);
     let exact = law.energy_unit() * &exact.dissipated.energy;
-    tally.check_scaled(("harmonic_dissipated", kind, range), dissipated, &exact, &scale, 3.0 * soft, place);
+    at.check_scaled("harmonic_dissipated", dissipated, &exact, &scale, 3.0 * soft);
 }

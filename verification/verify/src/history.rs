@@ -50,17 +50,17 @@ pub fn updates(case: &Case, path: &[f64], tally: &mut Tally) -> (History, Vec<f6
             2..5 => "1 to 3 reversals",
             _ => "4 and more",
         };
-        let place = || format!("{} path {:?}", text(&reference.input), &path[..=i]);
+        let mut at = tally.at(kind, range, || format!("{} path {:?}", text(&reference.input), &path[..=i]));
         if u == 0.0 && history.reversals.len() == 1 {
-            assert!(got[0] == 0.0 && got[2] == 0.0, "unloaded: {got:?}; {}", place());
+            assert!(got[0] == 0.0 && got[2] == 0.0, "unloaded: {got:?}; {}", at.inputs());
             continue;
         }
         let [exact, scale] = history.force().map(|force| &law.slip_force * force);
-        tally.check_scaled(("masing_force", kind, range), got[0], &exact, &scale, soft, place);
+        at.check_scaled("masing_force", got[0], &exact, &scale, soft);
         let point = &history.now().point;
         let (exact, condition) = stiffness(point);
         let exact = &law.stiffness_unit * exact;
-        tally.check_between(("masing_stiffness", kind, range), got[1], &exact, &exact, condition, place, || {
+        at.check_between("masing_stiffness", got[1], &exact, &exact, condition, || {
             // The range from the reversal is a difference of two displacements.
             let units = 8.0 * (2.0 + 1.0 / law.x_slip.f64()) * (1.0 + 2.0 * farthest);
             let around = [-units, units].map(|units| law.at_x(&(&point.x * moved(1.0, units))).stiffness());
@@ -68,7 +68,7 @@ pub fn updates(case: &Case, path: &[f64], tally: &mut Tally) -> (History, Vec<f6
         });
         let slip = if farthest > 1.0 { farthest * 4.0 * law.x_slip.f64() } else { 0.0 };
         let (exact, scale) = (&energy_unit * dissipated.energy, &energy_unit * (dissipated.size + slip));
-        tally.check_scaled(("masing_dissipated", kind, range), got[2], &exact, &scale, 3.0 * soft, place);
+        at.check_scaled("masing_dissipated", got[2], &exact, &scale, 3.0 * soft);
     }
     (history, state)
 }
@@ -91,9 +91,9 @@ fn shear(case: &Case, history: &History, state: &[f64], sampler: &mut Sampler, t
             condition = condition.max((gap + 1.0 / law.full_stick.f64()) * (1.0 + point.rate()));
         }
         let edge = (&spot / (1.0 - &spot)).abs().f64();
-        let place = || format!("{} state {state:?} x {x:e}", text(&reference.input));
-        let key = ("masing_shear", *kind, "any history");
-        tally.check_scaled(key, got, &(&unit * sum), &(&unit * size), condition + edge, place);
+        let inputs = || format!("{} state {state:?} x {x:e}", text(&reference.input));
+        let mut at = tally.at(kind, "any history", inputs);
+        at.check_scaled("masing_shear", got, &(&unit * sum), &(&unit * size), condition + edge);
     }
 }
 
@@ -119,14 +119,14 @@ pub fn of_amplitude(case: &Case, amplitude: f64, n: usize, range: &'static str, 
     history.go(&x, 0);
     for i in 0..n {
         let cosine = (2.0 * Real::pi(law.bits) * i as f64 / n as f64).sin_cos().1;
-        let place = || format!("{} A {amplitude:e} instant {i} of {n}", text(&reference.input));
+        let mut at = tally.at(kind, range, || format!("{} A {amplitude:e} instant {i} of {n}", text(&reference.input)));
         let exact = law.real(amplitude) * &cosine;
-        tally.check_scaled(("loop_displacement", kind, range), u[i], &exact, &law.real(amplitude), 0.0, place);
+        at.check_scaled("loop_displacement", u[i], &exact, &law.real(amplitude), 0.0);
         if 2 * i >= n {
             history.go(&-&x, 0);
         }
         history.go(&(&x * &cosine), i);
         let [exact, scale] = history.force().map(|force| &law.slip_force * force);
-        tally.check_scaled(("loop_force", kind, range), t[i], &exact, &scale, soft, place);
+        at.check_scaled("loop_force", t[i], &exact, &scale, soft);
     }
 }

@@ -151,27 +151,26 @@ impl<'a> Layered<'a> {
 
     fn at_force(&mut self, force: f64, range: &'static str, tally: &mut Tally) {
         self.set_bits_for(force / self.contact.slip_force);
-        let kind = self.case.kind;
-        let place = || format!("{} T {force:e}", text(&self.input));
+        let mut at = tally.at(self.case.kind, range, || format!("{} T {force:e}", text(&self.input)));
         let exact = self.at(self.law.at_force(force));
         let [displacement, compliance, _] = call::displacement(&self.contact, force);
         // The rounding of T over mu N enters with the layer's compliance.
         let of_contact = 1.0 - (&exact.layer_displacement / &exact.displacement).f64();
         let condition = of_contact * (&exact.point.tau / &exact.point.x).f64()
             + (&exact.force * &exact.layer_compliance / &exact.displacement).f64();
-        tally.check(("layer_displacement", kind, range), displacement, &exact.displacement, condition, place);
+        at.check("layer_displacement", displacement, &exact.displacement, condition);
         let of_contact = self.share_of_contact(&exact);
         let stiff = exact.point.compliance.f64();
         let rate = (&exact.force * &exact.layer_curvature / &exact.compliance).f64();
         let condition = of_contact * (1.0 + exact.point.rate()) / stiff + rate;
         let value = &exact.compliance;
-        tally.check_between(("layer_compliance", kind, range), compliance, value, value, condition, place, || {
+        at.check_between("layer_compliance", compliance, value, value, condition, || {
             [-4.0, 4.0].map(|units| self.at(self.law.at_force(moved(force, units))).compliance).into()
         });
         let change = 4.0 * (&exact.force * &exact.layer_compliance - &exact.layer_displacement) * &exact.force;
         let condition = (change / &exact.energy).f64();
         let energy = call::energy(&self.contact, force);
-        tally.check(("layer_dissipated_energy", kind, range), energy, &exact.energy, condition, place);
+        at.check("layer_dissipated_energy", energy, &exact.energy, condition);
     }
 
     /// The part of the compliance that is the contact's.
@@ -184,13 +183,12 @@ impl<'a> Layered<'a> {
 
     fn at_given_displacement(&mut self, displacement: f64, range: &'static str, tally: &mut Tally) {
         self.set_bits_for(displacement / self.contact.slip_displacement);
-        let kind = self.case.kind;
-        let place = || format!("{} u {displacement:e}", text(&self.input));
+        let mut at = tally.at(self.case.kind, range, || format!("{} u {displacement:e}", text(&self.input)));
         let [force, stiffness, _] = call::force(&self.contact, displacement);
         let exact = self.at_displacement(displacement);
         let slips = exact.point.slips();
         let soft = self.share_of_contact(&exact) / exact.point.compliance.f64();
-        tally.check(("layer_force", kind, range), force, &exact.force, soft, place);
+        at.check("layer_force", force, &exact.force, soft);
         let of = |exact: &Both| if exact.point.slips() { self.law.real(0.0) } else { 1.0 / &exact.compliance };
         // Changes of the compliance by the rounding of the displacement and of the force.
         let rate = if slips {
@@ -202,7 +200,7 @@ impl<'a> Layered<'a> {
         };
         let value = of(&exact);
         let condition = soft + rate * (1.0 + soft);
-        tally.check_between(("layer_stiffness", kind, range), stiffness, &value, &value, condition, place, || {
+        at.check_between("layer_stiffness", stiffness, &value, &value, condition, || {
             let units = 4.0 * (2.0 + 1.0 / self.law.x_slip.f64());
             [-units, units].map(|units| of(&self.at_displacement(moved(displacement, units)))).into()
         });

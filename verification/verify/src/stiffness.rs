@@ -36,9 +36,9 @@ pub fn at_amplitudes(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
 
 pub fn at_amplitude(case: &Case, amplitude: f64, range: &'static str, tally: &mut Tally) {
     let Case { contact, reference, kind } = case;
-    let plain = call::complex_stiffness(contact, amplitude);
+    let got = call::complex_stiffness(contact, amplitude);
     let (law, point) = reference.at_displacement(amplitude);
-    let place = || format!("{} A {amplitude:e}", text(&reference.input));
+    let mut at = tally.at(kind, range, || format!("{} A {amplitude:e}", text(&reference.input)));
     let x = law.x(amplitude);
     let energy = cycle_energy(&law, &x, &point).0;
     let [imaginary, imaginary_rate] = imaginary_part(&law, &x, &point);
@@ -60,20 +60,15 @@ pub fn at_amplitude(case: &Case, amplitude: f64, range: &'static str, tally: &mu
     let scale = size / &x * &slope_unit;
     let exact = [unit * &real, unit * &imaginary, &slope_unit * real_rate, &slope_unit * imaginary_rate];
     let conditions = [soft, 3.0 * soft + slip, soft, 3.0 * soft + near];
-    let mut check = |names: [&'static str; 4], got: [f64; 4]| {
-        for i in 0..2 {
-            tally.check((names[i], kind, range), got[i], &exact[i], conditions[i], place);
-        }
-        for i in 2..4 {
-            tally.check_scaled((names[i], kind, range), got[i], &exact[i], &scale, conditions[i], place);
-        }
-    };
-    check(["k_real", "k_imag", "dk_real", "dk_imag"], plain);
+    for (i, output) in ["k_real", "k_imag", "dk_real", "dk_imag"].into_iter().enumerate() {
+        let scale = if i < 2 { &exact[i] } else { &scale };
+        at.check_scaled(output, got[i], &exact[i], scale, conditions[i]);
+    }
     let (stiffness, force) = spring_slider(&real, &imaginary, &x);
     let got = call::jenkins(contact, amplitude);
-    tally.check(("jenkins_stiffness", kind, range), got[0], &(unit * stiffness), 3.0 * soft, place);
+    at.check("jenkins_stiffness", got[0], &(unit * stiffness), 3.0 * soft);
     let exact = &law.slip_force * force;
-    tally.check(("jenkins_slip_force", kind, range), got[1], &exact, 3.0 * soft, place);
+    at.check("jenkins_slip_force", got[1], &exact, 3.0 * soft);
 }
 
 /// Stiffness and slip force of the spring-slider with K' and K'' at an amplitude: sin²Θ = ratio (Θ - sin Θ cos Θ).

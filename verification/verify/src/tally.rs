@@ -32,41 +32,63 @@ impl Tally {
         self.cells.iter().filter(|(key, _)| key.0 == output).map(|(_, cell)| cell.points).sum()
     }
 
+    /// Comparisons at an input of a kind of contact, in a range of the argument.
+    pub fn at<F: Fn() -> String>(&mut self, kind: &'static str, range: &'static str, inputs: F) -> At<'_, F> {
+        At { tally: self, kind, range, inputs }
+    }
+
+    pub fn add(&mut self, other: Tally) {
+        for (key, cell) in other.cells {
+            let mine = self.cells.entry(key).or_default();
+            let (points, between, broken) =
+                (mine.points + cell.points, mine.between + cell.between, mine.broken + cell.broken);
+            let plain = mine.plain.max(cell.plain);
+            if cell.worst > mine.worst || mine.points == 0 {
+                *mine = cell;
+            }
+            (mine.points, mine.between, mine.broken, mine.plain) = (points, between, broken, plain);
+        }
+    }
+}
+
+/// Compares the outputs at an input, which is printed with the worst of them.
+pub struct At<'a, F> {
+    tally: &'a mut Tally,
+    kind: &'static str,
+    range: &'static str,
+    inputs: F,
+}
+
+impl<F: Fn() -> String> At<'_, F> {
+    pub fn inputs(&self) -> String {
+        (self.inputs)()
+    }
+
     /// Compares a result with the exact one, relative to it.
-    pub fn check(&mut self, key: Key, got: f64, exact: &Real, condition: f64, inputs: impl Fn() -> String) {
-        self.check_scaled(key, got, exact, exact, condition, inputs);
+    pub fn check(&mut self, output: &'static str, got: f64, exact: &Real, condition: f64) {
+        self.check_scaled(output, got, exact, exact, condition);
     }
 
     /// Compares a result with the exact one, relative to a scale.
-    pub fn check_scaled(
-        &mut self,
-        key: Key,
-        got: f64,
-        exact: &Real,
-        scale: &Real,
-        condition: f64,
-        inputs: impl Fn() -> String,
-    ) {
-        self.check_between(key, got, exact, scale, condition, inputs, Vec::new);
+    pub fn check_scaled(&mut self, output: &'static str, got: f64, exact: &Real, scale: &Real, condition: f64) {
+        self.check_between(output, got, exact, scale, condition, Vec::new);
     }
 
     /// The same; beyond the bound a result is accepted if it lies between the exact results of neighbouring inputs.
-    #[allow(clippy::too_many_arguments)]
     pub fn check_between(
         &mut self,
-        key: Key,
+        output: &'static str,
         got: f64,
         exact: &Real,
         scale: &Real,
         condition: f64,
-        inputs: impl Fn() -> String,
         neighbours: impl FnOnce() -> Vec<Real>,
     ) {
         // Results near the subnormal range have fewer digits.
         if !exact.is_zero() && exact.exponent() < -1000 && exact.exponent() > -100_000 {
             return;
         }
-        let k = bounds::find(key.0);
+        let k = bounds::find(output);
         let both = got == exact.f64() && (exact.is_zero() || got.is_infinite());
         let mut error = if both { 0.0 } else { ((Real::new(exact.bits(), got) - exact) / scale).abs().f64() };
         if error.is_nan() {
@@ -74,7 +96,7 @@ impl Tally {
         }
         let mut condition = if condition.is_finite() { condition.abs() } else { f64::INFINITY };
         let mut ratio = if error == 0.0 { 0.0 } else { error / EPSILON / (1.0 + condition) };
-        let cell = self.cells.entry(key).or_default();
+        let cell = self.tally.cells.entry((output, self.kind, self.range)).or_default();
         cell.points += 1;
         let is_beyond = ratio > k || condition.is_infinite() || condition > 1e12;
         let around = if is_beyond { neighbours() } else { Vec::new() };
@@ -98,20 +120,7 @@ impl Tally {
             cell.plain = cell.plain.max(error);
         }
         if ratio > cell.worst || cell.points == 1 {
-            (cell.worst, cell.error, cell.condition, cell.inputs) = (ratio, error, condition, inputs());
-        }
-    }
-
-    pub fn add(&mut self, other: Tally) {
-        for (key, cell) in other.cells {
-            let mine = self.cells.entry(key).or_default();
-            let (points, between, broken) =
-                (mine.points + cell.points, mine.between + cell.between, mine.broken + cell.broken);
-            let plain = mine.plain.max(cell.plain);
-            if cell.worst > mine.worst || mine.points == 0 {
-                *mine = cell;
-            }
-            (mine.points, mine.between, mine.broken, mine.plain) = (points, between, broken, plain);
+            (cell.worst, cell.error, cell.condition, cell.inputs) = (ratio, error, condition, (self.inputs)());
         }
     }
 }

@@ -83,18 +83,18 @@ pub fn at_positions(case: &Case, force: f64, spots: &[(f64, &'static str)], near
     };
     let rate = point.rate();
     for (i, &(x, range)) in spots.iter().enumerate() {
-        let place = || format!("{} T {force:e} x {x:e}", text(&reference.input));
+        let mut at = tally.at(kind, range, || format!("{} T {force:e} x {x:e}", text(&reference.input)));
         let spot = place_of(&law, x);
         let p = law.pressure(&spot, None);
         let from = |edge: &Real| (&spot / (&spot - edge)).abs().f64();
         let (from_b, from_c) = (from(&law.real(1.0)), (1.0 + rate) * from(&point.size));
         let exact = &pressure_unit * &p;
-        tally.check_between(("pressure", kind, range), pressure[i], &exact, &exact, from_b, place, || {
+        at.check_between("pressure", pressure[i], &exact, &exact, from_b, || {
             [-UNITS, UNITS].map(|at| &pressure_unit * law.pressure(&place_of(&law, moved(x, at)), None)).into()
         });
         let q = if point.slips() { p.clone() } else { &p - law.pressure(&spot, Some(&point)) };
         let exact = &shear_unit * q;
-        tally.check_between(("shear", kind, range), shear[i], &exact, &exact, from_b + from_c, place, || {
+        at.check_between("shear", shear[i], &exact, &exact, from_b + from_c, || {
             corners(x, &|law, x, point| &shear_unit * law.shear(x, point))
         });
         if no_slip {
@@ -103,12 +103,12 @@ pub fn at_positions(case: &Case, force: f64, spots: &[(f64, &'static str)], near
         let outside = spot > law.real(1.0);
         let s = if outside { law.real(0.0) } else { law.slip(&spot, &point) };
         let exact = &slip_unit * &s;
-        tally.check_between(("slip", kind, range), slip[i], &exact, &exact, 1.5 * from_c, place, || {
+        at.check_between("slip", slip[i], &exact, &exact, 1.5 * from_c, || {
             corners(x, &|law, x, point| &slip_unit * law.slip(x, point))
         });
         let unit = &slip_unit * &shear_unit;
         let exact = &unit * s * p;
-        tally.check_between(("damage", kind, range), damage[i], &exact, &exact, from_b + 1.5 * from_c, place, || {
+        at.check_between("damage", damage[i], &exact, &exact, from_b + 1.5 * from_c, || {
             corners(x, &|law, x, point| &unit * law.slip(x, point) * law.pressure(x, None))
         });
     }
