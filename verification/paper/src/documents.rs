@@ -8,7 +8,7 @@ use std::process::ExitCode;
 /// The documents of a program, and the results of its checks.
 pub struct Documents {
     check: bool,
-    pub results: Vec<Result<(), String>>,
+    results: Vec<Result<(), String>>,
 }
 
 impl Documents {
@@ -39,6 +39,21 @@ impl Documents {
         }));
     }
 
+    /// A table of a page, between the markers of a name.
+    pub fn table(&mut self, page: &str, name: &str, table: &str) {
+        let (begin, end) = (format!("<!-- {name}: begin -->\n"), format!("<!-- {name}: end -->"));
+        self.page(page, |old| {
+            let parts = old.split_once(&begin).and_then(|(before, rest)| Some((before, rest.split_once(&end)?.1)));
+            let (before, after) = parts.ok_or(format!("docs/{page}: no {}…{end}", begin.trim_end()))?;
+            Ok(format!("{before}{begin}{table}{end}{after}"))
+        });
+    }
+
+    /// A check, with the message if it fails.
+    pub fn check(&mut self, holds: bool, message: String) {
+        self.results.push(if holds { Ok(()) } else { Err(message) });
+    }
+
     /// Prints the failures and the counts.
     pub fn report(self) -> ExitCode {
         let failures: Vec<&String> = self.results.iter().filter_map(|result| result.as_ref().err()).collect();
@@ -58,12 +73,4 @@ fn read(path: &Path) -> Result<String, String> {
 
 fn write(path: &Path, text: &str) -> Result<(), String> {
     fs::write(path, text).map_err(|error| format!("{}: {error}", path.display()))
-}
-
-/// A page with another text between the markers of a name, by the one that is there.
-pub fn between(page: &str, name: &str, text: impl FnOnce(&str) -> Result<String, String>) -> Result<String, String> {
-    let (begin, end) = (format!("<!-- {name}: begin -->\n"), format!("<!-- {name}: end -->"));
-    let parts = page.split_once(&begin).and_then(|(before, rest)| Some((before, rest.split_once(&end)?)));
-    let (before, (old, after)) = parts.ok_or(format!("no {}…{end}", begin.trim_end()))?;
-    Ok(format!("{before}{begin}{}{end}{after}", text(old)?))
 }

@@ -9,13 +9,14 @@ mod claims;
 mod documents;
 mod drawings;
 mod equations;
+mod path;
 mod periods;
 mod samples;
 mod swing;
 mod table;
 
 use claims::Claim;
-use documents::{Documents, between};
+use documents::Documents;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
@@ -25,15 +26,15 @@ fn main() -> ExitCode {
     };
     let claims = claims::all();
     for (figure, claims) in &claims {
-        documents.results.extend(claims.iter().map(|(computed, stands)| {
-            if *stands { Ok(()) } else { Err(format!("{figure}: the verdict is not true: {computed}")) }
-        }));
+        for (computed, stands) in claims {
+            documents.check(*stands, format!("{figure}: the verdict is not true: {computed}"));
+        }
     }
     drawings::all().iter().for_each(|table| documents.data(table));
     documents.page("claims.csv", |old| with_claims(old, &claims));
-    documents.page("guide.md", |old| between(old, "samples of elements", |_| Ok(samples::table())));
-    documents.page("accuracy.md", |old| between(old, "roundings of the work", |_| Ok(samples::roundings())));
-    documents.page("guide.md", |old| between(old, "periods of elements", |_| Ok(periods::table())));
+    documents.table("guide.md", "samples of elements", &samples::table());
+    documents.table("accuracy.md", "roundings of the work", &samples::roundings());
+    documents.table("guide.md", "periods of elements", &periods::table());
     documents.report()
 }
 

@@ -2,10 +2,9 @@
 
 use crate::cases::Case;
 use crate::drawings::even;
+use crate::path::Path;
 use crate::table::Table;
 use microslip::element::{Element, NormalInput};
-use microslip::law::StepOf;
-use microslip::one_direction::{Law, OneDirection, state_length};
 use std::f64::consts::TAU;
 
 const STEPS_OF_CYCLE: usize = 180;
@@ -56,50 +55,13 @@ fn energy(case: &Case, element: &Element, motion: Motion, swing: f64, phase: f64
     for i in 0..=2 * steps {
         let (along, load) = (along(first + i), normal_force(first + i));
         let step = match motion {
-            Motion::Force(part) => path.pull(part * along * case.friction * case.normal_force, load),
+            Motion::Force(part) => {
+                let distance = 8.0 * case.friction * element.shift_under(load);
+                path.pull([0.0, 1.0], part * along * case.contact.slip_force, load, distance)
+            }
             Motion::Displacement(part) => path.displace(part * along * case.contact.slip_displacement, load),
         };
         energy += if i > steps { step.dissipated } else { 0.0 };
     }
     energy
-}
-
-struct Path<'a> {
-    element: &'a Element,
-    state: Vec<f64>,
-    displacement: f64,
-}
-
-impl Path<'_> {
-    fn new(element: &Element, pieces: usize) -> Path<'_> {
-        let mut state = vec![0.0; state_length(pieces)];
-        OneDirection::state_init(&mut state).expect("a long state");
-        Path { element, state, displacement: 0.0 }
-    }
-
-    fn displace(&mut self, displacement: f64, load: f64) -> StepOf<OneDirection> {
-        self.displacement = displacement;
-        OneDirection::step(self.element, &mut self.state, [displacement, load]).expect("an admissible step")
-    }
-
-    /// A step to a tangential force below the slip force, by Newton's method within a bracket.
-    fn pull(&mut self, force: f64, load: f64) -> StepOf<OneDirection> {
-        let start = self.state.clone();
-        let reach = 8.0 * self.element.friction_coefficient * self.element.shift_under(load);
-        let (mut low, mut high) = (self.displacement - reach, self.displacement + reach);
-        let mut at = self.displacement;
-        for _ in 0..100 {
-            self.state.copy_from_slice(&start);
-            let step = self.displace(at, load);
-            let excess = step.force[0] - force;
-            *(if excess > 0.0 { &mut high } else { &mut low }) = at;
-            let next = at - excess / step.tangent[0];
-            let next = if next > low && next < high { next } else { 0.5 * (low + high) };
-            if excess.abs() < 1e-13 * load || high - low < 1e-15 * reach {
-                return step;
-            }
-            at = next;
-        }
-        panic!("no displacement under the force {force}")
-    }
 }

@@ -1,10 +1,11 @@
 //! Tractions of a cylinder on a flat by a finite-element model (`tests/golden/abaqus_mindlin.csv`), loaded and unloaded.
 
+use crate::PAGE;
+use crate::documents::Documents;
 use crate::golden::{Row, table};
 use microslip::constant_load::{ConstantLoad, Law, masing, state};
 use microslip::{Contact, Material, Parameters};
 use std::f64::consts::PI;
-use std::fmt::Write;
 
 const FRICTION: f64 = 0.6;
 /// Tangential force at the end of loading, over mu N.
@@ -30,13 +31,8 @@ fn contact() -> Contact {
 }
 
 /// Largest differences of a case in per cent, of pressures over the largest one, and of shear tractions over mu times that: those of
-/// nodes away from edges of contact and stick, and those of all nodes in the contact.
-struct Differences {
-    away: [f64; 2],
-    all: [f64; 2],
-}
-
-fn differences(unloaded: bool) -> Differences {
+/// nodes away from edges of contact and stick, and then those of all nodes in the contact.
+fn differences(unloaded: bool) -> [f64; 4] {
     let contact = contact();
     let at = |force: f64| contact.curve_at_force(force * contact.slip_force).expect("below gross slip");
     // Masing's rule: half of the change of force is that of the curve.
@@ -57,34 +53,32 @@ fn differences(unloaded: bool) -> Differences {
     let mut shear = vec![0.0; x.len()];
     masing::shear_tractions(&contact, &memory, &x, &mut shear).expect("a state");
     let largest = contact.pressure(0.0);
-    let mut found = Differences { away: [0.0; 2], all: [0.0; 2] };
+    let mut found = [0.0_f64; 4];
     for ((node, &x), shear) in nodes.iter().zip(&x).zip(shear) {
-        let pressure = node["p_over_p0"] - contact.pressure(x) / largest;
-        let now = [pressure, (node["q_over_p0"] - shear / largest) / FRICTION];
-        let now = now.map(|difference| 100.0 * difference.abs());
         let is_away = edges.iter().all(|edge| (x.abs() - edge).abs() > 2.0 * SPACING * contact.half_width);
-        let larger = |so_far: [f64; 2]| [so_far[0].max(now[0]), so_far[1].max(now[1])];
-        found.all = larger(found.all);
-        found.away = if is_away { larger(found.away) } else { found.away };
+        let pressure = node["p_over_p0"] - contact.pressure(x) / largest;
+        for (i, difference) in [pressure, (node["q_over_p0"] - shear / largest) / FRICTION].into_iter().enumerate() {
+            let difference = 100.0 * difference.abs();
+            found[i] = found[i].max(if is_away { difference } else { 0.0 });
+            found[2 + i] = found[2 + i].max(difference);
+        }
     }
     found
 }
 
 /// The table of the page, and the checks.
-pub fn compare() -> (String, Vec<Result<(), String>>) {
+pub fn compare(documents: &mut Documents) {
     let mut table = String::from(
         "| state | pressure | shear | pressure, all nodes | shear, all nodes |\n|---|---:|---:|---:|---:|\n",
     );
-    let mut results = Vec::new();
     for (unloaded, name) in [(false, "loaded to T = 0.5 μN"), (true, "unloaded to T = 0")] {
-        let Differences { away, all } = differences(unloaded);
-        writeln!(table, "| {name} | {:.2} | {:.2} | {:.1} | {:.1} |", away[0], away[1], all[0], all[1])
-            .expect("a string");
+        let found = differences(unloaded);
+        let [pressure, shear, all_pressures, all_shears] = found;
+        table += &format!("| {name} | {pressure:.2} | {shear:.2} | {all_pressures:.1} | {all_shears:.1} |\n");
         // Away from edges: what its authors' mesh leaves of the peak pressure, and slip by the penalty of its contact. At an edge a node
         // has the mean over its spacing h of a traction that falls like c (1 - x²/c²)^(1/2): about half of c (h/c)^(1/2) = 0.28.
-        let bounds = [(away[0], 0.3), (away[1], 0.6), (all[0], 14.0), (all[1], 14.0)];
-        let holds = bounds.iter().all(|(difference, bound)| difference <= bound);
-        results.push(if holds { Ok(()) } else { Err(format!("finite elements, {name}: {bounds:?}")) });
+        let holds = found.iter().zip([0.3, 0.6, 14.0, 14.0]).all(|(difference, bound)| *difference <= bound);
+        documents.check(holds, format!("finite elements, {name}: {found:?}"));
     }
-    (table, results)
+    documents.table(PAGE, "finite elements", &table);
 }

@@ -4,13 +4,14 @@
 //! The centre moves by m x'' = -T, m w'' = -N (w the approach); the surface at the contact by m u'' = -(7/2) T, with the rotation of
 //! a solid sphere. u(t) and w(t) go to the law, a step each: a load that rises and falls.
 
+use crate::PAGE;
+use crate::documents::Documents;
 use crate::golden::{Row, table};
+use crate::path::Path;
 use crate::table::Table;
 use microslip::element::{Directions, Element, NormalInput};
-use microslip::one_direction::{self as state, Law as _, OneDirection};
 use microslip::{EllipticParameters, Material};
 use std::f64::consts::PI;
-use std::fmt::Write;
 
 const STEPS: usize = 2000;
 /// Normal restitution of the measurements: the law has none, and the rebound angle depends on it.
@@ -38,6 +39,7 @@ enum Law {
     SpringSlider,
 }
 const LAWS: [Law; 3] = [Law::Microslip, Law::NoPartialSlip, Law::SpringSlider];
+const NAMES: [&str; 3] = ["law", "Hertz-Mindlin without partial slip", "spring-slider"];
 
 /// What an impact leaves.
 struct Rebound {
@@ -76,8 +78,7 @@ impl Impact {
 
     /// Leapfrog from the first touch to separation.
     fn rebound(&self, law: Law, normal: f64, tangential: f64) -> Rebound {
-        let mut memory = vec![0.0; state::state_length(2 * STEPS)];
-        OneDirection::state_init(&mut memory).expect("a state");
+        let mut path = Path::new(&self.element, 2 * STEPS);
         let largest = (normal * normal / self.of_velocity).powf(0.4);
         // A Hertzian impact takes 2.94 w/v.
         let dt = 3.0 * largest / normal / f64::from(STEPS as u32);
@@ -96,9 +97,7 @@ impl Impact {
             let limit = self.friction * load;
             let of_radius = |r: f64| (force + 8.0 * self.moduli[1] * r * du).clamp(-limit, limit);
             force = match law {
-                Law::Microslip => {
-                    OneDirection::step(&self.element, &mut memory, [u, w]).expect("a step of the element").force[0]
-                }
+                Law::Microslip => path.displace(u, w).force[0],
                 Law::NoPartialSlip => of_radius(contact),
                 Law::SpringSlider => of_radius((self.radius * largest).sqrt()),
             };
@@ -172,100 +171,63 @@ fn finite_elements() -> Vec<[f64; 5]> {
     table("fem_oblique_impact").iter().filter(|row| row.text("quantity") == "psi2").map(values).collect()
 }
 
-pub struct Comparison {
-    readings: Vec<Reading>,
-    elements: Vec<[f64; 5]>,
-}
-
-impl Comparison {
-    pub fn new() -> Self {
-        Self { readings: readings(), elements: finite_elements() }
+/// The checks of what the page says, its tables of measurements and finite elements, and the data of the figure: the laws over the angle,
+/// the readings, the finite elements.
+pub fn compare(documents: &mut Documents) {
+    let (readings, elements) = (readings(), finite_elements());
+    for Reading { quantity, source, degrees, measured, computed, partial } in &readings {
+        let allowed = if *quantity == "e_t" { 0.04 } else { 0.9 };
+        let difference = computed[0] - measured;
+        let message = format!("rebound: {quantity} at {degrees} ({source}) differs by {difference:.3}");
+        documents.check(difference.abs() < allowed, message);
+        let holds = *degrees >= 4.3 || (0.95..1.0).contains(partial);
+        documents.check(holds, format!("rebound: {degrees}: {partial} without gross slip"));
     }
-
-    /// What the page says.
-    pub fn results(&self) -> Vec<Result<(), String>> {
-        let holds = |holds: bool, message: String| if holds { Ok(()) } else { Err(format!("rebound: {message}")) };
-        let mut results: Vec<Result<(), String>> = self
-            .readings
-            .iter()
-            .map(|Reading { quantity, source, degrees, measured, computed, .. }| {
-                let allowed = if *quantity == "e_t" { 0.04 } else { 0.9 };
-                let difference = computed[0] - measured;
-                holds(
-                    difference.abs() < allowed,
-                    format!("{quantity} at {degrees} ({source}) differs by {difference:.3}"),
-                )
-            })
-            .collect();
-        for (quantity, law, range) in [
-            ("e_t", 0, 0.010..0.020),
-            ("e_t", 1, 0.15..0.18),
-            ("rebound_angle_deg", 0, 0.0..0.25),
-            ("rebound_angle_deg", 1, 0.6..1.0),
-        ] {
-            let rms = deviation(&self.readings, quantity, 7.0, law);
-            results.push(holds(range.contains(&rms), format!("{quantity} below 7 degrees: {rms:.4} rms")));
-        }
-        for Reading { degrees, partial, .. } in self.readings.iter().filter(|reading| reading.degrees < 4.3) {
-            results.push(holds((0.95..1.0).contains(partial), format!("{degrees}: {partial} without gross slip")));
-        }
-        for [before, after, law, no_partial_slip, _] in &self.elements {
-            let [own, other] = [law, no_partial_slip].map(|value| (value - after).abs());
-            results.push(holds(own < 0.35, format!("finite elements at {before}: {own}")));
-            results
-                .push(holds(*before > 3.0 || own < other, format!("finite elements at {before}: {own} and {other}")));
-        }
-        results
+    for (quantity, law, range) in [
+        ("e_t", 0, 0.010..0.020),
+        ("e_t", 1, 0.15..0.18),
+        ("rebound_angle_deg", 0, 0.0..0.25),
+        ("rebound_angle_deg", 1, 0.6..1.0),
+    ] {
+        let rms = deviation(&readings, quantity, 7.0, law);
+        documents.check(range.contains(&rms), format!("rebound: {quantity} below 7 degrees: {rms:.4} rms"));
     }
-
-    fn of(&self, quantity: &str, source: &str) -> impl Iterator<Item = &Reading> {
-        self.readings.iter().filter(move |reading| reading.quantity == quantity && reading.source == source)
+    for [before, after, law, no_partial_slip, _] in &elements {
+        let [own, other] = [law, no_partial_slip].map(|value| (value - after).abs());
+        let holds = own < 0.35 && (*before > 3.0 || own < other);
+        documents.check(holds, format!("rebound: finite elements at {before}: {own} and {other}"));
     }
-
-    /// Tables of the page: measurements, finite elements.
-    pub fn tables(&self) -> [String; 2] {
-        let head =
-            "| angle | measured | law | Hertz-Mindlin, no partial slip | spring-slider |\n|---:|---:|---:|---:|---:|\n";
-        let mut measured = head.to_owned();
-        for reading in self.of("e_t", "mfix") {
-            let [law, mindlin, slider] = reading.computed;
-            let (degrees, value) = (reading.degrees, reading.measured);
-            writeln!(measured, "| {degrees:.1}° | {value:.3} | {law:.3} | {mindlin:.3} | {slider:.3} |")
-                .expect("a string");
-        }
-        let mut elements = head.replace("| angle | measured", "| ψ₁ | ψ₂, finite elements");
-        for [before, after, law, mindlin, slider] in self.elements.iter().step_by(2) {
-            writeln!(elements, "| {before:.2} | {after:.2} | {law:.2} | {mindlin:.2} | {slider:.2} |")
-                .expect("a string");
-        }
-        [measured, elements]
+    let of = |source: &'static str| {
+        readings.iter().filter(move |reading| reading.quantity == "e_t" && reading.source == source)
+    };
+    let head =
+        "| angle | measured | law | Hertz-Mindlin, no partial slip | spring-slider |\n|---:|---:|---:|---:|---:|\n";
+    let mut text = head.to_owned();
+    for Reading { degrees, measured, computed: [law, mindlin, slider], .. } in of("mfix") {
+        text += &format!("| {degrees:.1}° | {measured:.3} | {law:.3} | {mindlin:.3} | {slider:.3} |\n");
     }
-
-    /// The data of the figure: the laws over the angle, the readings, the finite elements.
-    pub fn drawings(&self) -> Vec<Table> {
-        let angles: Vec<f64> = (1..=90).map(|i| 0.5 * f64::from(i)).collect();
-        let names = ["law", "Hertz-Mindlin without partial slip", "spring-slider"];
-        let mut curves = Table::new("rebound").column("angle", angles.clone());
-        for (law, name) in LAWS.into_iter().zip(names) {
-            let value = |degrees: &f64| {
-                let (impact, [normal, tangential]) = measured_impact(*degrees);
-                impact.rebound(law, normal, tangential).restitution
-            };
-            curves = curves.column(name, angles.iter().map(value).collect());
-        }
-        let mut tables = vec![curves];
-        for (name, source) in [("rebound_mfix", "mfix"), ("rebound_lethe", "lethe"), ("rebound_kratos", "kratos")] {
-            let column = |value: &dyn Fn(&Reading) -> f64| self.of("e_t", source).map(value).collect();
-            tables.push(
-                Table::new(name)
-                    .column("angle", column(&|reading| reading.degrees))
-                    .column("measured", column(&|reading| reading.measured)),
-            );
-        }
-        let column = |i: usize| self.elements.iter().map(|row| row[i]).collect();
-        let table =
-            Table::new("rebound_finite_elements").column("before", column(0)).column("finite elements", column(1));
-        tables.push(table.column(names[0], column(2)).column(names[1], column(3)).column(names[2], column(4)));
-        tables
+    documents.table(PAGE, "rebound", &text);
+    let mut text = head.replace("| angle | measured", "| ψ₁ | ψ₂, finite elements");
+    for [before, after, law, mindlin, slider] in elements.iter().step_by(2) {
+        text += &format!("| {before:.2} | {after:.2} | {law:.2} | {mindlin:.2} | {slider:.2} |\n");
     }
+    documents.table(PAGE, "rebound by finite elements", &text);
+    let angles: Vec<f64> = (1..=90).map(|i| 0.5 * f64::from(i)).collect();
+    let mut curves = Table::new("rebound").column("angle", angles.clone());
+    for (law, name) in LAWS.into_iter().zip(NAMES) {
+        let value = |degrees: &f64| {
+            let (impact, [normal, tangential]) = measured_impact(*degrees);
+            impact.rebound(law, normal, tangential).restitution
+        };
+        curves = curves.column(name, angles.iter().map(value).collect());
+    }
+    documents.data(&curves);
+    for (name, source) in [("rebound_mfix", "mfix"), ("rebound_lethe", "lethe"), ("rebound_kratos", "kratos")] {
+        let degrees = of(source).map(|reading| reading.degrees).collect();
+        let measured = of(source).map(|reading| reading.measured).collect();
+        documents.data(&Table::new(name).column("angle", degrees).column("measured", measured));
+    }
+    let names = ["before", "finite elements"].into_iter().chain(NAMES);
+    let column = |table: Table, (i, name)| table.column(name, elements.iter().map(|row: &[f64; 5]| row[i]).collect());
+    documents.data(&names.enumerate().fold(Table::new("rebound_finite_elements"), column));
 }

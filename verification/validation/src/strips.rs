@@ -1,11 +1,12 @@
 //! Strips of finite length: the centre point of the paper and `MSLIP_RIGID_STRIP` against boundary elements in three dimensions
 //! (`tests/golden/strip_3d.csv`), which agree with CONTACT to 0.14 % (`strip_3d_contact.csv`).
 
+use crate::PAGE;
+use crate::documents::Documents;
 use crate::golden::{Row, table};
 use microslip::parameters::{CENTRE_POINT, RIGID_STRIP};
 use microslip::{Contact, Material, Parameters};
 use std::f64::consts::PI;
-use std::fmt::Write;
 
 const POISSON_RATIO: f64 = 0.3;
 /// T/(mu N) in the names of the columns; the energies begin with the second one.
@@ -107,26 +108,25 @@ fn errors_by_contact() -> [Range; 2] {
 }
 
 /// The table, and the checks of what the documents state.
-pub fn compare() -> (String, Vec<Result<(), String>>) {
+pub fn compare(documents: &mut Documents) {
     let mut table = String::from(
         "| L/2b | displacement, centre point | displacement, rigid strip | onset of gross slip | energy |\n\
          |---:|---:|---:|---:|---:|\n",
     );
-    let mut results = Vec::new();
     for errors in errors() {
         let Errors { aspect_ratio, centre_point, rigid_strip, onset, energy } = errors;
         let range = |Range(low, high): Range, digits: usize| format!("{low:+.digits$} to {high:+.digits$}");
         let cells = [range(centre_point, 1), range(rigid_strip, 2), range(onset, 1), range(energy, 1)];
-        writeln!(table, "| {aspect_ratio} | {} |", cells.join(" | ")).expect("a string");
+        table += &format!("| {aspect_ratio} | {} |\n", cells.join(" | "));
         let slender = aspect_ratio >= 5.0;
         let holds = centre_point.within(7.0, 13.0)
             && rigid_strip.within(if slender { -0.5 } else { -1.8 }, 0.5)
             && (!slender || energy.within(-7.0, 7.0) && onset.within(-6.0, -3.5));
-        results.push(if holds { Ok(()) } else { Err(format!("strips of L/2b = {aspect_ratio}: {cells:?}")) });
+        documents.check(holds, format!("strips of L/2b = {aspect_ratio}: {cells:?}"));
     }
     for (range, bound) in errors_by_contact().into_iter().zip([1.54, 0.44]) {
         let holds = range.within(-bound, bound) && range.0 <= range.1;
-        results.push(if holds { Ok(()) } else { Err(format!("strips by CONTACT: {} to {} %", range.0, range.1)) });
+        documents.check(holds, format!("strips by CONTACT: {} to {} %", range.0, range.1));
     }
-    (table, results)
+    documents.table(PAGE, "strips", &table);
 }

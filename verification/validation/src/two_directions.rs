@@ -2,13 +2,16 @@
 //! line (`tests/golden/two_directions.csv`) and at squares of a sphere's contact (`two_directions_sphere.csv`), and against smaller
 //! steps.
 
+use crate::PAGE;
+use crate::documents::Documents;
 use crate::golden;
-use microslip::element::{Directions, Element, NormalInput};
-use microslip::law::{StepOf, StepResult};
+use crate::histories::line_or_sphere;
+use microslip::element::{Directions, Element};
+use microslip::law::StepResult;
 use microslip::two_directions::{Law, TwoDirections};
-use microslip::{EllipticParameters, Material, Parameters};
+use microslip::{Material, Parameters};
+use reference::two_directions::Point;
 use std::f64::consts::TAU;
-use std::fmt::Write;
 
 /// A path of the files.
 struct Path {
@@ -16,36 +19,9 @@ struct Path {
     name: &'static str,
     /// With the largest load of the path; a sphere has no length.
     parameters: Parameters,
-    rows: Vec<Row>,
-}
-
-struct Row {
-    /// u, v, N.
-    displacement: [f64; 3],
-    force: [f64; 2],
-    dissipated: f64,
-}
-
-/// Force and dissipated energy after a step.
-#[derive(Clone, Copy)]
-pub struct Point {
-    pub force: [f64; 2],
-    pub dissipated: f64,
-}
-
-impl From<StepOf<TwoDirections>> for Point {
-    fn from(StepResult { force: [x, y, _], dissipated, .. }: StepOf<TwoDirections>) -> Point {
-        Point { force: [x, y], dissipated }
-    }
-}
-
-/// The errors of a path.
-struct Errors {
-    path: Path,
-    /// Largest error of the force over the largest mu N, and error of the dissipated energy over its value.
-    of_law: [f64; 2],
-    /// The same for two elements at right angles, each moved in one direction.
-    of_two: [f64; 2],
+    /// u, v and N, and what the boundary elements find.
+    displacements: Vec<[f64; 3]>,
+    solved: Vec<Point>,
 }
 
 fn paths() -> Vec<Path> {
@@ -58,11 +34,12 @@ fn paths() -> Vec<Path> {
             (false, false) => "sphere",
         };
         let (displacement, load) = (["u", "v", "N"].map(|name| row[name]), row["N"]);
-        let solved = Row { displacement, force: [row["Tx"], row["Ty"]], dissipated: row["dissipated"] };
+        let solved = Point { force: [row["Tx"], row["Ty"]], dissipated: row["dissipated"] };
         match paths.last_mut() {
             Some(path) if (path.shape, path.name) == (shape, name) => {
                 path.parameters.normal_force = path.parameters.normal_force.max(load);
-                path.rows.push(solved);
+                path.displacements.push(displacement);
+                path.solved.push(solved);
             }
             _ => {
                 let body = Material { young_modulus: row["E"], poisson_ratio: row["nu"] };
@@ -72,7 +49,8 @@ fn paths() -> Vec<Path> {
                     material: [body; 2],
                     ..golden::geometry(&row)
                 };
-                paths.push(Path { shape, name, parameters, rows: vec![solved] });
+                let (displacements, solved) = (vec![displacement], vec![solved]);
+                paths.push(Path { shape, name, parameters, displacements, solved });
             }
         }
     }
@@ -88,26 +66,20 @@ pub fn drive(element: &Element, path: impl Iterator<Item = [f64; 3]>) -> Vec<Poi
     if let Some([u, v, _]) = path.peek() {
         to([*u, *v, 0.0]);
     }
-    path.map(|displacement| Point::from(to(displacement))).collect()
+    let point = |displacement| {
+        let StepResult { force: [x, y, _], dissipated, .. } = to(displacement);
+        Point { force: [x, y], dissipated }
+    };
+    path.map(point).collect()
 }
 
-fn element(parameters: &Parameters) -> Element {
-    let Parameters { length, edge_radius, normal_force, friction_coefficient, material, .. } = *parameters;
-    if length > 0.0 {
-        return Element::rounded_flat(parameters, Directions::Two, NormalInput::Force).expect("an element");
-    }
-    // Hertz: b³ = 3 N R/(4 E*), with E* of two equal bodies.
-    let modulus = 0.5 * material[0].young_modulus / (1.0 - material[0].poisson_ratio.powi(2));
-    let semi_axis = (0.75 * normal_force * edge_radius / modulus).cbrt();
-    let sphere = EllipticParameters {
-        semi_axis_x: semi_axis,
-        semi_axis_y: semi_axis,
-        normal_force,
-        friction_coefficient,
-        material,
-        ..EllipticParameters::default()
+/// The last forces of the given number of points, each with the energy of all.
+pub fn sums(points: &[Point], number: usize) -> Vec<Point> {
+    let sum = |points: &[Point]| Point {
+        force: points[points.len() - 1].force,
+        dissipated: points.iter().map(|point| point.dissipated).sum(),
     };
-    Element::elliptic(&sphere, Directions::Two, NormalInput::Force).expect("an element")
+    points.chunks(number).map(sum).collect()
 }
 
 /// Largest distance of the forces over a force; dissipated energy over that of the others, less 1.
@@ -117,11 +89,18 @@ pub fn difference(points: &[Point], others: &[Point], force: f64) -> [f64; 2] {
     [points.iter().zip(others).map(distance).fold(0.0, f64::max), energy(points) / energy(others) - 1.0]
 }
 
-fn compare(path: Path) -> Errors {
-    let element = element(&path.parameters);
+/// The larger errors of force and energy.
+pub fn worse(worst: &mut [f64; 2], [force, energy]: [f64; 2]) {
+    worst[0] = worst[0].max(force);
+    worst[1] = if energy.abs() > worst[1].abs() { energy } else { worst[1] };
+}
+
+/// Errors of the force over the largest mu N and of the dissipated energy over its value: of the law, and of two elements at right angles,
+/// each moved in one direction.
+fn errors(path: &Path) -> [[f64; 2]; 2] {
+    let element = line_or_sphere(&path.parameters, Directions::Two);
     let along = |factors: [f64; 2]| {
-        let rows = path.rows.iter().map(|row| row.displacement);
-        drive(&element, rows.map(move |[u, v, load]| [factors[0] * u, factors[1] * v, load]))
+        drive(&element, path.displacements.iter().map(move |[u, v, load]| [factors[0] * u, factors[1] * v, *load]))
     };
     let (law, across, lengthwise) = (along([1.0, 1.0]), along([1.0, 0.0]), along([0.0, 1.0]));
     let sum = |(x, y): (&Point, &Point)| Point {
@@ -129,30 +108,23 @@ fn compare(path: Path) -> Errors {
         dissipated: x.dissipated + y.dissipated,
     };
     let two: Vec<Point> = across.iter().zip(&lengthwise).map(sum).collect();
-    let solved: Vec<Point> =
-        path.rows.iter().map(|row| Point { force: row.force, dissipated: row.dissipated }).collect();
     let slip_force = path.parameters.friction_coefficient * path.parameters.normal_force;
-    let [of_law, of_two] = [&law, &two].map(|points| difference(points, &solved, slip_force));
-    Errors { of_law, of_two, path }
+    [&law, &two].map(|points| difference(points, &path.solved, slip_force))
 }
 
-impl Errors {
-    fn row(&self) -> String {
-        let shape = self.path.shape;
-        let name = match self.path.name {
-            "circle0.4_loadvaries" => "circle 0.4, N from 0.4 to 1".to_owned(),
-            "circle0.4_nearseparation" => "circle 0.4, N from 0.04 to 1".to_owned(),
-            "ellipse2to1" => "ellipse 2:1".to_owned(),
-            "eight" => "figure of eight".to_owned(),
-            "Lpath" => "L".to_owned(),
-            "walk" => "random, coarse steps".to_owned(),
-            "collinear45" => "line at 45°".to_owned(),
-            circle => circle.replace("circle", "circle "),
-        };
-        let errors = [self.of_law, self.of_two];
-        let cells = errors.map(|[force, energy]| format!(" {} | {} |", percent(force), signed(energy)));
-        format!("| {shape} | {name} |{}\n", cells.concat())
-    }
+/// A path in the table.
+fn title(name: &str) -> String {
+    let title = match name {
+        "circle0.4_loadvaries" => "circle 0.4, N from 0.4 to 1",
+        "circle0.4_nearseparation" => "circle 0.4, N from 0.04 to 1",
+        "ellipse2to1" => "ellipse 2:1",
+        "eight" => "figure of eight",
+        "Lpath" => "L",
+        "walk" => "random, coarse steps",
+        "collinear45" => "line at 45°",
+        circle => return circle.replace("circle", "circle "),
+    };
+    title.to_owned()
 }
 
 /// Two significant digits are enough for an error.
@@ -177,12 +149,7 @@ fn circle(element: &Element, load: f64, amplitude: f64, steps: u32) -> Vec<Point
         [radius * cos, radius * sin, load]
     });
     let points = drive(element, entry.chain(orbit));
-    let orbit = &points[points.len() - steps as usize..];
-    let sum = |points: &[Point]| Point {
-        force: points[points.len() - 1].force,
-        dissipated: points.iter().map(|point| point.dissipated).sum(),
-    };
-    orbit.chunks(steps as usize / INSTANTS).map(sum).collect()
+    sums(&points[points.len() - steps as usize..], steps as usize / INSTANTS)
 }
 
 /// Forces of orbits are compared at these instants.
@@ -192,68 +159,41 @@ const STEPS: [u32; 4] = [12, 24, 48, 96];
 /// Number of steps with a hundredth of the error of the finest row of the table.
 const CONVERGED: u32 = 960;
 
-/// Cylinder and flat of the file.
-fn shapes() -> Vec<Parameters> {
-    let line = |path: &Path| path.name == "circle0.3" && path.shape != "sphere";
-    paths().into_iter().filter(line).map(|path| path.parameters).collect()
-}
-
-/// The worst of both shapes for each amplitude: a cell for each.
-fn cells(errors: impl Fn(&Parameters, f64) -> [f64; 2]) -> String {
-    let mut cells = String::new();
-    for amplitude in AMPLITUDES {
-        let worst = shapes().iter().map(|shape| errors(shape, amplitude)).fold([0.0; 2], |worst, [force, energy]| {
-            [f64::max(worst[0], force), if energy.abs() > f64::abs(worst[1]) { energy } else { worst[1] }]
-        });
-        write!(cells, " {}, {} |", percent(worst[0]), signed(worst[1])).expect("a string");
-    }
-    cells + "\n"
-}
-
-/// Errors of steps per orbit.
-fn steps_row(steps: u32) -> String {
-    let errors = |shape: &Parameters, amplitude: f64| {
-        let element = element(shape);
-        let of = |steps: u32| circle(&element, element.normal_force, amplitude, steps);
-        difference(&of(steps), &of(CONVERGED), element.friction_coefficient * element.normal_force)
-    };
-    format!("| {steps} |") + &cells(errors)
-}
-
 /// Bounds on the errors of force and energy.
 const FORCE: f64 = 0.008;
 const ENERGY: f64 = 0.05;
 
-/// The comparison with the file.
-pub struct Comparison(Vec<Errors>);
-
-impl Comparison {
-    pub fn new() -> Comparison {
-        Comparison(paths().into_iter().map(compare).collect())
+/// The comparison with the file, and the errors of steps of a circle: the worst of cylinder and flat.
+pub fn compare(documents: &mut Documents) {
+    let mut table = String::from(
+        "| contact | path | force | energy | two elements: force | energy |\n\
+         |---|---|---:|---:|---:|---:|\n",
+    );
+    let paths = paths();
+    for path in &paths {
+        let (errors, shape) = (errors(path), path.shape);
+        let [[force, energy], [_, energy_of_two]] = errors;
+        // Otherwise the comparison could not distinguish the law from two elements.
+        let holds = force <= FORCE && energy.abs() <= ENERGY && energy_of_two.abs() > 2.0 * ENERGY;
+        documents.check(holds, format!("{shape}, {}: errors {force:.1e}, {energy:.1e}", path.name));
+        let cells = errors.map(|[force, energy]| format!(" {} | {} |", percent(force), signed(energy)));
+        table += &format!("| {shape} | {} |{}\n", title(path.name), cells.concat());
     }
-
-    /// The checks, a message for each that fails.
-    pub fn results(&self) -> Vec<Result<(), String>> {
-        let check = |errors: &Errors| {
-            let Errors { path, of_law: [force, energy], of_two: [_, energy_of_two], .. } = errors;
-            // Otherwise the comparison could not distinguish the law from two elements.
-            let holds = *force <= FORCE && energy.abs() <= ENERGY && energy_of_two.abs() > 2.0 * ENERGY;
-            let Path { shape, name, .. } = path;
-            if holds { Ok(()) } else { Err(format!("{shape}, {name}: errors {force:.1e}, {energy:.1e}")) }
-        };
-        self.0.iter().map(check).collect()
+    documents.table(PAGE, "paths in two directions", &table);
+    let amplitudes = AMPLITUDES.map(|amplitude| format!(" circle {amplitude} |")).concat();
+    let mut table = format!("| steps |{amplitudes}\n|---:|{}\n", "---:|".repeat(AMPLITUDES.len()));
+    for steps in STEPS {
+        table += &format!("| {steps} |");
+        for amplitude in AMPLITUDES {
+            let mut worst = [0.0; 2];
+            for path in paths.iter().filter(|path| path.name == "circle0.3" && path.shape != "sphere") {
+                let element = line_or_sphere(&path.parameters, Directions::Two);
+                let [of, exact] = [steps, CONVERGED].map(|n| circle(&element, element.normal_force, amplitude, n));
+                worse(&mut worst, difference(&of, &exact, element.friction_coefficient * element.normal_force));
+            }
+            table += &format!(" {}, {} |", percent(worst[0]), signed(worst[1]));
+        }
+        table.push('\n');
     }
-
-    /// The tables of `docs/validation.md`, with the names of their markers.
-    pub fn tables(&self) -> [(&'static str, String); 2] {
-        let mut paths = String::from(
-            "| contact | path | force | energy | two elements: force | energy |\n\
-             |---|---|---:|---:|---:|---:|\n",
-        );
-        self.0.iter().for_each(|errors| paths += &errors.row());
-        let amplitudes = AMPLITUDES.map(|amplitude| format!(" circle {amplitude} |")).concat();
-        let head = format!("| steps |{amplitudes}\n|---:|{}\n", "---:|".repeat(AMPLITUDES.len()));
-        let steps = head + &STEPS.map(steps_row).concat();
-        [("paths in two directions", paths), ("steps in two directions", steps)]
-    }
+    documents.table(PAGE, "steps in two directions", &table);
 }
