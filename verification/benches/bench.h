@@ -33,7 +33,7 @@ typedef struct aft aft;
 aft *aft_of(int directions, double normal_stiffness, int harmonics, int samples, const sliders *s);
 
 /* Coefficients [mean, cos 1, sin 1, ...] of each displacement (u, v, w) and force; jacobian of as many rows and columns,
-   column-major, or NULL. */
+   column-major. */
 void sliders_harmonic(aft *a, const double *displacement, double *force, double *jacobian);
 
 /* Does the work once; the result depends on all of it, so that none is optimised away. */
@@ -43,8 +43,7 @@ typedef double work(void *context);
 typedef struct entry {
     const char *task, *method;
     double shape, amplitude;          /* a/b, and displacement over that of gross slip */
-    int harmonics, samples, jacobian;
-    double parameter;                 /* sliders; 0: none */
+    int harmonics, samples;
     double error;                     /* of the first harmonic, relative, against far more samples; or -1 */
     double time;                      /* median over the rounds of one item [ns] */
     work *run;

@@ -2,7 +2,6 @@
 #include "bench.h"
 
 #include <math.h>
-#include <string.h>
 
 /* Coefficients; samples of parallel sliders; nodes of a converged quadrature. */
 enum { MOST = 38, COMPARED = 128, CONVERGED = 4096 };
@@ -12,20 +11,19 @@ typedef struct {
     const mslip_element *element; /* instead of the contact */
     aft *aft;                     /* sliders, instead of both */
     double *workspace;
-    int harmonics, blocks, jacobian_requested;
+    int harmonics, blocks;
     double displacement[MOST], force[MOST], jacobian[MOST * MOST];
 } job;
 
 static double run(void *context)
 {
     job *j = context;
-    double *jacobian = j->jacobian_requested ? j->jacobian : NULL;
     if (j->aft) {
-        sliders_harmonic(j->aft, j->displacement, j->force, jacobian);
+        sliders_harmonic(j->aft, j->displacement, j->force, j->jacobian);
     } else if (j->element) {
-        mslip_element_harmonic_force(j->element, j->workspace, j->displacement, j->force, jacobian, NULL, NULL);
+        mslip_element_harmonic_force(j->element, j->workspace, j->displacement, j->force, j->jacobian, NULL, NULL);
     } else {
-        mslip_harmonic_force(j->contact, j->workspace, j->displacement, j->force, jacobian, NULL);
+        mslip_harmonic_force(j->contact, j->workspace, j->displacement, j->force, j->jacobian, NULL);
     }
     return j->force[1] + j->jacobian[1];
 }
@@ -56,13 +54,11 @@ static double *workspace_of(const job *j, int samples, int32_t rule)
     return workspace;
 }
 
-static void add(const entry *call, const char *method, double parameter, const job *j, const double *exact)
+static void add(const entry *call, const char *method, const job *j, const double *exact)
 {
     entry e = *call;
     e.method = method;
-    e.parameter = parameter;
     e.harmonics = j->harmonics;
-    e.jacobian = j->jacobian_requested;
     e.run = run;
     e.items = 1;
     entry *added = entry_add(e, j, sizeof *j);
@@ -104,21 +100,19 @@ void set_up_harmonic(const test_case *t, const extent *x, int k)
     exact.workspace = workspace_of(&exact, CONVERGED, MSLIP_EVENT_DRIVEN);
     run(&exact);
     entry call = { .task = "harmonic", .amplitude = amplitude };
-    for (call.samples = x->least_samples; call.samples <= x->most_samples; call.samples *= 2) {
-        const int n = call.samples;
-        job j = { .contact = &t->contact, .harmonics = harmonics, .blocks = 1 };
-        memcpy(j.displacement, exact.displacement, sizeof j.displacement);
-        for (; n > 2 * harmonics && j.jacobian_requested <= 1; ++j.jacobian_requested) {
-            j.aft = NULL;
-            j.workspace = workspace_of(&j, n, MSLIP_EVENT_DRIVEN);
-            add(&call, "microslip event-driven", 0.0, &j, exact.force);
-            j.workspace = workspace_of(&j, n, MSLIP_UNIFORM_SAMPLING);
-            add(&call, "microslip", 0.0, &j, exact.force);
-            for (int b = 0; b == 0 || (n == COMPARED && b < BANKS && (int)t->bank[b].n <= x->most_sliders); ++b) {
-                const sliders *bank = b ? &t->bank[b] : &jenkins;
-                j.aft = aft_of(1, 0.0, harmonics, n, bank);
-                add(&call, b ? "sliders" : "spring-slider", b ? (double)bank->n : 0.0, &j, exact.force);
-            }
+    for (int n = x->least_samples; n <= x->most_samples; n *= 2) {
+        if (n <= 2 * harmonics) {
+            continue;
+        }
+        call.samples = n;
+        job j = exact;
+        j.workspace = workspace_of(&j, n, MSLIP_EVENT_DRIVEN);
+        add(&call, "microslip event-driven", &j, exact.force);
+        j.workspace = workspace_of(&j, n, MSLIP_UNIFORM_SAMPLING);
+        add(&call, "microslip", &j, exact.force);
+        for (int b = 0; b == 0 || (n == COMPARED && b < BANKS && (int)t->bank[b].n <= x->most_sliders); ++b) {
+            j.aft = aft_of(1, 0.0, harmonics, n, b ? &t->bank[b] : &jenkins);
+            add(&call, b ? "sliders" : "spring-slider", &j, exact.force);
         }
     }
 }
@@ -140,9 +134,9 @@ static void add_elements(entry call, job j, const sliders *slider)
     exact.workspace = workspace_of(&j, 16 * call.samples, MSLIP_UNIFORM_SAMPLING);
     run(&exact);
     j.workspace = workspace_of(&j, call.samples, MSLIP_UNIFORM_SAMPLING);
-    add(&call, "microslip", 0.0, &j, exact.force);
+    add(&call, "microslip", &j, exact.force);
     j.aft = aft_of(j.blocks - 1, normal_stiffness, j.harmonics, call.samples, slider);
-    add(&call, "spring-slider", 0.0, &j, exact.force);
+    add(&call, "spring-slider", &j, exact.force);
 }
 
 /* Microslip in one direction under a load that varies, with a phase. */
@@ -153,7 +147,7 @@ void set_up_element(const test_case *t, const extent *x, int k)
     const double u = 0.2 * t->contact.slip_displacement, w = element->approach, swing = 0.35 * w;
     for (int harmonics = 1; harmonics <= 9; harmonics += 4) {
         const entry call = { .task = "element", .amplitude = 0.2, .samples = harmonics < 5 ? 64 : harmonics < 9 ? 128 : 256 };
-        job j = { .element = element, .harmonics = harmonics, .blocks = 2, .jacobian_requested = 1 };
+        job j = { .element = element, .harmonics = harmonics, .blocks = 2 };
         double *tangential = j.displacement, *normal = tangential + 2 * harmonics + 1;
         tangential[0] = 0.03 * u;
         tangential[1] = u;
@@ -182,7 +176,7 @@ void set_up_plane(const test_case *t, const extent *x, int k)
     require(mslip_jenkins_equivalent(&t->contact, amplitude, &stiffness, &friction));
     friction /= t->parameters.normal_force;
     const sliders one = sliders_of(1, &stiffness, &friction);
-    job j = { .element = element, .harmonics = 1 + 4 * k, .blocks = 3, .jacobian_requested = 1 };
+    job j = { .element = element, .harmonics = 1 + 4 * k, .blocks = 3 };
     const int c = 2 * j.harmonics + 1;
     j.displacement[1] = amplitude;
     j.displacement[c + 2] = amplitude;

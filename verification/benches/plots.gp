@@ -18,9 +18,9 @@ set mxtics 1
 set key at screen 0.53, screen 0.11 center top maxrows 2 Left reverse samplen 2 font ',12.5'
 
 # Error, and median time in ns, of one method; errors of 0 are drawn at 1e-17.
-rows(task, shape, harmonics, jacobian, method) = sprintf( \
-  "< awk -F, -v OFS=, '$1 == \"%s\" && $2 == %g && $3 == 0.95 && $4 == %d && $6 == %d && $7 == \"%s\" { \
-  print ($9 > 1e-17 ? $9 : 1e-17), $10 }' %s", task, shape, harmonics, jacobian, method, from)
+rows(harmonics, method) = sprintf( \
+  "< awk -F, -v OFS=, '$1 == \"harmonic\" && $2 == 0.9 && $3 == 0.95 && $4 == %d && $6 == \"%s\" { \
+  print ($7 > 1e-17 ? $7 : 1e-17), $8 }' %s", harmonics, method, from)
 
 set terminal svg size 1280, 540 dynamic background rgb 'white' font 'Helvetica,14'
 set output sprintf('| python3 ../../tools/svg.py > %s/harmonic.svg', to)
@@ -30,7 +30,7 @@ set yrange [100:1e8]
 set multiplot layout 1, 3 margins 0.07, 0.985, 0.24, 0.925 spacing 0.065, 0
 do for [panel = 1:3] {
   h = 4*panel - 3
-  of(method) = rows('harmonic', 0.9, h, 1, method)
+  of(method) = rows(h, method)
   set title sprintf('%d harmonic%s', h, h == 1 ? '' : 's')
   plot of('microslip')              with linespoints ls 1 title panel == 1 ? 'microslip, 16 to 1024 samples' : '', \
        of('microslip event-driven') with linespoints ls 2 title panel == 1 ? 'microslip, event-driven' : '', \

@@ -18,7 +18,7 @@ static void put(sample *s, double value)
 /* The same call, whatever the contact and the amplitude. */
 static int same_kind(const entry *a, const entry *b)
 {
-    return !strcmp(a->task, b->task) && a->harmonics == b->harmonics && a->samples == b->samples && a->jacobian == b->jacobian;
+    return !strcmp(a->task, b->task) && a->harmonics == b->harmonics && a->samples == b->samples;
 }
 
 /* Times of one kind of call over shapes and amplitudes, and the largest errors. */
@@ -62,7 +62,7 @@ static void row(FILE *file, const char *title, const char *task)
 /* Harmonic force and Jacobian: medians of the times, and the largest errors. */
 static void newton_row(FILE *file, const char *contact, const char *task, int harmonics, int samples)
 {
-    const entry kind = { .task = task, .harmonics = harmonics, .samples = samples, .jacobian = 1 };
+    const entry kind = { .task = task, .harmonics = harmonics, .samples = samples };
     summary s = *summary_of(&kind);
     if (s.own.n) {
         fprintf(file, "| %s, H = %d, %d samples | %s | %.0e | %s | %.0e | %.3g |\n", contact, harmonics, samples, cell(&s.own),
@@ -114,13 +114,9 @@ void write_tables(FILE *file)
 
 void write_entries(FILE *file)
 {
-    fputs("task,shape,amplitude,harmonics,samples,jacobian,method,parameter,error,median_ns\n", file);
+    fputs("task,shape,amplitude,harmonics,samples,method,error,median_ns\n", file);
     for (const entry *e = entries; e < entries + entry_count; ++e) {
-        fprintf(file, "%s,%g,%g,%d,%d,%d,%s", e->task, e->shape, e->amplitude, e->harmonics, e->samples, e->jacobian, e->method);
-        const double numbers[] = { e->parameter, e->error, e->time };
-        for (size_t k = 0; k < sizeof numbers / sizeof *numbers; ++k) {
-            fprintf(file, numbers[k] >= 0.0 ? ",%.4g" : ",", numbers[k]);
-        }
-        fputc('\n', file);
+        fprintf(file, "%s,%g,%g,%d,%d,%s,%.4g,%.4g\n", e->task, e->shape, e->amplitude, e->harmonics, e->samples, e->method, e->error,
+                e->time);
     }
 }

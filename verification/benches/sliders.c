@@ -160,10 +160,8 @@ static inline __attribute__((always_inline)) void harmonic(aft *a, const double 
     const double *row_before = zeros;
     memset(a->force[0], 0, a->sliders.padded * sizeof(double));
     memset(a->force[1], 0, a->sliders.padded * sizeof(double));
-    if (jacobian) {
-        memset(a->derivative, 0, sliders * sizeof *a->derivative);
-        memset(a->product, 0, (size_t)(blocks * columns * stride) * sizeof(double));
-    }
+    memset(a->derivative, 0, sliders * sizeof *a->derivative);
+    memset(a->product, 0, (size_t)(blocks * columns * stride) * sizeof(double));
     for (int i = 0; i < 2 * n; ++i) {
         const double *row = a->rows + (i < n ? i : i - n) * stride;
         double now[3] = { 0.0 }, motion[2], total[3], tangent;
@@ -185,14 +183,12 @@ static inline __attribute__((always_inline)) void harmonic(aft *a, const double 
         } else {
             total[0] = sliders_step(&a->sliders, load, a->force[0], motion[0]);
         }
-        if (jacobian) {
-            for (int j = 0; j < stride; ++j) {
-                change[j] = row[j] - row_before[j];
-                load_change[j] = load > 0.0 ? a->normal_stiffness * row[j] : 0.0;
-            }
-            for (size_t s = 0; s < sliders; ++s) {
-                differentiate(a, s, load, change, load_change, directions, varies, stride);
-            }
+        for (int j = 0; j < stride; ++j) {
+            change[j] = row[j] - row_before[j];
+            load_change[j] = load > 0.0 ? a->normal_stiffness * row[j] : 0.0;
+        }
+        for (size_t s = 0; s < sliders; ++s) {
+            differentiate(a, s, load, change, load_change, directions, varies, stride);
         }
         row_before = row;
         if (i < n) {
@@ -203,7 +199,7 @@ static inline __attribute__((always_inline)) void harmonic(aft *a, const double 
                 sums[b][k] += row[k] * total[b];
             }
         }
-        for (int b = 0; b < directions && jacobian; ++b) {
+        for (int b = 0; b < directions; ++b) {
             for (int j = 0; j < columns && sliders > 1; ++j) {
                 sum[b][j] = 0.0;
             }
@@ -214,14 +210,14 @@ static inline __attribute__((always_inline)) void harmonic(aft *a, const double 
             }
             add_product(products[b], row, sliders > 1 ? sum[b] : a->derivative[0][b], columns, stride);
         }
-        if (jacobian && varies && load > 0.0) {
+        if (varies && load > 0.0) {
             add_product(products[directions] + directions * stride * stride, row, load_change, stride, stride);
         }
     }
     for (int r = 0; r < blocks * c; ++r) {
         const double weight = (r % c ? 2.0 : 1.0) / n;
         force[r] = weight * sums[r / c][r % c];
-        for (int j = 0; jacobian && j < blocks * c; ++j) {
+        for (int j = 0; j < blocks * c; ++j) {
             jacobian[r + j * blocks * c] = weight * products[r / c][(j / c * stride + j % c) * stride + r % c];
         }
     }
