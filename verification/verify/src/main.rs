@@ -14,7 +14,6 @@ mod harmonic;
 mod histories;
 mod history;
 mod layer;
-mod mindlin;
 mod replay;
 mod report;
 mod sampler;
@@ -44,7 +43,7 @@ enum Measurement {
 use Measurement::{Contact, Element};
 
 /// Names, measurements, about how many points each counts as, and how many are one job.
-const MEASUREMENTS: [(&str, Measurement, f64, usize); 17] = [
+const MEASUREMENTS: [(&str, Measurement, f64, usize); 16] = [
     ("curve::fields", Contact(curve::fields), 1.0, 4000),
     ("curve::at_forces", Contact(curve::at_forces), 50.0, 200),
     ("curve::at_displacements", Contact(curve::at_displacements), 50.0, 200),
@@ -60,7 +59,6 @@ const MEASUREMENTS: [(&str, Measurement, f64, usize); 17] = [
     ("element::along_a_path", Element(element::along_a_path), 32.0, 80),
     ("steps::of_contact", Contact(steps::of_contact), 20.0, 50),
     ("steps::of_element", Element(steps::of_element), 40.0, 50),
-    ("mindlin::compare", Element(mindlin::compare), f64::INFINITY, 1),
     ("two_directions::histories", Element(two_directions::histories), 200.0, 10),
 ];
 

@@ -1,11 +1,11 @@
 //! A sphere under oblique forces: the incremental formulas of Mindlin and Deresiewicz (J. Appl. Mech. 20, 1953, 327-344), integrated
 //! along forces that change together, T faster than mu N.
 
-use crate::call::quiet;
-use crate::sampler::{ElementCase, Sampler};
-use microslip::element::{Directions, Element, NormalInput};
-use microslip::one_direction::{self as state, Law, OneDirection};
-use microslip::{EllipticParameters, Material};
+use crate::documents::Documents;
+use crate::histories::line_or_sphere;
+use crate::path::Path;
+use microslip::element::Directions;
+use microslip::{Material, Parameters};
 
 const YOUNG_MODULUS: f64 = 7e10;
 const POISSON_RATIO: f64 = 0.33;
@@ -54,23 +54,18 @@ impl Branch {
     }
 }
 
-/// The same sphere for every case.
-pub fn compare(_: &ElementCase, _: &mut Sampler, _: &mut crate::Tally) {
-    let radius = contact_radius(LARGEST);
-    let parameters = EllipticParameters {
-        semi_axis_x: radius,
-        semi_axis_y: radius,
+pub fn compare(documents: &mut Documents) {
+    // Equal spheres are as a sphere of half the radius on a plane.
+    let parameters = Parameters {
+        edge_radius: 0.5 * RADIUS,
         normal_force: LARGEST,
         friction_coefficient: FRICTION,
         material: [Material { young_modulus: YOUNG_MODULUS, poisson_ratio: POISSON_RATIO }; 2],
-        ..EllipticParameters::default()
+        ..Parameters::default()
     };
-    let element = Element::elliptic(&parameters, Directions::One, NormalInput::Force).expect("an element");
-    let mut memory = vec![0.0; state::state_length(64)];
-    OneDirection::state_init(&mut memory).expect("long enough");
-    let mut step =
-        |to: [f64; 2]| quiet("advance", || OneDirection::step(&element, &mut memory, to)).expect("a step").force[0];
-    step([0.0, 40.0]);
+    let element = line_or_sphere(&parameters, Directions::One);
+    let mut path = Path::new(&element, 64);
+    path.displace(0.0, 40.0);
     // T rises, falls and rises while N rises, falls, rises, falls and rises.
     let corners: [[f64; 2]; 6] = [[40.0, 0.0], [46.0, 9.0], [41.0, 2.0], [44.0, -3.0], [38.0, 4.0], [39.0, 6.0]];
     let (mut displacement, mut reversal, mut direction) = (0.0, None, 1.0);
@@ -88,11 +83,11 @@ pub fn compare(_: &ElementCase, _: &mut Sampler, _: &mut crate::Tally) {
             let t = f64::from(i) * h;
             displacement += h / 6.0 * (branch.rate(t) + 4.0 * branch.rate(t + 0.5 * h) + branch.rate(t + h));
             let [load, force] = branch.at(t + h);
-            worst = worst.max((step([displacement, load]) - force).abs() / (FRICTION * load));
+            worst = worst.max((path.displace(displacement, load).force[0] - force).abs() / (FRICTION * load));
         }
         reversal = reversal.map(|reversal| moved(reversal, sign, to[0] - from[0]));
     }
-    assert!(worst < 1e-10, "the forces differ by {worst:e} of mu N");
+    documents.check(worst < 1e-10, format!("Mindlin and Deresiewicz: the forces differ by {worst:e} of mu N"));
 }
 
 /// T* after a change of the load: dT* = ±mu dN.
