@@ -47,8 +47,9 @@ done
 
 for plot in plots/*.gp ../validation/plots/*.gp; do
     case $plot in */style.gp | */complex_stiffness.gp) continue ;; esac
-    "${1:-gnuplot}" "$plot" > "$work/picture"
-    python3 "$root/tools/svg.py" < "$work/picture" > "$root/docs/figures/$(basename "$plot" .gp).svg"
+    name=$(basename "$plot" .gp)
+    "${1:-gnuplot}" -e "name = '$name'" plots/style.gp "$plot" > "$work/picture"
+    python3 "$root/tools/svg.py" < "$work/picture" > "$root/docs/figures/$name.svg"
 done
 
 # A rig of 5e-9 m/N in series; noise of 0.03 N and 0.3 nm (Lehmer's generator; Box and Muller); amplitudes of 0.7 and 2 slip

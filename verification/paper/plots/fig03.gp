@@ -1,6 +1,5 @@
 # Fig. 3: pressure for several a/b.
-load 'plots/style.gp'
-name = 'fig03'; wide = 720; high = 480
+wide = 720; high = 480
 set xlabel place
 set ylabel 'pressure  b p / P'
 set xrange [-1.05:1.05]

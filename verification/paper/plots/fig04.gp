@@ -1,6 +1,5 @@
 # Fig. 4: shear traction for several forces.
-load 'plots/style.gp'
-name = 'fig04'; wide = 720; high = 480
+wide = 720; high = 480
 set xlabel place
 set ylabel 'shear traction  b q / μP'
 set xrange [-1.05:1.05]

@@ -1,6 +1,5 @@
 # Fig. 7: loops of growing amplitude, (a) up to incipient gross slip and (b) beyond.
-load 'plots/style.gp'
-name = 'fig07'; wide = 1000; high = 520
+wide = 1000; high = 520
 set xlabel displacement
 set yrange [-1.15:1.15]
 set key bmargin center maxrows 2

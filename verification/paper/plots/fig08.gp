@@ -1,6 +1,5 @@
 # Fig. 8: loops of two shapes with equal amplitudes, in microslip and in gross slip.
-load 'plots/style.gp'
-name = 'fig08'; wide = 720; high = 520
+wide = 720; high = 520
 set xlabel displacement
 set ylabel force
 set xrange [-5.6:5.6]

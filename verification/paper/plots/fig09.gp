@@ -1,6 +1,5 @@
 # Fig. 9: loops up to incipient gross slip for several L/b.
-load 'plots/style.gp'
-name = 'fig09'; wide = 720; high = 520
+wide = 720; high = 520
 set xlabel displacement
 set ylabel force
 set xrange [-6:6]

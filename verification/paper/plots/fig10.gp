@@ -1,6 +1,5 @@
 # Fig. 10: stiffness over the normal load for several a/R, and with Eq. 1 as it is printed.
-load 'plots/style.gp'
-name = 'fig10'; wide = 720; high = 520
+wide = 720; high = 520
 set xlabel 'normal load  P / (E^* R)'
 set ylabel 'tangential stiffness  K / (E^* L)'
 set xrange [0:0.01]

@@ -1,6 +1,5 @@
 # Fig. 11: initial loading of cylinder and elliptical contact.
-load 'plots/style.gp'
-name = 'fig11'; wide = 720; high = 480
+wide = 720; high = 480
 set xlabel displacement
 set ylabel force
 set xrange [0:5.6]

@@ -1,4 +1,3 @@
 # Fig. 13: complex stiffness for several a/b.
-load 'plots/style.gp'
-name = 'fig13'; last = 6; label = 'L/b = 10'
+last = 6; label = 'L/b = 10'
 load 'plots/complex_stiffness.gp'

@@ -1,6 +1,5 @@
 # Fig. 15: energy of a cycle over the force, linear (a) and logarithmic (b).
-load 'plots/style.gp'
-name = 'fig15'; wide = 1000; high = 500
+wide = 1000; high = 500
 set xlabel force
 
 @set_terminal

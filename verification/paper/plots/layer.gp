@@ -1,5 +1,4 @@
 # The example contact with layers of 0, 0.3, 1 and 3 times its compliance, constant (solid) or rough with N_c = N/20 (broken).
-load 'plots/style.gp'
 wide = 1100; high = 400
 shares = '0 0.3 1 3'
 data(name, i, load) = file(sprintf('%s_%s_%s', name, word(shares, i), load))

@@ -1,6 +1,5 @@
 # Tractions under an oscillating force: at a reversal and after it, up to the opposite force.
-load 'plots/style.gp'
-name = 'oscillating'; wide = 860; high = 520
+wide = 860; high = 520
 set xlabel place
 set ylabel 'shear traction  b q / μP'
 set xrange [-1.05:1.05]

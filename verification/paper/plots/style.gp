@@ -1,4 +1,5 @@
-# Shared by all pictures. Colours are safe for colour-blind readers (Okabe and Ito), and lines also differ in dash and width.
+# Loaded before each picture, whose name is `name`. Colours are safe for colour-blind readers (Okabe and Ito), and lines also differ in
+# dash and width.
 # Titles are the names of the columns.
 set datafile separator ','
 set datafile columnheaders

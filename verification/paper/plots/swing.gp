@@ -1,6 +1,5 @@
 # Energy of a cycle under a swinging normal force over that under the constant one: cylinder, and a flat for comparison.
-load 'plots/style.gp'
-name = 'swing'; wide = 1000; high = 460
+wide = 1000; high = 460
 set xlabel 'phase φ of the normal force  [°]'
 set xrange [0:180]
 set xtics 45

@@ -1,5 +1,4 @@
 # Why: the damper of `microslip example` and spring-sliders. Loop and loss factor, and the response of two blades at a damper load of 800 N.
-load 'plots/style.gp'
 wide = 1200; high = 420
 load '../../target/figures/why.gp' # slip_force, slip_displacement, initial_stiffness, and tuned_... at gross slip
 set samples 600

@@ -31,54 +31,42 @@ pub struct Case {
     pub length: f64,
     /// N \[N\].
     pub normal_force: f64,
-    pub friction: f64,
 }
 
 /// E* of two like bodies (Eq. 2).
-fn composite_modulus(material: Material) -> f64 {
-    material.young_modulus / (2.0 * (1.0 - material.poisson_ratio.powi(2)))
+fn composite_modulus() -> f64 {
+    STEEL.young_modulus / (2.0 * (1.0 - POISSON.powi(2)))
 }
 
 impl Case {
     /// A flat with rounded edges, or a cylinder, by a/b and L/b.
     pub fn flat(flat_over_width: f64, length_over_width: f64) -> Case {
-        Case::scaled(flat_over_width, length_over_width, EDGE_RADIUS, STEEL, FRICTION)
-    }
-
-    /// The same with other dimensions, which has the same results in the paper's units.
-    pub fn scaled(
-        flat_over_width: f64,
-        length_over_width: f64,
-        edge_radius: f64,
-        material: Material,
-        friction: f64,
-    ) -> Case {
         let (flat, length) = (flat_over_width * HALF_WIDTH, length_over_width * HALF_WIDTH);
         let w = ((HALF_WIDTH - flat) * (HALF_WIDTH + flat)).sqrt();
-        let line_load = composite_modulus(material) * load_of_size(flat, w) / (4.0 * edge_radius);
-        Case::loaded(flat, edge_radius, length, line_load * length, material, friction)
+        let line_load = composite_modulus() * load_of_size(flat, w) / (4.0 * EDGE_RADIUS);
+        Case::loaded(flat, EDGE_RADIUS, length, line_load * length)
     }
 
     /// A flat by a/R, L/R and P/(E* R). `widened` is 1, or 2 for Eq. 1 as printed, which is that of twice the radius.
     pub fn under_load(flat_over_radius: f64, length_over_radius: f64, load: f64, widened: f64) -> Case {
         let (flat, length) = (flat_over_radius * EDGE_RADIUS, length_over_radius * EDGE_RADIUS);
-        let normal_force = load * composite_modulus(STEEL) * EDGE_RADIUS * length;
-        Case::loaded(flat, widened * EDGE_RADIUS, length, normal_force, STEEL, FRICTION)
+        let normal_force = load * composite_modulus() * EDGE_RADIUS * length;
+        Case::loaded(flat, widened * EDGE_RADIUS, length, normal_force)
     }
 
-    fn loaded(flat: f64, edge_radius: f64, length: f64, normal_force: f64, material: Material, friction: f64) -> Case {
+    fn loaded(flat: f64, edge_radius: f64, length: f64, normal_force: f64) -> Case {
         let parameters = Parameters {
             flat_half_width: flat,
             edge_radius,
             length,
             normal_force,
-            friction_coefficient: friction,
-            material: [material; 2],
+            friction_coefficient: FRICTION,
+            material: [STEEL; 2],
             displacement_reference: microslip::parameters::CENTRE_POINT,
             ..Parameters::default()
         };
         let contact = Contact::rounded_flat(&parameters).expect("a contact of the paper");
-        Case { contact, input: Input::Flat(parameters), flat, edge_radius, length, normal_force, friction }
+        Case { contact, input: Input::Flat(parameters), flat, edge_radius, length, normal_force }
     }
 
     /// The elliptical contact of section 3.3 corresponding to the cylinder of this L/b: semi-axes b and L/2, the same normal force.
@@ -103,15 +91,11 @@ impl Case {
         let contact = Contact::elliptic(&parameters).expect("an ellipse of the paper");
         let length = 2.0 * semi_axis_y;
         let input = Input::Ellipse(parameters);
-        Case { contact, input, flat: 0.0, edge_radius: f64::NAN, length, normal_force, friction: FRICTION }
+        Case { contact, input, flat: 0.0, edge_radius: f64::NAN, length, normal_force }
     }
 
     /// The same contact under a normal force that varies.
-    pub fn element(&self, input: NormalInput) -> Element {
-        self.element_of(Directions::One, input)
-    }
-
-    pub fn element_of(&self, directions: Directions, input: NormalInput) -> Element {
+    pub fn element(&self, directions: Directions, input: NormalInput) -> Element {
         match &self.input {
             Input::Flat(parameters) => Element::rounded_flat(parameters, directions, input),
             Input::Ellipse(parameters) => Element::elliptic(parameters, directions, input),
@@ -188,7 +172,7 @@ impl Case {
 
     /// b q/(μP) at x/b and Q/μP.
     pub fn shear(&self, x: f64, force: f64) -> f64 {
-        self.traction(x, |x| self.at_force(force).shear(x)) / self.friction
+        self.traction(x, |x| self.at_force(force).shear(x)) / FRICTION
     }
 
     /// Slip at x/b and Q/μP, in the unit of the displacement.
@@ -214,7 +198,7 @@ impl Case {
             masing::shear_tractions(&self.contact, state, &[x], &mut shear).expect("a traction");
             shear[0]
         };
-        self.traction(x, &mut at) / self.friction
+        self.traction(x, &mut at) / FRICTION
     }
 
     /// The contact in multi-precision.

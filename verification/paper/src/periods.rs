@@ -30,7 +30,7 @@ type Matrix = SMatrix<f64, UNKNOWNS, UNKNOWNS>;
 
 /// The rows of the table: worst errors of amplitude and energy over the largest ones of their response, and the largest drift.
 pub fn table() -> String {
-    let element = Case::sphere().element_of(Directions::Two, NormalInput::Force);
+    let element = Case::sphere().element(Directions::Two, NormalInput::Force);
     let mut worst = [[0.0_f64; 3]; PERIODS.len() - 1];
     for load in LOADS {
         let responses = FREQUENCIES.map(|frequency| {

@@ -1,7 +1,7 @@
 //! The error of the harmonic force of an element against the number of samples.
 
 use crate::cases::Case;
-use microslip::element::{Element, NormalInput};
+use microslip::element::{Directions, Element, NormalInput};
 use microslip::one_direction::harmonic_force::{
     HarmonicOutput, OneDirectionWorkspace, harmonic_force, workspace_init, workspace_length,
 };
@@ -31,21 +31,15 @@ const MOTIONS: [Motion; 4] = [
 
 /// The rows of the table: worst error of the coefficients of T over that of its first order, and of the energy over its value.
 pub fn table() -> String {
-    let element = Case::flat(0.0, 20.0).element(NormalInput::Approach);
-    let mut text = String::from("| motion | H |");
-    SAMPLES.iter().for_each(|samples| text += &format!(" T, {samples} | energy, {samples} |"));
-    text += "\n|---|---:|";
-    SAMPLES.iter().for_each(|_| text += "---:|---:|");
-    text.push('\n');
-    for motion in &MOTIONS {
-        for harmonics in [1, 5] {
-            text += &format!("| {} | {harmonics} |", motion.name);
-            for samples in SAMPLES {
-                let [force, energy] = worst_errors(&element, motion, harmonics, samples);
-                text += &format!(" {force:.0e} | {energy:.0e} |");
-            }
-            text.push('\n');
-        }
+    let element = Case::flat(0.0, 20.0).element(Directions::One, NormalInput::Approach);
+    let heads = SAMPLES.map(|samples| format!(" T, {samples} | energy, {samples} |")).concat();
+    let mut text = format!("| motion | H |{heads}\n|---|---:|{}\n", "---:|---:|".repeat(SAMPLES.len()));
+    for (motion, harmonics) in MOTIONS.iter().flat_map(|motion| [1, 5].map(|harmonics| (motion, harmonics))) {
+        let cells = SAMPLES.map(|samples| {
+            let [force, energy] = worst_errors(&element, motion, harmonics, samples);
+            format!(" {force:.0e} | {energy:.0e} |")
+        });
+        text += &format!("| {} | {harmonics} |{}\n", motion.name, cells.concat());
     }
     text
 }
@@ -60,19 +54,18 @@ pub fn roundings() -> String {
     let mut text =
         format!("| contact | load | {}\n|---|---|{}\n", cells.concat().trim_end(), "---:|".repeat(AMPLITUDES.len()));
     for (name, flat) in [("cylinder", 0.0), ("flat, a/b = 0.9", 0.9)] {
-        let element = Case::flat(flat, 20.0).element(NormalInput::Approach);
+        let element = Case::flat(flat, 20.0).element(Directions::One, NormalInput::Approach);
         for (load, swing) in [("constant", 0.0), ("varies by 40 %", 0.28)] {
-            text += &format!("| {name} | {load} |");
-            for displacement in AMPLITUDES {
+            let cells = AMPLITUDES.map(|displacement| {
                 let motion = Motion { name, displacement, mean: 0.7, swing, phase: 0.25 };
                 let energies = (0..SAMPLES[0]).map(|shift| {
                     let coefficients = motion.coefficients(&element, 1, shift as f64 / SAMPLES[0] as f64);
                     evaluate(&element, &coefficients, 1, SAMPLES[0]).1
                 });
                 let (least, largest) = energies.fold((f64::MAX, 0.0_f64), |(a, b), e| (a.min(e), b.max(e)));
-                text += &format!(" {:.0e} |", 10f64.powf((1.0 - least / largest).log10().ceil()));
-            }
-            text.push('\n');
+                format!(" {:.0e} |", 10f64.powf((1.0 - least / largest).log10().ceil()))
+            });
+            text += &format!("| {name} | {load} |{}\n", cells.concat());
         }
     }
     text

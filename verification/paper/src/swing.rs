@@ -4,7 +4,7 @@ use crate::cases::Case;
 use crate::drawings::even;
 use crate::path::Path;
 use crate::table::Table;
-use microslip::element::{Element, NormalInput};
+use microslip::element::{Directions, Element, NormalInput};
 use std::f64::consts::TAU;
 
 const STEPS_OF_CYCLE: usize = 180;
@@ -24,7 +24,7 @@ enum Motion {
 pub fn tables() -> [Table; 4] {
     let phases = even(0.0, 180.0, PHASES);
     let table = |name, case: Case, motion, amplitudes: [f64; 4]| {
-        let element = case.element(NormalInput::Force);
+        let element = case.element(Directions::One, NormalInput::Force);
         let constant = energy(&case, &element, motion, 0.0, 0.0, STEPS_OF_CYCLE);
         amplitudes.iter().fold(Table::new(name).column("phase", phases.clone()), |table, &amplitude| {
             let ratio = |phase: &f64| energy(&case, &element, motion, amplitude, *phase, STEPS_OF_CYCLE) / constant;
@@ -56,7 +56,7 @@ fn energy(case: &Case, element: &Element, motion: Motion, swing: f64, phase: f64
         let (along, load) = (along(first + i), normal_force(first + i));
         let step = match motion {
             Motion::Force(part) => {
-                let distance = 8.0 * case.friction * element.shift_under(load);
+                let distance = 8.0 * element.friction_coefficient * element.shift_under(load);
                 path.pull([0.0, 1.0], part * along * case.contact.slip_force, load, distance)
             }
             Motion::Displacement(part) => path.displace(part * along * case.contact.slip_displacement, load),

@@ -1,5 +1,4 @@
 # The worst error in each region of verification/accuracy.csv over its condition number, and the errors that are promised.
-load 'plots/style.gp'
 wide = 1000; high = 470
 
 @set_terminal

@@ -1,5 +1,4 @@
 # Oblique impacts; without partial slip is Hertz' and Mindlin's tangent: measured tangential restitution of a sphere, and finite elements of the surface velocity, against three laws.
-load 'plots/style.gp'
 wide = 920; high = 440
 
 @set_terminal
