@@ -1,5 +1,5 @@
 #!/bin/sh
-# fuzz.sh [--check | --seeds | --cargo ARGUMENT...]: coverage-guided fuzzing of the library (libFuzzer, AddressSanitizer) on stable
+# fuzz.sh [--check | --seeds]: coverage-guided fuzzing of the library (libFuzzer, AddressSanitizer) on stable
 # Rust: calls of the C interface with invalid arguments and corrupted memory.
 #
 # TIME seconds (60), JOBS processes (1), MICROSLIP_SEED (new each time). New inputs are kept in
@@ -7,7 +7,6 @@
 #
 # --check runs the committed seeds and a search of RUNS inputs from them, and keeps nothing.
 # --seeds replaces the seeds by the smallest set of kept inputs with the same coverage.
-# --cargo runs cargo for the library as it is fuzzed: other tests with AddressSanitizer share its compilation.
 set -eu
 
 cd "$(dirname "$0")/.."
@@ -21,18 +20,10 @@ esac
 # The instrumentation of cargo-fuzz, without that of comparisons. --target keeps the flags from build scripts. AddressSanitizer is part
 # of stable Rust, its option is not yet stable.
 host=$(rustc -vV | sed -n 's/^host: //p')
-instrumented() {
-    RUSTC_BOOTSTRAP=1 RUSTFLAGS='-Zsanitizer=address -Cunsafe-allow-abi-mismatch=sanitizer -Cpasses=sancov-module
-        -Cllvm-args=-sanitizer-coverage-level=4 -Cllvm-args=-sanitizer-coverage-inline-8bit-counters
-        -Cllvm-args=-sanitizer-coverage-pc-table -Cllvm-args=-simplifycfg-branch-fold-threshold=0' \
-        $CARGO "$@" --quiet --profile fuzz --locked --target "$host"
-}
-if [ "${1:-}" = --cargo ]; then
-    shift
-    instrumented "$@"
-    exit
-fi
-instrumented build --package microslip-fuzz
+RUSTC_BOOTSTRAP=1 RUSTFLAGS='-Zsanitizer=address -Cunsafe-allow-abi-mismatch=sanitizer -Cpasses=sancov-module
+    -Cllvm-args=-sanitizer-coverage-level=4 -Cllvm-args=-sanitizer-coverage-inline-8bit-counters
+    -Cllvm-args=-sanitizer-coverage-pc-table -Cllvm-args=-simplifycfg-branch-fold-threshold=0' \
+    $CARGO build --package microslip-fuzz --quiet --profile fuzz --locked --target "$host"
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -3,7 +3,6 @@
 #
 #   compilers   standards of C and C++, with warnings as errors
 #   links       static, position independent, LTO, each linker, shared objects, together with another Rust archive
-#   sanitizers  AddressSanitizer in application and library
 #   valgrind    the installed archive: accesses outside of arrays, uninitialised values
 #   threads     the same results with 1 to 8 threads; races by ThreadSanitizer
 # shellcheck disable=SC2086  # flags are lists
@@ -18,7 +17,6 @@ cd "$(dirname "$0")/../.."
 here=verification/embedding
 archive=$prefix/lib/libmicroslip.a
 triple=$(rustc -vV | sed -n 's/^host: //p')
-cargo_archive=target/$triple/release/libmicroslip.a
 # What Rust's own library needs in archives other than the installed one.
 system='-lpthread -ldl -lm'
 
@@ -59,16 +57,6 @@ compilers() {
 }
 
 # --- links ---
-
-# Two shared objects with a copy of the library each, in one process.
-two_shared_objects() {
-    for object in one two; do
-        $CC -O1 -ffp-contract=off -shared -fPIC -Wl,--fatal-warnings -Wl,-z,text,-z,defs $calls "$archive" -lm \
-            -o "$work/$object.so" || return 1
-    done
-    build shared_objects $CC -rdynamic $here/shared_objects.c -ldl && cat "$work/hash" "$work/hash" > "$work/twice" &&
-        "$work/shared_objects" "$work/one.so" "$work/two.so" > "$work/other" && cmp "$work/twice" "$work/other"
-}
 
 # A shared object with a copy of the library exports the library's functions, unless it is linked with --exclude-libs.
 exclude_libs() {
@@ -119,29 +107,12 @@ links() {
         check "link: $CC $flags" same_application $CC $flags $objects "$archive" -lm -Wl,--fatal-warnings
     done
     check 'link: clang -flto -static' same_application clang -flto -fuse-ld=lld -static $application "$archive" -lm
-    check 'two shared objects' two_shared_objects
     check 'a shared library of the whole archive' shared_library
     check 'a shared object that hides the functions by --exclude-libs' exclude_libs
     check 'before and after another Rust archive' other_rust_archive
 }
 
-# --- sanitizers, valgrind, threads ---
-
-# instrument TARGET-DIRECTORY PROFILE COMMAND...: builds the archive for a sanitizer, as $instrumented.
-instrument() {
-    instrumented=$1/$triple/$2/libmicroslip.a
-    shift 2
-    "$@" build --package microslip
-}
-
-sanitizers() {
-    check 'an archive for AddressSanitizer' instrument target fuzz tools/fuzz.sh --cargo
-    flags='-g -O1 -ffp-contract=off -fsanitize=address,undefined -fno-sanitize-recover=all'
-    # The mathematical functions of Rust's archives differ in the last digits.
-    check "the application with cargo's archive" first_application $cargo_archive $system
-    check 'AddressSanitizer: all calls' same_application clang $flags $application $instrumented $system
-    first_application "$archive" -lm
-}
+# --- valgrind, threads ---
 
 valgrind_checks() {
     memcheck="$VALGRIND --quiet --error-exitcode=9"
@@ -153,8 +124,8 @@ threads() {
     check '1 to 8 threads' build threads $CC $optimised $calls $here/threads.c "$archive" -lm -lpthread
     check '1 to 8 threads give the same results' "$work/threads"
     # The option is not yet stable, and the compiled parts of Rust's library are not instrumented.
-    check 'an archive for ThreadSanitizer' instrument target/thread debug env RUSTC_BOOTSTRAP=1 CARGO_TARGET_DIR=target/thread \
-        CARGO_BUILD_TARGET="$triple" RUSTFLAGS='-Zsanitizer=thread -Cunsafe-allow-abi-mismatch=sanitizer' $CARGO --quiet --locked
+    check 'an archive for ThreadSanitizer' env RUSTC_BOOTSTRAP=1 CARGO_TARGET_DIR=target/thread CARGO_BUILD_TARGET="$triple" \
+        RUSTFLAGS='-Zsanitizer=thread -Cunsafe-allow-abi-mismatch=sanitizer' $CARGO build --quiet --locked --package microslip
     check 'ThreadSanitizer: threads' build_for_threads threads $here/threads.c
     check 'ThreadSanitizer: no race' "$work/threads"
 }
@@ -165,15 +136,15 @@ build_for_threads() {
     for source in $here/calls.c "$2"; do
         clang $optimised -fsanitize=thread $include -c "$source" -o "$work/tsan_$(basename "$source").o" || return 1
     done
-    build "$1" clang -rdynamic "$work/tsan_calls.c.o" "$work/tsan_$(basename "$2").o" $instrumented \
+    build "$1" clang -rdynamic "$work/tsan_calls.c.o" "$work/tsan_$(basename "$2").o" target/thread/$triple/debug/libmicroslip.a \
         -Wl,--whole-archive "$runtime" -Wl,--no-whole-archive $system -lrt
 }
 
 check 'an application in C99' first_application "$archive" -lm
-[ $# -gt 0 ] || set -- compilers links sanitizers valgrind threads
+[ $# -gt 0 ] || set -- compilers links valgrind threads
 for group; do
     case $group in
-        compilers | links | sanitizers | threads) "$group" ;;
+        compilers | links | threads) "$group" ;;
         valgrind) valgrind_checks ;;
         *) echo "$0: no group $group" >&2; exit 2 ;;
     esac
