@@ -8,7 +8,7 @@ use crate::tally::{At, Tally};
 use microslip::one_direction::tractions::tractions;
 use microslip::one_direction::{self as state, Law, OneDirection};
 use reference::element::{Element as Exact, Kind, State, Step};
-use reference::family::{Given, Size};
+use reference::family::{Family, Given, Size};
 use reference::{Input, Real};
 
 /// Rounding errors of neighbouring inputs, in ε.
@@ -118,6 +118,12 @@ pub fn steps(case: &ElementCase, path: &[[f64; 2]], range: &'static str, tally: 
     (library, exact, farthest)
 }
 
+/// κ of the logarithms of both compliances.
+fn soft(family: &Family, size: &Size) -> f64 {
+    let [normal, tangential] = family.log_compliances(size);
+    1.0 / normal.min(tangential)
+}
+
 /// A step of a history, for comparisons.
 struct Check<'a> {
     case: &'a ElementCase,
@@ -148,9 +154,8 @@ impl Check<'_> {
     /// κ of the force: displacements and the logarithm of the compliance are rounded.
     fn condition(&self, size: &Size) -> f64 {
         let family = &self.case.reference.family;
-        let [normal, tangential] = family.log_compliances(size);
         let displacements = self.farthest / (&family.friction * &size.load * &size.tangential_compliance);
-        displacements.f64() + 1.0 / normal.min(tangential)
+        displacements.f64() + soft(family, size)
     }
 
     fn forces(
@@ -217,9 +222,8 @@ impl Check<'_> {
         };
         let zone = &family.friction * (&size.load - &step.stick_load);
         let rounding = zone * self.reach(&size.shift);
-        let [normal, tangential] = family.log_compliances(size);
         let scale = &step.dissipated + &rounding;
-        let condition = 3.0 / normal.min(tangential);
+        let condition = 3.0 * soft(family, size);
         let around = || self.around(size, |step| step.dissipated.clone());
         at.check_between("element_dissipated", got, &step.dissipated, &scale, condition, around);
     }
@@ -247,8 +251,7 @@ fn tractions_at(
         let spot = reference.real(x).abs();
         let [exact_pressure, exact_shear] = reference.tractions(exact, &spot);
         let gap = |edge: &Real| (edge / (&spot - edge)).abs().f64();
-        let [normal, tangential] = family.log_compliances(size);
-        let soft = 1.0 / normal.min(tangential);
+        let soft = soft(family, size);
         let at_edge = gap(&size.half_width) * (1.0 + soft);
         let corners = || [-UNITS, UNITS].map(|units| family.pressure(size, &(&spot * moved(1.0, units)))).into();
         at.check_between("element_pressure", pressure, &exact_pressure, &exact_pressure, at_edge, corners);

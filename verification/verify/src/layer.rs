@@ -16,42 +16,32 @@ const EXTRA: i32 = 400;
 /// A contact with a layer; the reference is that of the contact alone.
 pub struct Layered<'a> {
     case: &'a Case,
-    pub layer: Layer,
     pub contact: mslip_contact,
-    input: Input,
+    pub input: Input,
     law: Rc<Law>,
-    friction: Real,
-    load: Real,
-    /// c_t, and N_c unless it is infinite.
-    compliance: Real,
-    stiffening: Option<Real>,
 }
 
-/// The same input with a layer; the normal force and the friction coefficient.
-fn with_layer(input: &Input, layer: Layer) -> (Input, f64, f64) {
+fn with_layer(input: &Input, layer: Layer) -> Input {
     match *input {
-        Input::Flat(p) => (Input::Flat(Parameters { layer, ..p }), p.normal_force, p.friction_coefficient),
-        Input::Ellipse(p) => {
-            (Input::Ellipse(EllipticParameters { layer, ..p }), p.normal_force, p.friction_coefficient)
-        }
+        Input::Flat(p) => Input::Flat(Parameters { layer, ..p }),
+        Input::Ellipse(p) => Input::Ellipse(EllipticParameters { layer, ..p }),
     }
 }
 
 /// The input with a random layer, for a contact of the given stiffness.
 pub fn random_input(input: &Input, stiffness: f64, sampler: &mut Sampler) -> Input {
-    let (_, normal_force, _) = with_layer(input, Layer::none());
+    let (Input::Flat(Parameters { normal_force, .. }) | Input::Ellipse(EllipticParameters { normal_force, .. })) =
+        input;
     let tangential_compliance = sampler.power(-3.0, 3.0) / stiffness;
     let stiffening_load = if sampler.chance(0.3) { f64::INFINITY } else { normal_force * sampler.power(-3.0, 2.0) };
-    let layer = Layer { normal_compliance: 0.0, tangential_compliance, stiffening_load, reference_load: 0.0 };
-    with_layer(input, layer).0
+    with_layer(input, Layer { normal_compliance: 0.0, tangential_compliance, stiffening_load, reference_load: 0.0 })
 }
 
 /// A contact with a random layer that the library accepts.
 pub fn random<'a>(case: &'a Case, sampler: &mut Sampler) -> Layered<'a> {
     loop {
-        let (Input::Flat(Parameters { layer, .. }) | Input::Ellipse(EllipticParameters { layer, .. })) =
-            random_input(&case.reference.input, case.contact.initial_stiffness, sampler);
-        if let Some(layered) = Layered::new(case, layer) {
+        let input = random_input(&case.reference.input, case.contact.initial_stiffness, sampler);
+        if let Some(layered) = Layered::new(case, input) {
             return layered;
         }
     }
@@ -71,15 +61,9 @@ struct Both {
 }
 
 impl<'a> Layered<'a> {
-    /// With a layer, if the library accepts it.
-    fn new(case: &'a Case, layer: Layer) -> Option<Layered<'a>> {
-        let (input, normal_force, friction) = with_layer(&case.reference.input, layer);
-        let contact = call::prepare(&input)?;
-        let law = case.reference.law(EXTRA);
-        let [friction, load, compliance] =
-            [friction, normal_force, layer.tangential_compliance].map(|value| law.real(value));
-        let stiffening = layer.stiffening_load.is_finite().then(|| law.real(layer.stiffening_load));
-        Some(Layered { case, layer, contact, input, law, friction, load, compliance, stiffening })
+    /// With the layer of an input, if the library accepts it.
+    fn new(case: &'a Case, input: Input) -> Option<Layered<'a>> {
+        Some(Layered { case, contact: call::prepare(&input)?, input, law: case.reference.law(EXTRA) })
     }
 
     /// Takes the bits for a force or a displacement at this share of gross slip.
@@ -89,26 +73,27 @@ impl<'a> Layered<'a> {
 
     /// The point with the share τ of mu N.
     fn at(&self, point: Point) -> Both {
-        let Layered { law, friction, load, compliance, .. } = self;
+        let (Input::Flat(Parameters { layer, normal_force, .. })
+        | Input::Ellipse(EllipticParameters { layer, normal_force, .. })) = &self.input;
+        let law = &self.law;
+        let [load, compliance, stiffening] =
+            [*normal_force, layer.tangential_compliance, layer.stiffening_load].map(|value| law.real(value));
         let force = &law.slip_force * &point.tau;
         let zero = law.real(0.0);
         // Displacement, remaining one, compliance, its derivative by the force, energy.
-        let [displacement, remaining, slope, curvature, energy] = match &self.stiffening {
-            None => {
-                let left = &law.slip_force - &force;
-                [compliance * &force, compliance * left, compliance.clone(), zero.clone(), zero]
-            }
-            Some(stiffening) => {
-                let both = load + stiffening;
-                let scale = friction * compliance * &both;
-                let y = load * &point.tau / &both;
-                let logarithm = (1.0 - &y).ln();
-                let left = (1.0 + load * &point.one_minus_tau / stiffening).ln();
-                let slope = compliance / (1.0 - &y);
-                let curvature = &slope / ((1.0 - &y) * &both * friction);
-                let energy = 4.0 * friction * &scale * &both * loss(&y, &logarithm);
-                [-(&scale * logarithm), scale * left, slope, curvature, energy]
-            }
+        let [displacement, remaining, slope, curvature, energy] = if layer.stiffening_load.is_infinite() {
+            let left = &law.slip_force - &force;
+            [&compliance * &force, &compliance * left, compliance, zero.clone(), zero]
+        } else {
+            let both = &load + &stiffening;
+            let scale = &law.friction * &compliance * &both;
+            let y = &load * &point.tau / &both;
+            let logarithm = (1.0 - &y).ln();
+            let left = (1.0 + load * &point.one_minus_tau / stiffening).ln();
+            let slope = compliance / (1.0 - &y);
+            let curvature = &slope / ((1.0 - &y) * &both * &law.friction);
+            let energy = 4.0 * &law.friction * &scale * &both * loss(&y, &logarithm);
+            [-(&scale * logarithm), scale * left, slope, curvature, energy]
         };
         Both {
             displacement: &law.displacement_unit * &point.x + &displacement,
@@ -239,7 +224,8 @@ pub fn curve(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
 
 /// The same at one force "T" or displacement "u".
 pub fn at(case: &Case, layer: Layer, given: (&str, f64), range: &'static str, tally: &mut Tally) {
-    let mut layered = Layered::new(case, layer).expect("a layer that the library accepts");
+    let mut layered =
+        Layered::new(case, with_layer(&case.reference.input, layer)).expect("a layer that the library accepts");
     match given {
         ("T", force) => layered.at_force(force, range, tally),
         (_, displacement) => layered.at_given_displacement(displacement, range, tally),

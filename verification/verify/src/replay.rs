@@ -1,5 +1,6 @@
 //! The worst inputs that were found, which a table of regions keeps: each is compared with the reference again.
 
+use crate::bounds::cells;
 use crate::sampler::{Case, ElementCase, KINDS};
 use crate::tally::Tally;
 use crate::{call, curve, element, harmonic, history, layer, stiffness, tractions};
@@ -17,12 +18,10 @@ struct Row<'a> {
 }
 
 fn row(line: &'static str) -> Row<'static> {
-    let (output, rest) = line.split_once(",\"").expect("a region");
-    let (kind, rest) = rest.split_once("\",\"").expect("a range");
-    let (range, rest) = rest.split_once("\",").expect("numbers");
-    let (_, inputs) = rest.split_once(",\"").expect("inputs");
+    let [output, kind, range, .., inputs] = cells(line)[..] else { panic!("{line}: not a region") };
+    let [kind, range, inputs] = [kind, range, inputs].map(|cell| cell.trim_matches('"'));
     let kind = KINDS.into_iter().find(|known| *known == kind).unwrap_or_else(|| panic!("no contacts of kind {kind}"));
-    Row { output, kind, range, inputs: inputs.trim_end_matches('"') }
+    Row { output, kind, range, inputs }
 }
 
 /// All numbers of a text.
