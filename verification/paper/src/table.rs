@@ -1,15 +1,10 @@
 //! Tables of numbers as CSV files; the names of the columns are the legend of the figure.
 
-use std::fmt::Write;
-
 /// Columns of equal length.
 pub struct Table {
     pub name: &'static str,
     columns: Vec<(String, Vec<f64>)>,
 }
-
-/// Significant digits of a number; the last is below the resolution of any picture.
-const DIGITS: usize = 6;
 
 impl Table {
     pub fn new(name: &'static str) -> Table {
@@ -32,12 +27,13 @@ impl Table {
         self.column(format!("x of {name}"), x).column(name, y)
     }
 
+    /// The last of six digits is below the resolution of any picture.
     pub fn csv(&self) -> String {
         let names: Vec<&str> = self.columns.iter().map(|(name, _)| name.as_str()).collect();
         let mut text = names.join(",") + "\n";
         for row in 0..self.columns.first().map_or(0, |(_, values)| values.len()) {
-            let cells: Vec<String> = self.columns.iter().map(|(_, values)| number(values[row])).collect();
-            writeln!(text, "{}", cells.join(",")).expect("a string");
+            let cells = self.columns.iter().map(|(_, values)| format!("{:.5e}", values[row]));
+            text += &(cells.collect::<Vec<_>>().join(",") + "\n");
         }
         text
     }
@@ -48,11 +44,4 @@ fn rounded(mut values: Vec<f64>) -> Vec<f64> {
     let small = 1e-12 * values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs()));
     values.iter_mut().filter(|value| value.abs() < small).for_each(|value| *value = 0.0);
     values
-}
-
-/// A number of at most six digits without trailing zeros.
-fn number(value: f64) -> String {
-    let text = format!("{value:.*e}", DIGITS - 1);
-    let value: f64 = text.parse().expect("a number");
-    if value != 0.0 && value.abs() < 1e-4 { format!("{value:e}") } else { format!("{}", value + 0.0) }
 }

@@ -67,7 +67,7 @@ impl Family {
 
     fn flat(p: &Parameters) -> Family {
         let bits = BITS;
-        let modulus = 1.0 / (compliance_of(bits, &p.material[0]) + compliance_of(bits, &p.material[1]));
+        let modulus = 1.0 / compliance_of(bits, &p.material);
         let load_scale = Real::new(bits, p.length) * &modulus / p.edge_radius / 4.0;
         let load = p.normal_force / &load_scale;
         let a = Real::new(bits, p.flat_half_width);

@@ -53,12 +53,12 @@ impl Reference {
     /// with steps of 2⁻¹⁰⁰: central, with the relative error of their square; from above if a is about 0, where the second derivative is finite.
     pub fn differences(&self, displacement: f64) -> [Real; 6] {
         let first = self.law(0);
-        let share = Real::new(first.bits, displacement.abs()) / &first.displacement_unit / &first.x_slip;
+        let share = first.x(displacement.abs()) / &first.x_slip;
         let bits = self.law(bits_for(&share) + bits_for(&(1.0 - &share)) + 420).bits;
         let step = (-100.0 * Real::new(bits, 2.0).ln()).exp();
         let force = |change: &Change| {
             let law = Law::changed(&self.input, bits, change);
-            let x = Real::new(bits, displacement.abs()) / &law.displacement_unit;
+            let x = law.x(displacement.abs());
             let point = law.at_x(&x);
             if point.slips() || matches!(law.shape, Shape::Ellipse) {
                 return &law.slip_force * point.tau;
@@ -72,14 +72,11 @@ impl Reference {
             matches!(&self.input, Input::Flat(p) if (&step * &first.half_width).f64() < 1e-3 * p.flat_half_width);
         core::array::from_fn(|parameter| {
             let at = |step: &Real| {
-                let mut change = Change::none(bits);
-                match [0, 1, 5, 2, 3, 4][parameter] {
-                    5 => change.added_flat = step * &first.half_width,
-                    factor => change.factors[factor] = 1.0 + step,
-                }
+                let mut change = unchanged(bits);
+                change[parameter] = if parameter == ADDED { step * &first.half_width } else { 1.0 + step };
                 force(&change)
             };
-            if parameter == 2 && !has_flat {
+            if parameter == ADDED && !has_flat {
                 (at(&step) - at(&Real::new(bits, 0.0))) / &step
             } else {
                 (at(&step) - at(&-&step)) / &step / 2.0
@@ -120,7 +117,7 @@ impl Reference {
     /// The point of a force \[N\], and the law with bits to spare.
     pub fn at_force_with(&self, force: f64, extra: i32) -> (Rc<Law>, Point) {
         let first = self.law(0);
-        let tau = Real::new(first.bits, force.abs()) / &first.slip_force;
+        let tau = first.real(force.abs()) / &first.slip_force;
         let law = self.law(bits_for(&tau) + bits_for(&(1.0 - &tau)) / 2 + extra);
         let point = law.at_force(force);
         (law, point)
@@ -133,9 +130,9 @@ impl Reference {
     /// The point of a displacement \[m\].
     pub fn at_displacement(&self, displacement: f64) -> (Rc<Law>, Point) {
         let first = self.law(0);
-        let share = Real::new(first.bits, displacement.abs()) / &first.displacement_unit / &first.x_slip;
+        let share = first.x(displacement.abs()) / &first.x_slip;
         let law = self.law(bits_for(&share) + bits_for(&(1.0 - &share)) / 2);
-        let point = law.at_x(&(Real::new(law.bits, displacement.abs()) / &law.displacement_unit));
+        let point = law.at_x(&law.x(displacement.abs()));
         (law, point)
     }
 }
@@ -214,38 +211,39 @@ impl Point {
     }
 }
 
-pub(crate) fn compliance_of(bits: u32, body: &Material) -> Real {
-    let nu = Real::new(bits, body.poisson_ratio);
-    (1.0 - nu.square()) / body.young_modulus
+/// (1 - ν²)/E of each body.
+fn compliances(bits: u32, material: &[Material; 2]) -> [Real; 2] {
+    material.each_ref().map(|body| (1.0 - Real::new(bits, body.poisson_ratio).square()) / body.young_modulus)
+}
+
+/// 1/E*.
+pub(crate) fn compliance_of(bits: u32, material: &[Material; 2]) -> Real {
+    let [one, two] = compliances(bits, material);
+    one + two
 }
 
 /// Mean over both bodies, weighted by their compliances.
 pub(crate) fn mean(bits: u32, material: &[Material; 2], function: impl Fn(&Real) -> Real) -> Real {
-    let [one, two] = material.each_ref().map(|body| compliance_of(bits, body));
+    let [one, two] = compliances(bits, material);
     let [f, g] = material.each_ref().map(|body| function(&Real::new(bits, body.poisson_ratio)));
     (&one * f + &two * g) / (one + two)
 }
 
-/// Changes of the parameters: factors of N, mu, R, L and E*, and a length added to a.
-#[derive(Debug, Clone)]
-pub struct Change {
-    pub factors: [Real; 5],
-    pub added_flat: Real,
-}
+/// Changes of the parameters N, mu, a, R, L and E*: factors, but of a, to which a length is added.
+type Change = [Real; 6];
+const ADDED: usize = 2;
 
-impl Change {
-    pub fn none(bits: u32) -> Change {
-        Change { factors: [(); 5].map(|()| Real::new(bits, 1.0)), added_flat: Real::new(bits, 0.0) }
-    }
+fn unchanged(bits: u32) -> Change {
+    [1.0, 1.0, 0.0, 1.0, 1.0, 1.0].map(|value| Real::new(bits, value))
 }
 
 impl Law {
     pub fn new(input: &Input, bits: u32) -> Law {
-        Law::changed(input, bits, &Change::none(bits))
+        Law::changed(input, bits, &unchanged(bits))
     }
 
     /// The law of changed parameters. The bodies of an ellipse keep their shapes, but for a common factor R of their radii.
-    pub fn changed(input: &Input, bits: u32, change: &Change) -> Law {
+    fn changed(input: &Input, bits: u32, change: &Change) -> Law {
         match input {
             Input::Flat(p) => Law::flat(p, bits, change),
             Input::Ellipse(p) => Law::ellipse(p, bits, change),
@@ -254,19 +252,18 @@ impl Law {
 
     /// 4RP/E* \[length²\].
     fn load(p: &Parameters, bits: u32) -> Real {
-        let compliance = compliance_of(bits, &p.material[0]) + compliance_of(bits, &p.material[1]);
-        4.0 * Real::new(bits, p.edge_radius) * p.normal_force / p.length * compliance
+        4.0 * Real::new(bits, p.edge_radius) * p.normal_force / p.length * compliance_of(bits, &p.material)
     }
 
     fn flat(p: &Parameters, bits: u32, change: &Change) -> Law {
-        let [by_load, by_friction, by_radius, by_length, by_modulus] = &change.factors;
+        let [by_load, by_friction, added_flat, by_radius, by_length, by_modulus] = change;
         let real = |value: f64| Real::new(bits, value);
         let pi = Real::pi(bits);
-        let modulus = by_modulus / (compliance_of(bits, &p.material[0]) + compliance_of(bits, &p.material[1]));
+        let modulus = by_modulus / compliance_of(bits, &p.material);
         let length = by_length * p.length;
         let load = by_load * p.normal_force / &length;
         let size = Law::load(p, bits) * by_radius * by_load / by_length / by_modulus;
-        let (flat, half_width) = Flat::new(&(&change.added_flat + p.flat_half_width), &size);
+        let (flat, half_width) = Flat::new(&(added_flat + p.flat_half_width), &size);
         let ratio = mean(bits, &p.material, |nu| nu / (1.0 - nu));
         let mut full_stick = (2.0 * &length / &half_width).ln() + ratio;
         if p.displacement_reference != CENTRE_POINT {
@@ -292,7 +289,7 @@ impl Law {
     }
 
     fn ellipse(p: &EllipticParameters, bits: u32, change: &Change) -> Law {
-        let [by_load, by_friction, by_radius, _, by_modulus] = &change.factors;
+        let [by_load, by_friction, _, by_radius, _, by_modulus] = change;
         let by_size = (by_load * by_radius / by_modulus).cbrt();
         let (b, l) = (&by_size * p.semi_axis_x, &by_size * p.semi_axis_y);
         let (all, cosine) = cerruti(&b, &l);
@@ -305,7 +302,7 @@ impl Law {
         let slip_force = by_friction * by_load * p.friction_coefficient * p.normal_force;
         Law {
             bits,
-            composite_modulus: by_modulus / (compliance_of(bits, &p.material[0]) + compliance_of(bits, &p.material[1])),
+            composite_modulus: by_modulus / compliance_of(bits, &p.material),
             pressure_unit: Real::new(bits, p.normal_force) / &b / &l,
             half_width: b,
             displacement_unit: &slip_force * &compliance,
