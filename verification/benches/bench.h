@@ -7,10 +7,9 @@
 
 #define PI 3.14159265358979323846
 
-/* Parallel sliders; a bank is padded to whole lanes with sliders without stiffness. */
-enum { LANES = 8 };
+/* Parallel sliders. */
 typedef struct sliders {
-    size_t n, padded;
+    size_t n;
     double *stiffness, *slip; /* slip: slip force of each, or its coefficient of friction under a varying load */
 } sliders;
 

@@ -13,15 +13,9 @@
 
 enum { ROW = 20, COLUMNS = 40 }; /* 2H + 1 padded to a multiple of 4, of one and of all displacements */
 
-static double sum_of(const double *sum)
-{
-    return ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
-}
-
 sliders sliders_of(size_t n, const double *stiffness, const double *slip)
 {
-    const size_t padded = (n + LANES - 1) / LANES * LANES;
-    const sliders s = { n, padded, doubles(padded), doubles(padded) };
+    const sliders s = { n, doubles(n), doubles(n) };
     memcpy(s.stiffness, stiffness, n * sizeof(double));
     memcpy(s.slip, slip, n * sizeof(double));
     return s;
@@ -41,17 +35,14 @@ sliders sliders_fitted(const mslip_contact *contact, size_t n, double amplitude)
 
 static double sliders_step(const sliders *s, double load, double *restrict forces, double du)
 {
-    double t[LANES] = { 0 };
-    for (size_t j = 0; j < s->padded; j += LANES) {
-        for (int l = 0; l < LANES; ++l) {
-            const double slip = load * s->slip[j + l], trial = forces[j + l] + s->stiffness[j + l] * du;
-            double f = trial < slip ? trial : slip;
-            f = f > -slip ? f : -slip;
-            forces[j + l] = f;
-            t[l] += f;
-        }
+    const double *restrict stiffness = s->stiffness, *restrict slips = s->slip;
+    double total = 0.0;
+    for (size_t j = 0; j < s->n; ++j) {
+        const double slip = load * slips[j], trial = forces[j] + stiffness[j] * du, f = trial < slip ? trial : slip;
+        forces[j] = f > -slip ? f : -slip;
+        total += forces[j];
     }
-    return sum_of(t);
+    return total;
 }
 
 struct aft {
@@ -69,7 +60,7 @@ aft *aft_of(int directions, double normal_stiffness, int harmonics, int samples,
     aft *a = allocate(sizeof *a);
     *a = (aft) { .sliders = *s, .normal_stiffness = normal_stiffness, .directions = directions, .harmonics = harmonics,
                  .samples = samples, .stride = (2 * harmonics + 4) / 4 * 4, .product = doubles(3 * ROW * COLUMNS),
-                 .part = doubles(s->padded), .force = { doubles(s->padded), doubles(s->padded) }, .derivative = allocate(s->n * sizeof *a->derivative) };
+                 .part = doubles(s->n), .force = { doubles(s->n), doubles(s->n) }, .derivative = allocate(s->n * sizeof *a->derivative) };
     a->rows = doubles((size_t)(samples * a->stride));
     for (int i = 0; i < samples; ++i) {
         double *row = a->rows + i * a->stride;
@@ -158,8 +149,8 @@ static inline __attribute__((always_inline)) void harmonic(aft *a, const double 
     double before[2] = { 0.0 }, zeros[ROW] = { 0.0 }, sums[3][ROW] = { { 0.0 } }, change[ROW], load_change[ROW], sum[2][COLUMNS];
     double *products[3] = { a->product, a->product + columns * stride, a->product + 2 * columns * stride };
     const double *row_before = zeros;
-    memset(a->force[0], 0, a->sliders.padded * sizeof(double));
-    memset(a->force[1], 0, a->sliders.padded * sizeof(double));
+    memset(a->force[0], 0, sliders * sizeof(double));
+    memset(a->force[1], 0, sliders * sizeof(double));
     memset(a->derivative, 0, sliders * sizeof *a->derivative);
     memset(a->product, 0, (size_t)(blocks * columns * stride) * sizeof(double));
     for (int i = 0; i < 2 * n; ++i) {
