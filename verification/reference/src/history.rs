@@ -3,13 +3,11 @@
 use crate::Real;
 use crate::law::{Law, Point};
 use crate::stiffness::cycle_energy;
-use std::ops::Neg;
 use std::rc::Rc;
 
-/// Indices of the displacements that are not wiped out, oldest first: the one farthest from the origin, after it the farthest in
-/// the other direction, and so on to the present one; of equal ones the last. All but the last are reversals. After gross slip,
-/// `slip_direction` is its sign and the history starts where it ended; before, it is 0.
-pub fn reversals<D: PartialOrd + Clone + Neg<Output = D>>(history: &[D], slip_direction: f64) -> Vec<usize> {
+/// The number of displacements before the present one that are not wiped out: the one farthest from the origin, after it the farthest in
+/// the other direction, and so on to the present one; of equal ones the last.
+fn number_of_reversals(history: &[Real]) -> usize {
     // The last of the largest from each index on, upwards or downwards.
     let largest_from = |upwards: bool| {
         let mut found: Vec<usize> = (0..history.len()).collect();
@@ -22,19 +20,15 @@ pub fn reversals<D: PartialOrd + Clone + Neg<Output = D>>(history: &[D], slip_di
         found
     };
     let (highest, lowest) = (largest_from(true), largest_from(false));
-    let (high, low) = (&history[highest[0]], -history[lowest[0]].clone());
-    let mut upwards = match slip_direction {
-        0.0 if *high == low => highest[0] > lowest[0],
-        0.0 => *high > low,
-        direction => direction > 0.0,
-    };
-    let mut kept = vec![if upwards { highest[0] } else { lowest[0] }];
-    while kept[kept.len() - 1] + 1 < history.len() {
+    let (high, low) = (&history[highest[0]], -&history[lowest[0]]);
+    let mut upwards = if *high == low { highest[0] > lowest[0] } else { *high > low };
+    let (mut last, mut number) = (if upwards { highest[0] } else { lowest[0] }, 0);
+    while last + 1 < history.len() {
         upwards = !upwards;
-        let next = kept[kept.len() - 1] + 1;
-        kept.push(if upwards { highest[next] } else { lowest[next] });
+        last = if upwards { highest[last + 1] } else { lowest[last + 1] };
+        number += 1;
     }
-    kept
+    number
 }
 
 /// A displacement that is not wiped out, and the curve at half its distance from the one before (from the origin: all of it).
@@ -93,8 +87,7 @@ impl History {
     /// Advances to a displacement.
     pub fn go(&mut self, to: &Real, sample: usize) {
         let displacements = self.reversals.iter().map(|one| &one.displacement).chain([to]);
-        let kept = reversals(&displacements.cloned().collect::<Vec<_>>(), 0.0).len() - 1;
-        self.reversals.truncate(kept);
+        self.reversals.truncate(number_of_reversals(&displacements.cloned().collect::<Vec<_>>()));
         self.reversals.push(Reversal::new(&self.law, to.clone(), self.reversals.last(), sample));
     }
 

@@ -1,7 +1,7 @@
 //! Energy of a cycle and complex stiffness K' + iK'' at a displacement amplitude.
 
 use crate::law::bits_for;
-use crate::quadrature::Quadrature;
+use crate::quadrature::integrals;
 use crate::{Law, Point, Real, Reference};
 
 /// Energy of the cycle of amplitude x and its derivative; `point` is that of x.
@@ -24,36 +24,36 @@ pub fn imaginary_part(law: &Law, x: &Real, point: &Point) -> [Real; 2] {
 
 /// K' and its derivative in units, from Eq. 10 and the first harmonic of Eq. 11: with X the displacement of a stick zone over the
 /// amplitude, K' x = (8/π) ∫ √(X (1-X)) dτ over the stick zones up to the amplitude.
-pub fn real_part(law: &Law, rule: &Quadrature, x: &Real) -> [Real; 2] {
+pub fn real_part(contact: &Reference, x: &Real) -> [Real; 2] {
+    let share = x / &contact.law(0).x_slip;
+    let law = contact.law(64 + bits_for(&share) + bits_for(&(1.0 - &share).abs()));
+    let x = &x.at(law.bits);
     let from = law.at_x(x).w;
     // The amplitude of that stick zone to all bits, so that 1 - X keeps its digits near it.
     let x = &if from.is_zero() { x.clone() } else { law.at_w(&from).x };
-    let integrals = rule.integrals(1e-25, &from, &law.w_range(), |w| {
+    let [root_sum, slope_sum] = integrals(&from, &law.w_range(), |w| {
         let point = law.at_w(w);
         let share = &point.x / x;
         let rest = 1.0 - &share;
         if !rest.is_positive() || !share.is_positive() {
-            return vec![law.real(0.0); 2]; // rounding at the ends
+            return [law.real(0.0), law.real(0.0)]; // rounding at the ends
         }
         let rate = law.load_rate(&point);
         let root = (&share * &rest).sqrt();
-        vec![&root * &rate, (&rest - &share) * share * rate / root]
+        [&root * &rate, (&rest - &share) * share * rate / root]
     });
     let factor = 4.0 / Real::pi(law.bits) / x;
-    let real = 2.0 * &factor * &integrals[0];
+    let real = 2.0 * &factor * root_sum;
     // d(K' x)/dx = -(4/π) ∫ X (1-2X)/√(X (1-X)) dτ/x.
-    let slope = (-(factor * &integrals[1]) - &real) / x;
+    let slope = (-(factor * slope_sum) - &real) / x;
     [real, slope]
 }
 
 /// K', K'', dK', dK'' \[N/m, N/m²\] at an amplitude \[m\].
 pub fn complex_stiffness(contact: &Reference, amplitude: f64) -> [Real; 4] {
-    let first = contact.law(0);
-    let share = first.x(amplitude) / &first.x_slip;
-    let law = contact.law(160 + bits_for(&share) + bits_for(&(1.0 - &share).abs()));
+    let (law, point) = contact.at_displacement(amplitude);
     let x = law.x(amplitude);
-    let [real, d_real] = real_part(&law, &Quadrature::new(law.bits), &x);
-    let [imaginary, d_imaginary] = imaginary_part(&law, &x, &law.at_x(&x));
+    let ([real, d_real], [imaginary, d_imaginary]) = (real_part(contact, &x), imaginary_part(&law, &x, &point));
     let unit = &law.stiffness_unit;
     let slope_unit = unit / &law.displacement_unit;
     [unit * real, unit * imaginary, &slope_unit * d_real, slope_unit * d_imaginary]

@@ -6,17 +6,8 @@ use crate::curve::{half_share, share_of_slip};
 use crate::sampler::{Case, Sampler, text};
 use crate::tally::Tally;
 use reference::Real;
-use reference::law::bits_for;
-use reference::quadrature::Quadrature;
 use reference::stiffness::{cycle_energy, imaginary_part, real_part};
 use std::f64::consts::PI;
-
-/// K' and its derivative in units.
-fn real(case: &Case, x: &Real) -> [Real; 2] {
-    let share = x / &case.reference.law(0).x_slip;
-    let law = case.reference.law(64 + bits_for(&share) + bits_for(&(1.0 - &share).abs()));
-    real_part(&law, &Quadrature::new(law.bits), &x.at(law.bits))
-}
 
 /// Some amplitudes of a contact: each is a quadrature.
 pub fn at_amplitudes(case: &Case, sampler: &mut Sampler, tally: &mut Tally) {
@@ -48,7 +39,7 @@ pub fn at_amplitude(case: &Case, amplitude: f64, range: &'static str, tally: &mu
     // Beyond gross slip E = E_slip + 4 (x - x_s), with the promised error of x_s.
     let slips = amplitude > contact.slip_displacement;
     let slip = if slips { find("slip_displacement") / find("k_imag") * (4.0 * &x / &energy).f64() } else { 0.0 };
-    let [real, real_rate] = real(case, &x);
+    let [real, real_rate] = real_part(reference, &x);
     let size = (real.square() + imaginary.square()).sqrt();
     // dE/dx = 4 (τ - x/(Λ+λ)) changes by 4 x h''/(Λ+λ)³ per distance from gross slip, which has the promised error of x_s.
     let slope = if point.slips() {
