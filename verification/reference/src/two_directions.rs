@@ -148,11 +148,6 @@ impl Contact {
         contact
     }
 
-    /// S_x under a load.
-    pub fn shift(&self, load: f64) -> f64 {
-        self.under_load(load).shift[0]
-    }
-
     fn of_size(&self, size: &Size) -> Node {
         let [w, load, approach, x] = [&size.w, &size.load, &size.approach, &size.shift].map(Real::f64);
         let y = match &self.turned {
