@@ -17,8 +17,8 @@ case ${1:-} in
     --seeds) mode=seeds ;;
 esac
 
-# The instrumentation of cargo-fuzz, without that of comparisons. --target keeps the flags from build scripts. AddressSanitizer is part
-# of stable Rust, its option is not yet stable.
+# The instrumentation of cargo-fuzz, without that of comparisons. --target keeps the flags from build scripts. AddressSanitizer is
+# part of stable Rust, its option is not yet stable.
 host=$(rustc -vV | sed -n 's/^host: //p')
 RUSTC_BOOTSTRAP=1 RUSTFLAGS='-Zsanitizer=address -Cunsafe-allow-abi-mismatch=sanitizer -Cpasses=sancov-module
     -Cllvm-args=-sanitizer-coverage-level=4 -Cllvm-args=-sanitizer-coverage-inline-8bit-counters

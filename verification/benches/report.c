@@ -116,7 +116,7 @@ void write_entries(FILE *file)
 {
     fputs("task,shape,amplitude,harmonics,samples,method,error,median_ns\n", file);
     for (const entry *e = entries; e < entries + entry_count; ++e) {
-        fprintf(file, "%s,%g,%g,%d,%d,%s,%.4g,%.4g\n", e->task, e->shape, e->amplitude, e->harmonics, e->samples, e->method, e->error,
-                e->time);
+        fprintf(file, "%s,%g,%g,%d,%d,%s,%.4g,%.4g\n", e->task, e->shape, e->amplitude, e->harmonics, e->samples, e->method,
+                e->error, e->time);
     }
 }

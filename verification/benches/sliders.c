@@ -60,7 +60,8 @@ aft *aft_of(int directions, double normal_stiffness, int harmonics, int samples,
     aft *a = allocate(sizeof *a);
     *a = (aft) { .sliders = *s, .normal_stiffness = normal_stiffness, .directions = directions, .harmonics = harmonics,
                  .samples = samples, .stride = (2 * harmonics + 4) / 4 * 4, .product = doubles(3 * ROW * COLUMNS),
-                 .part = doubles(s->n), .force = { doubles(s->n), doubles(s->n) }, .derivative = allocate(s->n * sizeof *a->derivative) };
+                 .part = doubles(s->n), .force = { doubles(s->n), doubles(s->n) },
+                 .derivative = allocate(s->n * sizeof *a->derivative) };
     a->rows = doubles((size_t)(samples * a->stride));
     for (int i = 0; i < samples; ++i) {
         double *row = a->rows + i * a->stride;

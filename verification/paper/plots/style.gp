@@ -1,6 +1,5 @@
-# Loaded before each picture, whose name is `name`. Colours are safe for colour-blind readers (Okabe and Ito), and lines also differ in
-# dash and width.
-# Titles are the names of the columns.
+# Loaded before each picture, whose name is `name`. Colours are safe for colour-blind readers (Okabe and Ito), and lines also differ
+# in dash and width. Titles are the names of the columns.
 set datafile separator ','
 set datafile columnheaders
 set encoding utf8

@@ -24,8 +24,8 @@ impl Path<'_> {
         OneDirection::step(self.element, &mut self.state, [displacement, normal]).expect("an admissible step")
     }
 
-    /// A step to the displacement u within a distance with a u + b T = `target`, for weights a and b: Newton's method, bisection where it
-    /// leaves the bracket.
+    /// A step to the displacement u within a distance with a u + b T = `target`, for weights a and b: Newton's method, bisection
+    /// where it leaves the bracket.
     pub fn pull(&mut self, [a, b]: [f64; 2], target: f64, normal: f64, distance: f64) -> StepOf<OneDirection> {
         let start = self.state.clone();
         let (mut low, mut high) = (self.displacement - distance, self.displacement + distance);

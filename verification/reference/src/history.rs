@@ -5,8 +5,8 @@ use crate::law::{Law, Point};
 use crate::stiffness::cycle_energy;
 use std::rc::Rc;
 
-/// The number of displacements before the present one that are not wiped out: the one farthest from the origin, after it the farthest in
-/// the other direction, and so on to the present one; of equal ones the last.
+/// The number of displacements before the present one that are not wiped out: the one farthest from the origin, after it the
+/// farthest in the other direction, and so on to the present one; of equal ones the last.
 fn number_of_reversals(history: &[Real]) -> usize {
     // The last of the largest from each index on, upwards or downwards.
     let largest_from = |upwards: bool| {

@@ -24,8 +24,8 @@ const SLIDING: f64 = 75e-6;
 const IMPOSED: f64 = 122.5e-6;
 /// Friction coefficients of all tests.
 const FRICTION: [f64; 2] = [0.60, 0.65];
-/// Smallest over largest load; energy per cycle \[J\], means of 5000 cycles, at 3, 1 and 0.11 Hz; and what the page says of its mean over that
-/// of the computed energies: agreement under a constant load, more and more overestimation as the load swings more.
+/// Smallest over largest load; energy per cycle \[J\], means of 5000 cycles, at 3, 1 and 0.11 Hz; and what the page says of its
+/// mean over that of the computed energies: agreement under a constant load, more and more overestimation as the load swings more.
 const MEASURED: [(f64, [f64; 3], [f64; 2]); 5] = [
     (0.10, [0.608, 0.616, 0.644], [0.78, 0.85]),
     (0.25, [0.780, 0.846, 0.754], [0.83, 0.89]),
@@ -46,8 +46,8 @@ struct Cycle {
     /// Half of the opening of the loop at zero force \[m\].
     sliding: f64,
     dissipated: f64,
-    /// The integral of the tangential force over the imposed displacement, less the energy, over the energy: 0, if no force changes without
-    /// work.
+    /// The integral of the tangential force over the imposed displacement, less the energy, over the energy: 0, if no force changes
+    /// without work.
     work_error: f64,
 }
 
@@ -65,8 +65,8 @@ fn element(edge_radius: f64, length: f64, normal_force: f64, friction_coefficien
     Element::rounded_flat(&parameters, Directions::One, NormalInput::Force).expect("an element")
 }
 
-/// The last of some cycles, in which displacements over the amplitude and loads over the largest one follow a function of time in periods;
-/// `rig`: the compliance of the rig.
+/// The last of some cycles, in which displacements over the amplitude and loads over the largest one follow a function of time in
+/// periods; `rig`: the compliance of the rig.
 fn cycle(element: &Element, amplitude: f64, rig: f64, periods: u32, at: impl Fn(f64) -> [f64; 2]) -> Cycle {
     let mut path = Path::new(element, 64);
     let (mut imposed, mut force, mut area) = (0.0, 0.0, 0.0);

@@ -1,6 +1,6 @@
 //! The law against Kalker and Vollebregt's boundary-element code CONTACT, row by row; in two directions against boundary elements of
-//! our own; a sphere against published formulas; strips of finite length against boundary elements; a sliding cylinder against published
-//! measurements.
+//! our own; a sphere against published formulas; strips of finite length against boundary elements; a sliding cylinder against
+//! published measurements.
 //!
 //! - `validation` writes the data of the figures to `target/figures`, and the tables of `docs/validation.md`;
 //! - `validation --check` compares the tables with what the library computes now, and the differences with their bounds.

@@ -171,8 +171,8 @@ fn finite_elements() -> Vec<[f64; 5]> {
     table("fem_oblique_impact").iter().filter(|row| row.text("quantity") == "psi2").map(values).collect()
 }
 
-/// The checks of what the page says, its tables of measurements and finite elements, and the data of the figure: the laws over the angle,
-/// the readings, the finite elements.
+/// The checks of what the page says, its tables of measurements and finite elements, and the data of the figure: the laws over the
+/// angle, the readings, the finite elements.
 pub fn compare(documents: &mut Documents) {
     let (readings, elements) = (readings(), finite_elements());
     for Reading { quantity, source, degrees, measured, computed, partial } in &readings {

@@ -48,8 +48,8 @@ fn per_cent(law: f64, elements: f64) -> f64 {
     100.0 * (law / elements - 1.0)
 }
 
-/// The table, and the checks of what the documents state: a row for each length. The rows of the true pressure are those that the law
-/// describes. Displacements up to 0.98 mu N, unless it is the onset of gross slip.
+/// The table, and the checks of what the documents state: a row for each length. The rows of the true pressure are those that the
+/// law describes. Displacements are compared up to 0.98 mu N, apart from that of gross slip.
 pub fn compare(documents: &mut Documents) {
     let mut text = String::from(
         "| L/2b | displacement, centre point | displacement, rigid strip | onset of gross slip | energy |\n\

@@ -95,8 +95,8 @@ pub fn worse(worst: &mut [f64; 2], [force, energy]: [f64; 2]) {
     worst[1] = if energy.abs() > worst[1].abs() { energy } else { worst[1] };
 }
 
-/// Errors of the force over the largest mu N and of the dissipated energy over its value: of the law, and of two elements at right angles,
-/// each moved in one direction.
+/// Errors of the force over the largest mu N and of the dissipated energy over its value: of the law, and of two elements at right
+/// angles, each moved in one direction.
 fn errors(path: &Path) -> [[f64; 2]; 2] {
     let element = line_or_sphere(&path.parameters, Directions::Two);
     let along = |factors: [f64; 2]| {
