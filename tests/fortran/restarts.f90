@@ -68,8 +68,9 @@ contains
       call next(to)
       call advance(directions, state, to, force)
       call advance(directions, text, to, restarted)
-      ! Rounding of displacements by 5e-15, times a stiffness of a few mu N over the largest.
-      if (.not. abs(force - restarted) <= 1e-12_wp*contact%slip_force) wrong(form) = wrong(form) + 1
+      ! With all digits the same bits; otherwise rounding of displacements by 5e-15, times a stiffness of a few mu N over the
+      ! largest.
+      if (.not. abs(force - restarted) <= merge(0.0_wp, 1e-12_wp, form < 3)*contact%slip_force) wrong(form) = wrong(form) + 1
     end do
     close (file)
     do form = 1, 4

@@ -1,6 +1,6 @@
 program test_microslip
   ! The Fortran module where it is more than its C functions, with which `bad_input` compares every procedure: constants, texts and
-  ! types, strides and arrays without elements, restart files, and one history (reference values).
+  ! types, strides and arrays without elements, and unformatted restart files; `restarts` has those of text.
   use microslip
   use checks
   implicit none
@@ -11,7 +11,6 @@ program test_microslip
 
   call initialise()
   call test_library()
-  call test_history()
   call test_state()
   call test_workspaces()
   call test_elliptic()
@@ -73,60 +72,27 @@ contains
     call check('size of the parameters', storage_size(flat_parameters(1)) == 14*64)
   end subroutine test_library
 
-  subroutine test_history()
-    ! A random history; the expected forces are those of 1,500 sliders.
-    real(wp), parameter :: displacement(*) = [1.914742209093313144178863e-6_wp, 2.611273826781315490221623e-6_wp, &
-      -6.135044920310610393080018e-7_wp, 5.952452643016515262749271e-7_wp, 3.353829542160012347620313e-6_wp, &
-      6.231586436802244498376485e-7_wp, -3.399302160532311508598117e-6_wp, 1.439628185901378384090651e-7_wp]
-    real(wp), parameter :: expected(*) = [9.228650897869313018877909e2_wp, 1.238496256519557238194705e3_wp, &
-      -3.244442460629692682092653e2_wp, 2.703737152270186349707299e2_wp, 1.467713029999999903099788e3_wp, &
-      1.387644856827132352327478e2_wp, -1.467713029999999903099788e3_wp, 2.446969700644779323837263e2_wp]
-    real(wp) :: state(mslip_state_length(8_mslip_size)), force(size(displacement))
-    integer(mslip_int) :: status
-    integer :: i
-
-    state = initial_state(8_mslip_size)
-    call mslip_masing_path_advance(cylinder, state, displacement, status, force)
-    call check_status('path', status, MSLIP_OK)
-    do i = 1, size(displacement)
-      call check_close('force of a history', force(i), expected(i), tight)
-    end do
-  end subroutine test_history
-
   subroutine test_state()
-    ! A contact and a state from a restart file continue with the same bits: unformatted, list-directed and namelist output.
-    real(wp), dimension(mslip_state_length(4_mslip_size)) :: state, advanced, restart
+    ! A contact and a state from an unformatted restart file continue with the same bits.
+    real(wp), dimension(mslip_state_length(4_mslip_size)) :: state, restart
     real(wp) :: force(2)
     type(mslip_contact) :: contact
     integer(mslip_int) :: status
-    integer :: file, form
-    namelist /restarts/ restart
+    integer :: file
 
-    contact = flat
     state = initial_state(4_mslip_size)
     call mslip_masing_advance(flat, state, 6.0e-7_wp, status)
-    advanced = state
-    call mslip_masing_advance(flat, advanced, 0.5e-7_wp, status, force(1))
-    do form = 1, 3
-      restart = state
-      if (form == 1) open (newunit=file, status='scratch', form='unformatted')
-      if (form > 1) open (newunit=file, status='scratch')
-      if (form == 1) write (file) contact, restart
-      if (form == 2) write (file, *) restart
-      if (form == 3) write (file, nml=restarts)
-      restart = untouched
-      rewind (file)
-      if (form == 1) read (file) contact, restart
-      if (form == 2) read (file, *) restart
-      if (form == 3) read (file, nml=restarts)
-      close (file)
-      call mslip_contact_check(contact, status)
-      call check_status('a contact from a restart file', status, MSLIP_OK)
-      call mslip_state_check(restart, status)
-      call check_status('a state from a restart file', status, MSLIP_OK)
-      call mslip_masing_advance(contact, restart, 0.5e-7_wp, status, force(2))
-      call check_same('a step from a restart file', [restart, force(2)], [advanced, force(1)])
-    end do
+    open (newunit=file, status='scratch', form='unformatted')
+    write (file) flat, state
+    rewind (file)
+    read (file) contact, restart
+    close (file)
+    call mslip_contact_check(contact, status)
+    call check_status('a contact from a restart file', status, MSLIP_OK)
+    call mslip_masing_advance(flat, state, 0.5e-7_wp, status, force(1))
+    call mslip_masing_advance(contact, restart, 0.5e-7_wp, status, force(2))
+    call check_status('a state from a restart file', status, MSLIP_OK)
+    call check_same('a step from a restart file', [restart, force(2)], [state, force(1)])
     call check('fewer than 2 reversals count as 2', mslip_state_length(0_mslip_size) == mslip_state_length(2_mslip_size))
   end subroutine test_state
 
@@ -264,7 +230,7 @@ contains
     type(mslip_element) :: element, sphere
     type(mslip_elliptic_parameters) :: p
     real(wp) :: displacement(2, steps), force(2, steps), scattered(3, 2, steps)
-    real(wp), dimension(mslip_element_state_length(1_mslip_int, 16_mslip_size)) :: state, start, last
+    real(wp), dimension(mslip_element_state_length(1_mslip_int, 16_mslip_size)) :: start, last
     integer(mslip_int) :: status
     integer :: i
 
@@ -276,20 +242,16 @@ contains
     displacement(2, :) = [(max(9.0_wp + 10.0_wp*sin(0.9_wp*i), 0.0_wp), i = 1, steps)]
     call mslip_element_state_init(1_mslip_int, start, status)
     call check_status('initialise the state of an element', status, MSLIP_OK)
-    state = start
-    do i = 1, steps
-      call mslip_element_advance(element, state, displacement(:, i), status, force(:, i))
-      call check_status('element: step in place', status, MSLIP_OK)
-    end do
-    call check_same('element: the given normal force', force(2, :), displacement(2, :))
     last = start
+    call mslip_element_path_advance(element, start, displacement, status, force)
+    call check_same('element: the given normal force', force(2, :), displacement(2, :))
     scattered = untouched
     scattered(2, :, :) = displacement
     call mslip_element_path_advance(element, last, scattered(2, :, :), status, force=scattered(1, :, :))
     call check_status('element: path in place, sections', status, MSLIP_OK)
     call check_same('element: path in place, sections', [scattered(1, :, :)], [force])
     call check_same('element: gaps are not written', [scattered(3, :, :)], spread(untouched, 1, 2*steps))
-    call check_same('element: state after a path', last(:12), state(:12))
+    call check_same('element: state after a path', last(:12), start(:12))
     call mslip_element_path(element, start, displacement(:, 1:0), last, status)
     call check_status('element: path without steps', status, MSLIP_OK)
 

@@ -118,8 +118,6 @@ program test_wrappers
   call allocatable_force(contact, workspace, u, status, force)
   call check_same('allocatable: allocated', force, expected)
 
-  call mslip_harmonic_force(contact, workspace, u, status, no_force, no_jacobian, no_scalar)
-  call check_status('direct: unallocated', status, MSLIP_OK)
   call mslip_harmonic_force(contact, workspace, u, status, force_pointer, jacobian_pointer, scalar_pointer)
   call check_status('direct: disassociated', status, MSLIP_OK)
 
