@@ -3,7 +3,7 @@
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use std::sync::{LazyLock, Mutex};
+use std::sync::LazyLock;
 
 static ROOT: LazyLock<&Path> = LazyLock::new(|| Path::new(env!("CARGO_MANIFEST_DIR")));
 
@@ -64,18 +64,13 @@ fn drive(compiler: &mut Command, sources: &[PathBuf], program: &str) -> Result<(
     }
 }
 
-/// Runs all jobs on two threads, and fails with all of their errors.
+/// Runs all jobs at the same time, and fails with all of their errors.
 fn run_all(jobs: Vec<impl FnOnce() -> Result<(), String> + Send>) {
     assert!(!jobs.is_empty());
-    let (jobs, errors) = (Mutex::new(jobs), Mutex::new(Vec::new()));
-    let next = || jobs.lock().unwrap().pop();
-    let work = || {
-        while let Some(job) = next() {
-            job().unwrap_or_else(|error| errors.lock().unwrap().push(error));
-        }
-    };
-    std::thread::scope(|scope| [(); 2].map(|()| scope.spawn(work)).map(|thread| thread.join().unwrap()));
-    let errors = errors.into_inner().unwrap();
+    let errors: Vec<String> = std::thread::scope(|scope| {
+        let threads: Vec<_> = jobs.into_iter().map(|job| scope.spawn(job)).collect();
+        threads.into_iter().filter_map(|thread| thread.join().unwrap().err()).collect()
+    });
     assert!(errors.is_empty(), "{}", errors.join("\n"));
 }
 

@@ -1,45 +1,10 @@
 //! Imports only go down: the table of `docs/architecture.md` has the modules that each module of `src/` imports, all of them above it
 //! there, and no files of a module import each other in a circle. Test modules are not read.
 
+#[path = "common/sources.rs"]
+mod sources;
+
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
-use std::path::Path;
-
-/// Files by the path of their module, without their test modules.
-fn sources(folder: &Path, module: &str, files: &mut BTreeMap<String, String>) {
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        let name = path.file_stem().unwrap().to_str().unwrap();
-        let name = if module.is_empty() { name.to_owned() } else { format!("{module}::{name}") };
-        if path.is_dir() {
-            sources(&path, &name, files);
-        } else if path.extension().is_some_and(|extension| extension == "rs") {
-            files.insert(name, fs::read_to_string(&path).unwrap());
-        }
-    }
-}
-
-/// The text of a file up to its test module, and the names of test modules in files of their own.
-fn without_tests(text: &str) -> (String, Vec<String>) {
-    let (mut kept, mut test_files) = (String::new(), Vec::new());
-    let mut lines = text.lines().peekable();
-    while let Some(line) = lines.next() {
-        if line.trim() != "#[cfg(test)]" {
-            kept += line.split("//").next().unwrap();
-            kept.push('\n');
-            continue;
-        }
-        let item = lines.next().unwrap();
-        let indent = &item[..item.len() - item.trim_start().len()];
-        if let Some(name) = item.trim().strip_suffix(';').and_then(|item| item.split_whitespace().last()) {
-            test_files.push(name.to_owned());
-        } else if item.ends_with('{') {
-            while lines.next_if(|line| *line != format!("{indent}}}")).is_some() {}
-            lines.next();
-        }
-    }
-    (kept, test_files)
-}
 
 /// Paths that start at `crate` or `super`, as paths from the crate: each name in braces is a path of its own.
 fn paths(module: &str, text: &str) -> Vec<String> {
@@ -70,25 +35,18 @@ fn file_of<'f>(path: &str, files: &'f BTreeMap<String, String>) -> Option<&'f St
 
 #[test]
 fn imports_only_go_down() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut files = BTreeMap::new();
-    sources(&root.join("src"), "", &mut files);
-    for module in files.keys().cloned().collect::<Vec<_>>() {
-        let Some(text) = files.get(&module) else { continue };
-        let (kept, test_files) = without_tests(text);
-        for name in test_files {
-            files.remove(&format!("{module}::{name}"));
-        }
-        files.insert(module, kept);
-    }
-    files.remove("lib");
+    let without_comments =
+        |text: String| text.lines().map(|line| line.split("//").next().unwrap().to_owned() + "\n").collect();
+    let module = |path: String| path.trim_end_matches(".rs").replace('/', "::");
+    let files = sources::sources().into_iter().map(|(path, text)| (module(path), without_comments(text)));
+    let files: BTreeMap<String, String> = files.filter(|(module, _)| module != "lib").collect();
     let mut imports: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
     for (module, text) in &files {
         let used = paths(module, text).into_iter().filter_map(|path| file_of(&path, &files));
         imports.insert(module, used.map(String::as_str).filter(|used| used != module).collect());
     }
     // The table: rows `| module | imports |` of module names in backticks, here with what the source imports.
-    let document = fs::read_to_string(root.join("docs/architecture.md")).unwrap();
+    let document = sources::read("docs/architecture.md");
     let top = |module: &str| module.split("::").next().unwrap().to_owned();
     let mut found: BTreeMap<String, BTreeSet<String>> = BTreeMap::new();
     for (module, used) in &imports {

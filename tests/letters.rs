@@ -1,8 +1,9 @@
 //! Letters in the formulas of comments against the table of symbols of docs/derivation.md: one letter is one quantity in a module.
 
+#[path = "common/sources.rs"]
+mod sources;
+
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
-use std::{env, fs};
 
 /// Symbols with the modules in which they may stand, as paths below `src`; "" is every module.
 type Table = BTreeMap<String, Vec<String>>;
@@ -76,8 +77,7 @@ fn formulas(line: &str, in_block: bool) -> Vec<String> {
 /// The symbols of a file that the table does not have in its module.
 fn disagreements(file: &str, text: &str, table: &Table) -> Vec<String> {
     let (mut found, mut in_block) = (Vec::new(), false);
-    let code = text.split("#[cfg(test)]").next().unwrap();
-    for (number, line) in code.lines().enumerate() {
+    for (number, line) in text.lines().enumerate() {
         let line = line.trim_start();
         let Some(comment) = ["//!", "///", "// "].iter().find_map(|mark| line.strip_prefix(mark)) else {
             in_block = false;
@@ -97,23 +97,10 @@ fn disagreements(file: &str, text: &str, table: &Table) -> Vec<String> {
     found
 }
 
-fn files(directory: &Path) -> Vec<PathBuf> {
-    let entries = fs::read_dir(directory).unwrap().map(|entry| entry.unwrap().path());
-    entries.flat_map(|path| if path.is_dir() { files(&path) } else { vec![path] }).collect()
-}
-
 #[test]
 fn a_letter_is_one_quantity_in_a_module() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let table = table(&fs::read_to_string(root.join("docs/derivation.md")).unwrap());
+    let table = table(&sources::read("docs/derivation.md"));
     assert!(table.len() > 60, "{table:?}");
-    let (source, mut found) = (root.join("src"), Vec::new());
-    for path in files(&source) {
-        let file = path.strip_prefix(&source).unwrap().to_str().unwrap();
-        if !file.contains("tests") {
-            found.extend(disagreements(file, &fs::read_to_string(&path).unwrap(), &table));
-        }
-    }
-    found.sort();
+    let found: Vec<_> = sources::sources().iter().flat_map(|(file, text)| disagreements(file, text, &table)).collect();
     assert!(found.is_empty(), "not in the table of docs/derivation.md, or not in these modules:\n{}", found.join("\n"));
 }
