@@ -376,10 +376,6 @@ mod tests {
 
     const FIVE: [f64; 11] = [0.1, 0.7, 0.0, 0.1, 0.3, -0.2, 0.2, 0.15, -0.1, 0.1, 0.2];
 
-    fn distance(one: &[f64], two: &[f64]) -> f64 {
-        one.iter().zip(two).fold(0.0, |most, (one, two)| f64::max(most, (one - two).abs()))
-    }
-
     fn contacts() -> impl Iterator<Item = Contact> {
         FLATS.map(contact).into_iter().chain([ellipse(1e-4, 2e-4)])
     }
@@ -396,30 +392,44 @@ mod tests {
         shifted
     }
 
+    /// Force, Jacobian and energy of the motion shifted in time: rows and columns of the matrix are rotated.
+    fn shift_all((force, jacobian, energy): &All, by: f64) -> All {
+        let n = force.len();
+        let columns = |matrix: &[f64]| matrix.chunks(n).flat_map(|column| shift(column, by)).collect::<Vec<_>>();
+        let transposed = |matrix: Vec<f64>| (0..n * n).map(|i| matrix[i / n + n * (i % n)]).collect::<Vec<_>>();
+        (shift(force, by), transposed(columns(&transposed(columns(jacobian)))), *energy)
+    }
+
+    /// Compares force over mu N, Jacobian over the initial stiffness and energy over itself.
+    fn check(contact: &Contact, found: &All, expected: &All, tolerances: [f64; 3], what: &str) {
+        let distance =
+            |one: &[f64], two: &[f64]| one.iter().zip(two).fold(0.0, |most, (a, b)| f64::max(most, (a - b).abs()));
+        let errors = [
+            distance(&found.0, &expected.0) / contact.slip_force,
+            distance(&found.1, &expected.1) / contact.initial_stiffness,
+            (found.2 - expected.2).abs() / expected.2.max(f64::MIN_POSITIVE),
+        ];
+        assert!(errors.iter().zip(tolerances).all(|(error, tolerance)| *error <= tolerance), "{what}: {errors:?}");
+    }
+
     #[test]
     fn the_jacobian_agrees_with_finite_differences() {
-        for contact in contacts() {
-            for (shape, size) in
-                [&SHAPE[..], &ODD, &FIVE].into_iter().flat_map(|shape| [0.3, 0.9, 1.2, 4.0].map(|size| (shape, size)))
-            {
+        for (contact, size) in contacts().flat_map(|contact| [0.3, 0.9, 1.2, 4.0].map(|size| (contact, size))) {
+            for shape in [&SHAPE[..], &ODD, &FIVE] {
                 let motion = scaled(&contact, shape, size);
-                let n = motion.len();
-                let (_, jacobian, _) = all(&contact, 64, &motion);
-                for j in 0..n {
-                    let force_at = |step: f64| {
+                let (force, jacobian, energy) = all(&contact, 64, &motion);
+                // If two reversals are equally far the second derivative is discontinuous: the error is O(h).
+                let h = 1e-7 * contact.slip_displacement;
+                let differences = (0..motion.len()).flat_map(|j| {
+                    let [low, high] = [-h, h].map(|step| {
                         let mut motion = motion.clone();
                         motion[j] += step;
                         all(&contact, 64, &motion).0
-                    };
-                    // If two reversals are equally far the second derivative is discontinuous: the error is O(h).
-                    let h = 1e-7 * contact.slip_displacement;
-                    let (low, high) = (force_at(-h), force_at(h));
-                    for i in 0..n {
-                        let error =
-                            (jacobian[i + n * j] - (high[i] - low[i]) / (2.0 * h)).abs() / contact.initial_stiffness;
-                        assert!(error < 2e-7, "{size} {i} {j}: {error:e}");
-                    }
-                }
+                    });
+                    high.into_iter().zip(low).map(|(high, low)| (high - low) / (2.0 * h)).collect::<Vec<_>>()
+                });
+                let expected = (force.clone(), differences.collect(), energy);
+                check(&contact, &(force, jacobian, energy), &expected, [0.0, 2e-7, 0.0], "differences");
             }
         }
     }
@@ -429,32 +439,15 @@ mod tests {
         for (contact, size) in contacts().flat_map(|contact| [(contact, 0.5), (contact, 0.9), (contact, 2.5)]) {
             for shape in [&SHAPE[..], &ODD, &FIVE] {
                 let displacement = scaled(&contact, shape, size);
-                let n = shape.len();
-                let (force, jacobian, energy) = all(&contact, 128, &displacement);
+                let expected = all(&contact, 128, &displacement);
                 for by in [1e-9, 0.7, PI, 4.4] {
-                    let (shifted, shifted_jacobian, shifted_energy) = all(&contact, 128, &shift(&displacement, by));
+                    let shifted = all(&contact, 128, &shift(&displacement, by));
                     // Near gross slip rounding errors of the displacement are amplified in the energy.
-                    assert!((shifted_energy / energy - 1.0).abs() < 1e-12, "{by}");
-                    let error = distance(&shifted, &shift(&force, by)) / contact.slip_force;
-                    assert!(error < 1e-13, "{by} {error:e}");
-                    for j in 0..n {
-                        let unit: Vec<f64> = (0..n).map(|i| if i == j { 1.0 } else { 0.0 }).collect();
-                        let times = |matrix: &[f64], vector: &[f64]| -> Vec<f64> {
-                            (0..n).map(|i| (0..n).map(|k| matrix[i + n * k] * vector[k]).sum()).collect()
-                        };
-                        let one = times(&shifted_jacobian, &shift(&unit, by));
-                        let two = shift(&times(&jacobian, &unit), by);
-                        assert!(
-                            distance(&one, &two) < 1e-11 * contact.initial_stiffness,
-                            "{by} {j} {:e}",
-                            distance(&one, &two) / contact.initial_stiffness
-                        );
-                    }
+                    check(&contact, &shifted, &shift_all(&expected, by), [1e-13, 1e-11, 1e-12], "shifted");
                 }
                 let minus = |vector: &[f64]| -> Vec<f64> { vector.iter().map(|value| -value).collect() };
-                let (opposite, opposite_jacobian, opposite_energy) = all(&contact, 128, &minus(&displacement));
-                assert_eq!((opposite, opposite_energy), (minus(&force), energy));
-                assert_eq!(opposite_jacobian, jacobian);
+                let opposite = all(&contact, 128, &minus(&displacement));
+                assert_eq!(opposite, (minus(&expected.0), expected.1, expected.2));
             }
         }
     }
@@ -464,15 +457,12 @@ mod tests {
         for contact in contacts() {
             let slip = contact.slip_displacement;
             for constant in [0.0, 0.4 * slip, -0.4 * slip, 2.0 * slip, -1e100] {
-                let (force, jacobian, energy) = all(&contact, 16, &[constant, 0.0, 0.0, 0.0, 0.0]);
+                let found = all(&contact, 16, &[constant, 0.0, 0.0, 0.0, 0.0]);
                 let point = contact.curve_at_displacement(constant).unwrap();
-                assert!((force[0] - point.force()).abs() < 1e-15 * contact.slip_force && energy == 0.0);
-                assert!(force.iter().skip(1).all(|&force| force == 0.0));
-                let stiffness = point.stiffness();
-                for (index, value) in jacobian.iter().enumerate() {
-                    let expected = if index % 6 == 0 { stiffness } else { 0.0 };
-                    assert!((value - expected).abs() < 1e-14 * contact.initial_stiffness, "{index}");
-                }
+                let diagonal = (0..25).map(|i| if i % 6 == 0 { point.stiffness() } else { 0.0 }).collect();
+                let expected = ([point.force(), 0.0, 0.0, 0.0, 0.0].to_vec(), diagonal, 0.0);
+                check(&contact, &found, &expected, [1e-15, 1e-14, 0.0], "constant");
+                assert_eq!(found.0[1..], [0.0; 4]);
             }
             // cos t - cos(2t)/4 has a reversal at which three derivatives vanish; a perturbation makes one reversal or three.
             for (perturbation, size) in [-1e-3, -1e-9, -1e-17, 0.0, 1e-17, 1e-9, 1e-3]
@@ -480,16 +470,11 @@ mod tests {
                 .flat_map(|perturbation| [0.5, 1.0, 3.0].map(|size| (perturbation, size * slip)))
             {
                 let motion = [0.0, size, 0.0, -(0.25 + perturbation) * size, 0.0];
-                let (one, two) = (all(&contact, 128, &motion), all(&contact, 4096, &motion));
-                assert!(
-                    distance(&one.0, &two.0) < 1e-9 * contact.slip_force,
-                    "{perturbation} {:e}",
-                    distance(&one.0, &two.0)
-                );
-                assert!((one.2 / two.2 - 1.0).abs() < 1e-13);
-                let shifted = all(&contact, 128, &shift(&motion, 0.77));
+                let one = all(&contact, 128, &motion);
+                check(&contact, &one, &all(&contact, 4096, &motion), [1e-9, f64::INFINITY, 1e-13], "more nodes");
                 // The error of the instants is the cube root of the unit of rounding.
-                assert!(distance(&shifted.0, &shift(&one.0, 0.77)) < 1e-9 * contact.slip_force);
+                let shifted = all(&contact, 128, &shift(&motion, 0.77));
+                check(&contact, &shifted, &shift_all(&one, 0.77), [1e-9, f64::INFINITY, f64::INFINITY], "shifted");
             }
         }
     }
@@ -497,23 +482,13 @@ mod tests {
     /// A negative cosine reverses exactly at the boundary of the half period that is searched.
     #[test]
     fn reversals_at_the_start_of_the_period_are_found() {
-        for contact in contacts() {
-            for size in [0.3, 2.0].map(|ratio| ratio * contact.slip_displacement) {
-                let shapes = [[1.0, 0.0, 0.0], [1.0, 0.0, 0.05], [0.0, 0.0, 1.0], [1.0, 0.0, -0.3]];
-                for shape in shapes {
-                    let motion = |sign: f64| {
-                        let [one, two, three] = shape.map(|ratio| sign * size * ratio);
-                        [0.0, one, 0.0, two, 0.0, three, 0.0]
-                    };
-                    let (up, down) = (all(&contact, 64, &motion(-1.0)), all(&contact, 64, &motion(1.0)));
-                    for (one, two) in up.0.iter().zip(&down.0) {
-                        assert!((one + two).abs() < 1e-12 * contact.slip_force, "{shape:?} {one} {two}");
-                    }
-                    for (one, two) in up.1.iter().zip(&down.1) {
-                        assert!((one - two).abs() < 1e-9 * contact.initial_stiffness, "{shape:?}");
-                    }
-                    assert!(down.2 > 0.0 && (up.2 / down.2 - 1.0).abs() < 1e-12, "{shape:?}");
-                }
+        for (contact, size) in contacts().flat_map(|contact| [(contact, 0.3), (contact, 2.0)]) {
+            for [one, two, three] in [[1.0, 0.0, 0.0], [1.0, 0.0, 0.05], [0.0, 0.0, 1.0], [1.0, 0.0, -0.3]] {
+                let [up, mut down] = [-size, size]
+                    .map(|size| all(&contact, 64, &scaled(&contact, &[0.0, one, 0.0, two, 0.0, three, 0.0], size)));
+                down.0.iter_mut().for_each(|force| *force = -*force);
+                check(&contact, &up, &down, [1e-12, 1e-9, 1e-12], "start");
+                assert!(down.2 > 0.0);
             }
         }
     }
