@@ -7,10 +7,9 @@
 
 #include <microslip.h>
 #include <float.h>
-#include <stdint.h>
 #include <stdlib.h>
 
-enum { MOST_STEPS = 512, STATE = 198, MOST_CONTACTS = 64 };
+enum { STATE = 198, MOST_CONTACTS = 64 };
 /* Relative errors of a constant load. */
 #define TOLERANCE 1e-13
 #define OK(call) CHECK((call) == MSLIP_OK)
@@ -126,77 +125,33 @@ static void check_contacts(void)
 
 /* --- Histories --- */
 
-typedef struct {
-    double force[MOST_STEPS], stiffness[MOST_STEPS], energy[MOST_STEPS], state[STATE];
-} results;
-
-static int same(const results *p, const results *q, size_t n)
-{
-    const size_t bytes = n * sizeof(double), used = 6 + 3 * (size_t)p->state[1];
-    return !memcmp(p->force, q->force, bytes) && !memcmp(p->stiffness, q->stiffness, bytes) && !memcmp(p->energy, q->energy, bytes)
-        && !memcmp(p->state, q->state, used * sizeof(double));
-}
-
-/* Step by step, each with a new state; as a path in place; in a batch, beside another contact: the same bits. */
-static void run(const mslip_contact *c, size_t n, const double *u, results *r)
-{
-    static results other;
-    static double states[2][STATE], pair[2 * STATE];
-    mslip_contact both[2];
-    both[0] = contacts[0];
-    both[1] = *c;
-    OK(mslip_state_init(STATE, states[0]));
-    for (size_t i = 0; i < n; ++i) {
-        OK(mslip_masing_update(c, STATE, states[i % 2], u[i], states[1 - i % 2], &r->force[i], &r->stiffness[i], &r->energy[i]));
-    }
-    memcpy(r->state, states[n % 2], sizeof r->state);
-
-    OK(mslip_state_init(STATE, other.state));
-    OK(mslip_masing_path(c, STATE, other.state, n, u, other.state, other.force, other.stiffness, other.energy));
-    CHECK(same(r, &other, n));
-
-    memset(&other, 0xff, sizeof other);
-    OK(mslip_state_init(STATE, pair));
-    OK(mslip_state_init(STATE, pair + STATE));
-    for (size_t i = 0; i < n; ++i) {
-        double to[2] = { 0.0, 0.0 }, force[2], stiffness[2], energy[2];
-        to[1] = u[i];
-        OK(mslip_batch_masing_update(2, 2, both, NULL, NULL, STATE, pair, to, pair, force, stiffness, energy, NULL));
-        CHECK(force[0] == 0.0);
-        other.force[i] = force[1];
-        other.stiffness[i] = stiffness[1];
-        other.energy[i] = energy[1];
-    }
-    memcpy(other.state, pair + STATE, sizeof other.state);
-    CHECK(same(r, &other, n));
-}
-
+/* Each step with a new state, as a path in place, and in a batch beside another contact: the same bits. */
 static void check_histories(void)
 {
-    static double u[MOST_STEPS], want[MOST_STEPS];
-    static results r;
-    static table t;
+    static double state[2][STATE], path[STATE], pair[2 * STATE];
+    table t = { 0 };
     double largest = 0.0, history = -1.0;
-    size_t n = 0;
-    const mslip_contact *contact = NULL;
-    for (int more = 1; more;) {
-        more = next_row(&t, "histories");
-        if (n > 0 && (!more || get(&t, "history") != history)) {
-            run(contact, n, u, &r);
-            for (size_t i = 0; i < n; ++i) {
-                /* A force is a sum over reversals and has the rounding error of the largest term. */
-                largest = fmax(i == 0 ? 0.0 : largest, fabs(want[i]));
-                compare(&t, "T of the history above", r.force[i], want[i], 2.0 * TOLERANCE * largest);
-            }
-            n = 0;
-        }
-        CHECK(n < MOST_STEPS);
-        if (more) {
+    for (int i = 0; next_row(&t, "histories"); ++i) {
+        const double u = get(&t, "displacement"), want = get(&t, "T"), to[2] = { 0.0, u };
+        const mslip_contact both[2] = { contacts[0], contacts[(int)get(&t, "contact")] };
+        double *old = state[i % 2], *new = state[1 - i % 2], one[3], other[3], force[2], stiffness[2], energy[2];
+        if (get(&t, "history") != history) {
             history = get(&t, "history");
-            contact = &contacts[(int)get(&t, "contact")];
-            u[n] = get(&t, "displacement");
-            want[n++] = get(&t, "T");
+            largest = 0.0;
+            OK(mslip_state_init(STATE, old));
+            OK(mslip_state_init(STATE, path));
+            OK(mslip_state_init(STATE, pair));
+            OK(mslip_state_init(STATE, pair + STATE));
         }
+        OK(mslip_masing_update(&both[1], STATE, old, u, new, &one[0], &one[1], &one[2]));
+        OK(mslip_masing_path(&both[1], STATE, path, 1, &u, path, &other[0], &other[1], &other[2]));
+        OK(mslip_batch_masing_update(2, 2, both, NULL, NULL, STATE, pair, to, pair, force, stiffness, energy, NULL));
+        CHECK(memcmp(one, other, sizeof one) == 0 && one[0] == force[1] && one[1] == stiffness[1] && one[2] == energy[1]);
+        const size_t used = (6 + 3 * (size_t)new[1]) * sizeof(double);
+        CHECK(force[0] == 0.0 && memcmp(new, path, used) == 0 && memcmp(new, pair + STATE, used) == 0);
+        /* A force is a sum over reversals and has the rounding error of the largest term. */
+        largest = fmax(largest, fabs(want));
+        compare(&t, "T", one[0], want, 2.0 * TOLERANCE * largest);
     }
 }
 
