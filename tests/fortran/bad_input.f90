@@ -25,6 +25,8 @@ program bad_input
     real(wp), allocatable :: s, v(:), m(:, :), t(:, :, :)
   end type output
 
+  type(procedure_info) :: tested
+  character(len=:), allocatable :: name
   type(mslip_contact), allocatable :: contacts(:)
   type(mslip_element), allocatable :: elements(:)
   type(output), target :: out(5)
@@ -41,11 +43,13 @@ program bad_input
     parts = int(directions) + 1
     me = parts*m
     do p = 1, size(procedures)
-      if (directions == 2 .and. (.not. procedures(p)%element .or. procedures(p)%name == 'element_tractions')) cycle
+      tested = procedures(p)
+      name = trim(tested%name)//': '
+      if (directions == 2 .and. (.not. tested%element .or. tested%name == 'element_tractions')) cycle
       call test_subsets()
       call test_sizes()
       call test_lengths()
-      if (procedures(p)%batch) call test_index()
+      if (tested%batch) call test_index()
     end do
   end do
   call test_short_memory()
@@ -58,7 +62,7 @@ contains
     integer(mslip_int) :: ok
     integer :: i, items
 
-    items = merge(n, 1, procedures(p)%batch)
+    items = merge(n, 1, tested%batch)
     contacts = [(mslip_contact(), i = 1, items)]
     elements = [(mslip_element(), i = 1, items)]
     do i = 1, items
@@ -71,7 +75,7 @@ contains
     x = [1.0e-7_wp, 2.0e-7_wp, 3.0e-7_wp]
     u = spread([0.0_wp, 3.0e-7_wp, 1.0e-7_wp, 0.0_wp, 2.0e-8_wp], 2, items)
     if (allocated(index)) deallocate (index, active)
-    if (procedures(p)%batch) then
+    if (tested%batch) then
       index = [2_mslip_int, 1_mslip_int, 3_mslip_int]
       active = spread(1_mslip_int, 1, n)
     end if
@@ -80,7 +84,7 @@ contains
     call mslip_masing_path_advance(contacts(1), state, [2.0e-7_wp, 0.5e-7_wp, 1.5e-7_wp], ok)
     workspace = spread(0.0_wp, 1, int(mslip_harmonic_workspace_length(h, samples)))
     call mslip_harmonic_workspace_init(h, samples, workspace, ok)
-    if (procedures(p)%element) then
+    if (tested%element) then
       state = spread(0.0_wp, 1, int(mslip_element_state_length(directions, pieces)))
       call mslip_element_state_init(directions, state, ok)
       call mslip_element_path_advance(elements(1), state, reshape([spread(1.0e-8_wp, 1, int(directions)), 1.0e-7_wp, &
@@ -97,8 +101,8 @@ contains
       out(i) = output()
     end do
     call set_outputs()
-    if (procedures(p)%outputs(5:5) == 's') out(5)%v = spread(untouched, 1, size(state))
-    if (procedures(p)%outputs(5:5) == 'b') out(5)%m = reshape([real(wp) ::], shape(states), pad=[untouched])
+    if (tested%outputs(5:5) == 's') out(5)%v = spread(untouched, 1, size(state))
+    if (tested%outputs(5:5) == 'b') out(5)%m = reshape([real(wp) ::], shape(states), pad=[untouched])
   end subroutine set_up
 
   include 'calls.f90'
@@ -144,10 +148,10 @@ contains
     before = [state, states]
     failed_item = -1
     call perform()
-    if (procedures(p)%batch) call check(trim(procedures(p)%name)//', '//what//': the failed item', &
+    if (tested%batch) call check(name//what//': the failed item', &
       failed_item == merge(n, 0, expected == MSLIP_BAD_INDEX))
-    call check_status(trim(procedures(p)%name)//': '//what, status, expected)
-    call check(trim(procedures(p)%name)//', '//what//': nothing modified', all([(is_untouched(flat(out(i))), i = 1, size(out))]) &
+    call check_status(name//what, status, expected)
+    call check(name//what//': nothing modified', all([(is_untouched(flat(out(i))), i = 1, size(out))]) &
       .and. all(transfer([state, states], [0_c_int64_t]) == transfer(before, [0_c_int64_t])))
   end subroutine rejected
 
@@ -159,29 +163,29 @@ contains
     call set_up()
     call perform()
     all_outputs = out
-    call check_status(procedures(p)%name, status, MSLIP_OK)
+    call check_status(tested%name, status, MSLIP_OK)
     if (allocated(advanced)) deallocate (advanced)  ! Static variables keep it.
     allocate (advanced, source=[state, states])
     call set_up()
     if (allocated(index)) from_zero = index - one
     call perform_in_c()
-    call check_status(trim(procedures(p)%name)//': C', status, MSLIP_OK)
+    call check_status(name//'C', status, MSLIP_OK)
     do i = 1, size(out)
-      call check_same(trim(procedures(p)%name)//': C', flat(out(i)), flat(all_outputs(i)))
+      call check_same(name//'C', flat(out(i)), flat(all_outputs(i)))
     end do
-    call check(trim(procedures(p)%name)//': C: the same state', all(transfer([state, states], [0_c_int64_t]) == &
+    call check(name//'C: the same state', all(transfer([state, states], [0_c_int64_t]) == &
       transfer(advanced, [0_c_int64_t])))
-    call check(trim(procedures(p)%name)//': all outputs are written', &
+    call check(name//'all outputs are written', &
       .not. any([(size(flat(out(i))) > 0 .and. is_untouched(flat(out(i))), i = 1, size(out))]))
     do subset = 0, 15
       call set_up()
       do i = 1, 4
-        if (procedures(p)%outputs(i:i) == 'o' .and. .not. btest(subset, i - 1)) out(i) = output()
+        if (tested%outputs(i:i) == 'o' .and. .not. btest(subset, i - 1)) out(i) = output()
       end do
       call perform()
-      call check_status(trim(procedures(p)%name)//': a subset of the outputs', status, MSLIP_OK)
+      call check_status(name//'a subset of the outputs', status, MSLIP_OK)
       do i = 1, size(out)
-        if (size(flat(out(i))) > 0) call check_same(trim(procedures(p)%name)//': a subset of the outputs', flat(out(i)), &
+        if (size(flat(out(i))) > 0) call check_same(name//'a subset of the outputs', flat(out(i)), &
           flat(all_outputs(i)))
       end do
     end do
@@ -213,8 +217,8 @@ contains
     end do
     call set_up()
     u = reshape([u], shape(u) + [1, 0], pad=[0.0_wp])
-    if (procedures(p)%memory == 'w') call rejected('coefficients', MSLIP_BAD_COEFFICIENTS)
-    if (procedures(p)%element .and. procedures(p)%memory == 's' .and. procedures(p)%name /= 'element_tractions') then
+    if (tested%memory == 'w') call rejected('coefficients', MSLIP_BAD_COEFFICIENTS)
+    if (tested%element .and. tested%memory == 's' .and. tested%name /= 'element_tractions') then
       call set_up()
       vector = [vector, 0.0_wp]
       vectors = reshape([vectors], [parts + 1, n], pad=[0.0_wp])
@@ -223,7 +227,7 @@ contains
       vectors = vectors(:parts - 1, :)
       call rejected('components', MSLIP_BAD_ARRAY_SIZE)
     end if
-    if (.not. procedures(p)%batch) return
+    if (.not. tested%batch) return
     call set_up()
     index = [index, 1_mslip_int]
     call rejected('size of index', MSLIP_BAD_ARRAY_SIZE)
@@ -237,7 +241,7 @@ contains
     call rejected('size of the input', MSLIP_BAD_ARRAY_SIZE)
     call set_up()
     states = reshape([states], [size(states, 1), n + 1], pad=[0.0_wp])
-    if (procedures(p)%memory == 's') call rejected('number of states', MSLIP_BAD_ARRAY_SIZE)
+    if (tested%memory == 's') call rejected('number of states', MSLIP_BAD_ARRAY_SIZE)
   end subroutine test_sizes
 
   subroutine test_lengths()
@@ -246,12 +250,12 @@ contains
     state = state(:3)
     states = states(:3, :)
     workspace = workspace(:size(workspace) - 1)
-    if (procedures(p)%outputs(5:5) == 's') out(5)%v = out(5)%v(:3)
-    if (procedures(p)%outputs(5:5) == 'b') out(5)%m = out(5)%m(:3, :)
-    if (procedures(p)%memory == 's') call rejected('a truncated state', MSLIP_STATE_TOO_SHORT)
-    if (procedures(p)%memory == 'w') call rejected('a truncated workspace', MSLIP_WORKSPACE_TOO_SHORT)
+    if (tested%outputs(5:5) == 's') out(5)%v = out(5)%v(:3)
+    if (tested%outputs(5:5) == 'b') out(5)%m = out(5)%m(:3, :)
+    if (tested%memory == 's') call rejected('a truncated state', MSLIP_STATE_TOO_SHORT)
+    if (tested%memory == 'w') call rejected('a truncated workspace', MSLIP_WORKSPACE_TOO_SHORT)
     workspace = workspace(:2)
-    if (procedures(p)%memory == 'w') call rejected('a workspace of two values', MSLIP_WORKSPACE_TOO_SHORT)
+    if (tested%memory == 'w') call rejected('a workspace of two values', MSLIP_WORKSPACE_TOO_SHORT)
   end subroutine test_lengths
 
   subroutine test_index()
@@ -266,8 +270,8 @@ contains
     active(n) = 0
     failed_item = -1
     call perform()
-    call check_status(trim(procedures(p)%name)//': an invalid item is skipped', status, MSLIP_OK)
-    call check(trim(procedures(p)%name)//': no failed item', failed_item == -1)
+    call check_status(name//'an invalid item is skipped', status, MSLIP_OK)
+    call check(name//'no failed item', failed_item == -1)
   end subroutine test_index
 
   subroutine test_short_memory()
@@ -280,6 +284,7 @@ contains
     found = -1
     kinds = -1
     p = 1
+    tested = procedures(p)
     call set_up()
     call mslip_state_init(state(:4), status)
     call check_status('initialisation of a short state', status, MSLIP_STATE_TOO_SHORT)
