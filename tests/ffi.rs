@@ -23,7 +23,7 @@ mod random;
 mod values;
 
 use calls::Kind::*;
-use calls::{Arguments, Before, CALLS, Call, FILLED, FLAT, Kind, Law, Memory, N, SPHERE, Slot};
+use calls::{Arguments, CALLS, Call, FILLED, FLAT, Kind, Law, Memory, N, SPHERE, Slot};
 use microslip::ffi::*;
 use std::collections::HashSet;
 use std::ffi::CStr;
@@ -35,7 +35,7 @@ fn is_available(call: &Call, law: &Law) -> bool {
 
 /// Each call with the first law of each number of directions and rule of a workspace: what is rejected depends on no more. Under Miri with
 /// the first one.
-fn for_each_call(test: impl Fn(&Call, &Law)) {
+fn for_each_call(test: impl Fn(&Call, &Law, Arguments)) {
     for call in CALLS {
         let laws = Law::all(call);
         let is_first = |(place, law): &(usize, &Law)| {
@@ -43,7 +43,10 @@ fn for_each_call(test: impl Fn(&Call, &Law)) {
         };
         let first = laws.iter().enumerate().filter(is_first).map(|(_, law)| law);
         let few = if cfg!(miri) { 1 } else { usize::MAX };
-        first.filter(|law| is_available(call, law)).take(few).for_each(|law| test(call, law));
+        first
+            .filter(|law| is_available(call, law))
+            .take(few)
+            .for_each(|law| test(call, law, Arguments::new(call, law)));
     }
 }
 
@@ -156,13 +159,13 @@ fn valid_arguments() {
     for call in CALLS {
         for law in Law::all(call) {
             if !is_available(call, &law) {
-                rejected_as(call, &Arguments::new(call, &law, Before::Filled), MSLIP_NOT_AVAILABLE, "not available");
+                rejected_as(call, &Arguments::new(call, &law), MSLIP_NOT_AVAILABLE, "not available");
                 continue;
             }
             if is_slow(call, &law) {
                 continue;
             }
-            let all = Arguments::new(call, &law, Before::Uninitialised);
+            let all = Arguments::uninitialised(call, &law);
             assert_eq!(call.make(&all.slots), MSLIP_OK, "{}", call.name);
             let expected = results(call, &all);
             check_initialised(call, &all);
@@ -173,7 +176,7 @@ fn valid_arguments() {
                 optional.into_iter().filter(|place| call.arguments[*place].kind != Index).collect();
             // Every subset of the outputs; under Miri none of them.
             for subset in 0..if cfg!(miri) { 1 } else { 1 << omitted.len() } {
-                let mut some = Arguments::new(call, &law, Before::Uninitialised);
+                let mut some = Arguments::uninitialised(call, &law);
                 let left_out = omitted.iter().enumerate().filter(|(i, _)| subset >> i & 1 == 0);
                 left_out.for_each(|(_, place)| some.omit(*place));
                 assert_eq!(call.make(&some.slots), MSLIP_OK, "{}", call.name);
@@ -181,7 +184,7 @@ fn valid_arguments() {
                 assert!(results(call, &some).iter().eq(of_all.map(|(_, values)| values)), "{}: {subset:b}", call.name);
             }
             if let (Some(old), Some(new)) = (call.place(State), call.place(NewState)) {
-                let mut in_place = Arguments::new(call, &law, Before::Uninitialised);
+                let mut in_place = Arguments::uninitialised(call, &law);
                 in_place.slots[new] = in_place.slots[old];
                 assert_eq!(call.make(&in_place.slots), MSLIP_OK, "{}", call.name);
                 assert_eq!(results(call, &in_place), expected, "{}", call.name);
@@ -229,8 +232,7 @@ fn check_initialised(call: &Call, arguments: &Arguments) {
 /// its header or its length, or of the other number of directions.
 #[test]
 fn invalid_arguments() {
-    for_each_call(|call, law| {
-        let mut arguments = Arguments::new(call, law, Before::Filled);
+    for_each_call(|call, law, mut arguments| {
         for (place, argument) in call.arguments.iter().enumerate() {
             if let Some(memory) = &arguments.memory[place] {
                 let misaligned = Slot::Pointer(memory.misaligned());
@@ -333,11 +335,11 @@ fn invalid_memory(call: &Call, law: &Law, arguments: &mut Arguments, place: usiz
 /// An item that is not active is neither checked nor written.
 #[test]
 fn skipped_items() {
-    for_each_call(|call, law| {
+    for_each_call(|call, law, _| {
         let (Some(index), Some(active)) = (call.place(Index), call.place(Active)) else { return };
         // The last item is skipped: its contact is uninitialised, its index invalid, and its values NaN.
         for with_index in [false, true] {
-            let mut arguments = Arguments::new(call, law, Before::Filled);
+            let mut arguments = Arguments::new(call, law);
             arguments.memory_mut(active).values_mut().copy_from_slice(&[1, -1, 0]);
             arguments.memory_mut(index).values_mut().copy_from_slice(&[1, 0, -1]);
             if !with_index {

@@ -355,6 +355,10 @@ pub fn contact(p: &Parameters) -> Law {
 pub fn law_of_contact(is_elliptic: bool, init: impl Fn(*mut mslip_contact) -> i32) -> Law {
     let (memory, bytes) = initialised(init);
     let c: &mslip_contact = &memory.values()[0];
+    law(bytes, is_elliptic, [c.half_width, c.slip_force, c.slip_displacement])
+}
+
+fn law(bytes: Vec<u8>, is_elliptic: bool, [half_width, force, displacement]: [f64; 3]) -> Law {
     Law {
         bytes,
         is_elliptic,
@@ -363,9 +367,9 @@ pub fn law_of_contact(is_elliptic: bool, init: impl Fn(*mut mslip_contact) -> i3
         rule: MSLIP_UNIFORM_SAMPLING,
         harmonics: HARMONICS,
         samples: SAMPLES - usize::from(is_elliptic),
-        half_width: c.half_width,
-        force: c.slip_force,
-        displacement: c.slip_displacement,
+        half_width,
+        force,
+        displacement,
         normal: 0.0,
         approach: 0.0,
         normal_force: 0.0,
@@ -397,22 +401,10 @@ pub fn elements() -> &'static [Law] {
 pub fn element(is_elliptic: bool, init: impl Fn(*mut mslip_element) -> i32) -> Law {
     let (memory, bytes) = initialised(init);
     let e: &mslip_element = &memory.values()[0];
-    let by_force = e.normal_input == MSLIP_INPUT_NORMAL_FORCE;
-    Law {
-        bytes,
-        is_elliptic,
-        directions: e.directions,
-        normal_input: e.normal_input,
-        rule: MSLIP_UNIFORM_SAMPLING,
-        harmonics: HARMONICS,
-        samples: SAMPLES - usize::from(is_elliptic),
-        half_width: e.half_width,
-        force: e.friction_coefficient * e.normal_force,
-        displacement: e.friction_coefficient * e.approach,
-        normal: if by_force { e.normal_force } else { e.approach },
-        approach: e.approach,
-        normal_force: e.normal_force,
-    }
+    let mslip_element { directions, normal_input, normal_force, approach, half_width, friction_coefficient, .. } = *e;
+    let normal = if normal_input == MSLIP_INPUT_NORMAL_FORCE { normal_force } else { approach };
+    let units = [half_width, friction_coefficient * normal_force, friction_coefficient * approach];
+    Law { directions, normal_input, normal, approach, normal_force, ..law(bytes, is_elliptic, units) }
 }
 
 impl Law {
@@ -558,18 +550,19 @@ pub struct Arguments {
     pub memory: Vec<Option<Memory>>,
 }
 
-/// What the memory of outputs holds before a call.
-#[derive(Clone, Copy, PartialEq)]
-pub enum Before {
-    Uninitialised,
-    Filled,
-}
-
 pub const FILLED: u8 = 0x77;
 
 impl Arguments {
-    /// Valid arguments.
-    pub fn new(call: &Call, law: &Law, before: Before) -> Arguments {
+    /// Valid arguments, and outputs that are filled.
+    pub fn new(call: &Call, law: &Law) -> Arguments {
+        let arguments = Arguments::uninitialised(call, law);
+        let written = call.arguments.iter().zip(&arguments.memory).filter(|(argument, _)| argument.kind.is_written());
+        written.filter_map(|(_, memory)| memory.as_ref()).for_each(|memory| memory.fill(FILLED));
+        arguments
+    }
+
+    /// Valid arguments, and outputs that are not.
+    pub fn uninitialised(call: &Call, law: &Law) -> Arguments {
         let mut arguments = Arguments { slots: Vec::new(), memory: Vec::new() };
         let items = call.items();
         for argument in call.arguments {
@@ -612,9 +605,6 @@ impl Arguments {
                 Ok(slot) => (slot, None),
                 Err(memory) => (Slot::Pointer(memory.start), Some(memory)),
             };
-            if let (Some(memory), Before::Filled, true) = (&memory, before, argument.kind.is_written()) {
-                memory.fill(FILLED);
-            }
             arguments.slots.push(slot);
             arguments.memory.push(memory);
         }

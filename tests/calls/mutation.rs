@@ -1,7 +1,7 @@
 //! A call of the table with valid arguments after a random history, of which bytes then change some: values, pointers, lengths, and
 //! memory behind its tags.
 
-use super::{Arguments, Before, CALLS, Call, Kind::*, Law, Memory, Slot};
+use super::{Arguments, CALLS, Call, Kind::*, Law, Memory, Slot};
 use microslip::Error;
 use microslip::ffi::MSLIP_OK;
 
@@ -57,7 +57,7 @@ pub fn mutated_call(bytes: &mut Bytes) {
     let laws = Law::all(call);
     let (harmonics, samples) = (1 + bytes.byte() % 5, 11 + bytes.byte() % 64);
     let law = Law { harmonics, samples, ..laws[bytes.byte() % laws.len()].clone() };
-    let mut arguments = Arguments::new(call, &law, Before::Filled);
+    let mut arguments = Arguments::new(call, &law);
     if call.has(State) {
         walk(bytes, call, &law, &mut arguments);
     }

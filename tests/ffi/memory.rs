@@ -30,7 +30,7 @@ fn laws() -> impl Iterator<Item = (&'static Call, &'static Law)> {
 #[test]
 fn changed_contacts_and_elements() {
     for (check, law) in laws() {
-        let mut arguments = Arguments::new(check, law, Before::Filled);
+        let mut arguments = Arguments::new(check, law);
         let status = check.arguments[0].status;
         let valid = arguments.memory(0).values::<u64>().to_vec();
         let mut expect = |words: &[u64], status: i32| {
@@ -58,8 +58,7 @@ fn changed_contacts_and_elements() {
 /// Shifted memory; counts and sizes that are not allowed; random bytes.
 #[test]
 fn headers_are_checked() {
-    for_each_call(|call, law| {
-        let mut arguments = Arguments::new(call, law, Before::Filled);
+    for_each_call(|call, law, mut arguments| {
         for (place, argument) in call.arguments.iter().enumerate() {
             if !matches!(argument.kind, Contact | Element | State | Workspace) {
                 continue;
@@ -174,7 +173,7 @@ fn states_with_layers_are_valid() {
                 *(if slip_under(load) < edge { &mut low } else { &mut high }) = load;
             }
             for mode in 0..calls::MODES {
-                let mut arguments = Arguments::new(update, &law, Before::Filled);
+                let mut arguments = Arguments::new(update, &law);
                 let [state, new, input] = [State, NewState, Input].map(|kind| update.place(kind).expect("an argument"));
                 let (mut random, mut u, mut load) = (common::Random(mode as u64), 0.0, 0.0);
                 for step in 0..800 {
@@ -263,13 +262,12 @@ fn invalid_states() {
 /// Results depend neither on the unused part of a state, nor on the new one before the call, nor on the scratch memory of a workspace.
 #[test]
 fn unused_memory() {
-    for_each_call(|call, law| {
+    for_each_call(|call, law, mut arguments| {
         let of_element = call.is_of_element();
         let Some(input) = call.place(State).or(call.place(Workspace)) else { return };
         if call.has(Index) || !call.has(Output) || call.name.ends_with("_error") {
             return;
         }
-        let mut arguments = Arguments::new(call, law, Before::Filled);
         let mut used = 4;
         if call.has(State) {
             used = set_filled_state(call, law, &mut arguments, input);
@@ -302,7 +300,7 @@ fn states_of_other_contacts() {
     let (state, _) = filled_state(&calls::contact(&FLAT), false);
     let weak = calls::contact(&microslip::Parameters { friction_coefficient: 0.01, ..FLAT });
     let tractions = call("mslip_masing_tractions");
-    let mut arguments = Arguments::new(tractions, &weak, Before::Filled);
+    let mut arguments = Arguments::new(tractions, &weak);
     arguments.slots[1] = Slot::Size(state.bytes / 8);
     arguments.set(2, state);
     rejected_as(tractions, &arguments, MSLIP_FORCE_EXCEEDS_SLIP, "the state of a stronger contact");
@@ -318,8 +316,8 @@ fn batches_are_single_items() {
             let laws: Vec<Law> =
                 Law::all(batch).into_iter().filter(|law| law.directions == directions && law.rule == 0).collect();
             let law = |i: usize| &laws[i % laws.len()];
-            let items: Vec<Arguments> = (0..N).map(|i| Arguments::new(batch, law(i), Before::Filled)).collect();
-            let mut all = Arguments::new(batch, law(0), Before::Filled);
+            let items: Vec<Arguments> = (0..N).map(|i| Arguments::new(batch, law(i))).collect();
+            let mut all = Arguments::new(batch, law(0));
             let part = |memory: &Memory, i: usize| {
                 memory.values::<u8>()[memory.bytes / N * i..memory.bytes / N * (i + 1)].to_vec()
             };
@@ -341,7 +339,7 @@ fn batches_are_single_items() {
                 kinds.into_iter().flat_map(|kind| places(single, kind).zip(places(batch, kind))).collect::<Vec<_>>()
             };
             for i in 0..N {
-                let mut one = Arguments::new(single, law(index[i]), Before::Filled);
+                let mut one = Arguments::new(single, law(index[i]));
                 for (to, from) in pairs([State, Input]) {
                     one.set(to, Memory::of(&part(all.memory(from), i)));
                 }
@@ -368,10 +366,10 @@ fn batches_are_single_items() {
 /// One invalid index, or fewer contacts than items: nothing is written.
 #[test]
 fn invalid_items() {
-    for_each_call(|call, law| {
+    for_each_call(|call, law, _| {
         let Some(index) = call.place(Index) else { return };
         for bad in 0..N {
-            let mut arguments = Arguments::new(call, law, Before::Filled);
+            let mut arguments = Arguments::new(call, law);
             arguments.memory_mut(index).values_mut().copy_from_slice(&[0, 1, 2]);
             for code in [-1, N as i32, i32::MAX, i32::MIN] {
                 arguments.memory_mut(index).values_mut::<i32>()[bad] = code;
@@ -380,7 +378,7 @@ fn invalid_items() {
             arguments.memory_mut(index).values_mut::<i32>()[bad] = bad as i32;
         }
         // Fewer contacts than items, with an index or without.
-        let mut arguments = Arguments::new(call, law, Before::Filled);
+        let mut arguments = Arguments::new(call, law);
         let count = call.place(Laws).expect("a number of contacts");
         for _ in 0..2 {
             (0..N).for_each(|n| rejected(call, &mut arguments, count, Slot::Size(n), MSLIP_BAD_INDEX));
@@ -392,12 +390,12 @@ fn invalid_items() {
 /// Two items are at fault, each in one of its arguments: the first one is reported.
 #[test]
 fn first_item_at_fault() {
-    for_each_call(|call, law| {
+    for_each_call(|call, law, _| {
         let Some(index) = call.place(Index) else { return };
         let of_item = |place: &usize| matches!(call.arguments[*place].kind, Index | Contact | Element | State | Input);
         let places: Vec<usize> = (0..call.arguments.len()).filter(of_item).collect();
         for (first, second) in places.iter().flat_map(|first| places.iter().map(move |second| (*first, *second))) {
-            let mut arguments = Arguments::new(call, law, Before::Filled);
+            let mut arguments = Arguments::new(call, law);
             arguments.memory_mut(index).values_mut().copy_from_slice(&[0, 1, 2]);
             for (item, place) in [(1, first), (2, second)] {
                 let memory = arguments.memory_mut(place);

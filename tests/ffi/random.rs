@@ -144,7 +144,7 @@ fn random_laws_in_all_rounding_modes() {
                 |call: &&Call| call.has(if is_element { Element } else { Contact }) && is_available(call, &law);
             for call in CALLS.iter().filter(|call| call.has(Output) && !call.is_sliders()).filter(of_law) {
                 let mode = random.below(calls::MODES);
-                let mut arguments = Arguments::new(call, &law, Before::Filled);
+                let mut arguments = Arguments::new(call, &law);
                 for _ in 0..if call.has(State) { 4 } else { 1 } {
                     for (place, argument) in call.arguments.iter().enumerate() {
                         if !matches!(argument.kind, Value | Input) {

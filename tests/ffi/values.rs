@@ -92,7 +92,7 @@ fn for_each_law(test: impl Fn(&'static Call, &Law)) {
 #[test]
 fn values() {
     for_each_law(|call, law| {
-        let mut arguments = Arguments::new(call, law, Before::Filled);
+        let mut arguments = Arguments::new(call, law);
         for (place, argument) in call.arguments.iter().enumerate() {
             let count = match argument.kind {
                 Value => 1,
@@ -143,8 +143,7 @@ fn sizes_and_choices() {
         (2, usize::MAX / 2 + 1, MSLIP_BAD_SAMPLES),
         (MOST / 2 - 1, MOST, MSLIP_WORKSPACE_TOO_SHORT),
     ];
-    for_each_call(|call, law| {
-        let mut arguments = Arguments::new(call, law, Before::Filled);
+    for_each_call(|call, _, mut arguments| {
         let place = |name: &str| call.arguments.iter().position(|argument| argument.name == name);
         let of_element = call.is_of_element();
         let length = |arguments: &Arguments| {
@@ -200,7 +199,7 @@ fn sizes_and_choices() {
     assert!([0, 3, -1, i32::MAX, i32::MIN].iter().all(|directions| mslip_element_state_length(*directions, 4) == 0));
     for n in [0, 65537, 1_000_000, usize::MAX / 16] {
         let (call, law) = (call("mslip_iwan_equivalent"), &calls::contacts()[0]);
-        let mut arguments = Arguments::new(call, law, Before::Filled);
+        let mut arguments = Arguments::new(call, law);
         rejected(call, &mut arguments, 1, Slot::Size(n), MSLIP_BAD_COUNT);
     }
 }
@@ -278,7 +277,7 @@ fn extreme(call: &Call, arguments: &Arguments, what: &str) {
 fn parameters() {
     const EXTREMES: [f64; 11] = [LEAST, 1e-310, 1e-300, 1e-200, 1e-160, 1e-100, 1e100, 1e160, 1e200, 1e300, f64::MAX];
     for_each_shape(|call, law, fields| {
-        let mut arguments = Arguments::new(call, law, Before::Filled);
+        let mut arguments = Arguments::new(call, law);
         for (i, (status, zero_is_valid, largest)) in fields.iter().enumerate() {
             let non_finite = NON_FINITE.map(f64::from_bits).into_iter();
             let zero = [0.0, -0.0].into_iter().filter(|_| !zero_is_valid);
@@ -313,7 +312,7 @@ fn combinations() {
         if law.normal_input == MSLIP_INPUT_NORMAL_FORCE && call.has(NewElement) {
             return;
         }
-        let mut arguments = Arguments::new(call, law, Before::Filled);
+        let mut arguments = Arguments::new(call, law);
         let words = arguments.memory(0).bytes / 4;
         let mut code = |place: usize, code: i32, status: i32| {
             let valid = std::mem::replace(&mut arguments.memory_mut(0).values_mut::<i32>()[place], code);
