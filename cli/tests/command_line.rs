@@ -95,6 +95,11 @@ impl Shell {
         String::from_utf8(output.stdout).unwrap()
     }
 
+    /// Checks that the command in the second line of a table gives the same table.
+    fn check_repeated(&self, table: &str) {
+        assert_eq!(self.stdout(table.lines().nth(1).unwrap().strip_prefix("# ").unwrap()), table);
+    }
+
     /// Checks that a command fails with this exit status, a message that contains the text, and no other output.
     fn check_error(&self, script: &str, status: i32, text: &str) {
         let output = self.run(script);
@@ -364,7 +369,7 @@ fn tables_of_other_programs_are_read() {
             assert!((value / expected - 1.0).abs() < 3e-16, "{table}: {value}");
         }
         assert_eq!(numbers(&result).len(), 2, "{table}");
-        assert_eq!(shell.stdout(result.lines().nth(1).unwrap().strip_prefix("# ").unwrap()), result);
+        shell.check_repeated(&result);
         let utf16: Vec<u8> = table.encode_utf16().flat_map(u16::to_le_bytes).collect();
         shell.write("table.csv", utf16);
         assert_eq!(shell.stdout(&command), result);
@@ -528,7 +533,7 @@ fn a_fit_recovers_the_contact_of_its_loops() {
     let command =
         format!("microslip fit flat.toml {measured} {options} --fitted new.toml --json new.json --plot new.svg");
     let table = shell.stdout(&command);
-    assert_eq!(shell.stdout(table.lines().nth(1).unwrap().strip_prefix("# ").unwrap()), table);
+    shell.check_repeated(&table);
     check_picture(&shell.0.join("new.svg"));
     let shape = 5e-5 / flat().half_width;
     for (name, expected) in [
@@ -633,7 +638,7 @@ fn layers_follow_from_measured_stiffnesses_and_from_the_roughness() {
         ("--measured-stiffness 2e7,3e7 --at 75,150", (3e7, &initial, 150.0)),
     ] {
         let table = shell.stdout(&format!("microslip layer flat.toml {given}"));
-        assert_eq!(shell.stdout(table.lines().nth(1).unwrap().strip_prefix("# ").unwrap()), table);
+        shell.check_repeated(&table);
         let lines = table
             .lines()
             .filter_map(|line| line.strip_prefix("# ").filter(|line| line.contains("e = ") || line.contains("d = ")));
@@ -685,7 +690,7 @@ fn the_command_in_a_result_repeats_it() {
             "loop contact.toml --points 4 --normal-amplitude 0.3 --phase 0,-45 --relative --amplitude 0.7",
         ] {
             let table = shell.stdout(&format!("microslip {command}"));
-            assert_eq!(shell.stdout(table.lines().nth(1).unwrap().strip_prefix("# ").unwrap()), table);
+            shell.check_repeated(&table);
         }
     }
     let curves = ["contact.toml", "$ELLIPSE"].map(|given| shell.stdout(&format!("microslip curve {given}")));
