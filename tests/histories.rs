@@ -13,7 +13,6 @@ use microslip::law::{StepOf, StepResult};
 use microslip::one_direction::harmonic_force as line;
 use microslip::one_direction::tractions::tractions;
 use microslip::one_direction::{self as varying, OneDirection};
-use microslip::parameters::CENTRE_POINT;
 use microslip::two_directions::TwoDirections;
 use microslip::{Contact, EllipticParameters, Error, Layer, Material, Parameters};
 use std::f64::consts::{PI, TAU};
@@ -22,7 +21,6 @@ const NORMAL_FORCE: f64 = 800.0;
 const FRICTION: f64 = 0.5;
 const SLIP_FORCE: f64 = FRICTION * NORMAL_FORCE;
 const LENGTH: f64 = 20e-3;
-const MATERIAL: [Material; 2] = [Material { young_modulus: 2e11, poisson_ratio: 0.3 }; 2];
 
 /// Parameters of a contact: a flat with rounded edges, or an ellipse.
 #[derive(Clone, Copy, Debug)]
@@ -35,25 +33,19 @@ impl Input {
     /// A flat of this half-width.
     fn flat(flat_half_width: f64) -> Input {
         Input::Flat(Parameters {
-            flat_half_width,
             edge_radius: 3e-3,
             length: LENGTH,
             normal_force: NORMAL_FORCE,
             friction_coefficient: FRICTION,
-            material: MATERIAL,
-            displacement_reference: CENTRE_POINT,
-            ..Parameters::default()
+            ..common::two_directions::parameters(flat_half_width)
         })
     }
 
     fn ellipse(semi_axis_x: f64, semi_axis_y: f64) -> Input {
         Input::Ellipse(EllipticParameters {
-            semi_axis_x,
-            semi_axis_y,
             normal_force: NORMAL_FORCE,
             friction_coefficient: FRICTION,
-            material: MATERIAL,
-            ..EllipticParameters::default()
+            ..common::two_directions::elliptic_parameters(semi_axis_x, semi_axis_y)
         })
     }
 
@@ -356,10 +348,7 @@ fn static_displacements_of_elements_are_those_of_contacts() {
         let beyond = element.check_static(1.001 * contact.slip_force, normal_force);
         assert_eq!(beyond, Err(Error::ForceExceedsSlip));
     };
-    let layer =
-        Layer { normal_compliance: 1e-9, tangential_compliance: 5e-9, stiffening_load: 30.0, reference_load: 0.0 };
-    let shapes = [Input::flat(0.0), Input::flat(6e-5), Input::flat(5e-4), Input::ellipse(1e-4, 2e-4)];
-    for input in shapes.into_iter().chain(shapes.map(|input| input.with_layer(layer))) {
+    for input in inputs(&[(1.0, 0.04)]) {
         for normal_input in [NormalInput::Approach, NormalInput::Force] {
             let (contact, element) = (input.contact(), input.element(Directions::One, normal_input));
             // A rise of the load that is mostly rounding.
