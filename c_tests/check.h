@@ -5,6 +5,7 @@
 #if defined(__linux__) && !defined(_GNU_SOURCE)
 #define _GNU_SOURCE /* feenableexcept */
 #endif
+#include <microslip.h>
 #include <fenv.h>
 #include <math.h>
 #include <stdio.h>
@@ -47,6 +48,22 @@ static inline int check_near(double got, double want, double tolerance, const ch
 
 #define CHECK_NEAR(got, want, tolerance) check_near((got), (want), (tolerance), __FILE__, __LINE__, #got)
 #define CHECK_RELATIVE(got, want, tolerance) CHECK_NEAR((got), (want), (tolerance) * fabs(want))
+
+/* A flat of this half-width under 60 N, of two equal bodies. */
+static inline mslip_parameters flat_parameters(double flat_half_width, double poisson_ratio)
+{
+    mslip_parameters p;
+    mslip_parameters_default(&p);
+    p.flat_half_width = flat_half_width;
+    p.edge_radius = 5e-3;
+    p.length = 2e-2;
+    p.normal_force = 60.0;
+    p.friction_coefficient = 0.5;
+    p.displacement_reference = MSLIP_CENTRE_POINT;
+    p.material[0].young_modulus = p.material[1].young_modulus = 2e11;
+    p.material[0].poisson_ratio = p.material[1].poisson_ratio = poisson_ratio;
+    return p;
+}
 
 /* With `--trap`, invalid operations, divisions by zero and overflows end the program; on processors without traps, as most of the
    Arm architecture, they fail the last check. Returns the index of the next argument. */

@@ -20,18 +20,7 @@ static void make_calls(int32_t directions)
     const size_t m = (size_t)directions + 1;
     double energy, steps[][3] = { { 0.0, 0.0, 0.0 }, { 1e-8, 1e-8, 1e-8 }, { 0.1, 0.3, 0.7 }, { -0.1, 0.1, 0.9 }, { 9.0, 5.0, 0.2 } };
     double motion[COEFFICIENTS] = { 0.1, 0.7, 0.2, 0.0, 0.3, 0.4, 0.5, 0.2, 0.1 };
-    mslip_parameters p;
-    mslip_parameters_default(&p);
-    p.flat_half_width = 1e-4;
-    p.edge_radius = 5e-3;
-    p.length = 2e-2;
-    p.normal_force = 60.0;
-    p.friction_coefficient = 0.5;
-    p.displacement_reference = MSLIP_CENTRE_POINT;
-    for (int body = 0; body < 2; ++body) {
-        p.material[body].young_modulus = 2e11;
-        p.material[body].poisson_ratio = 0.3;
-    }
+    mslip_parameters p = flat_parameters(1e-4, 0.3);
     OK(mslip_contact_init(&p, &contact));
     p.layer.tangential_compliance = p.layer.normal_compliance = 1.0 / contact.initial_stiffness;
     p.layer.stiffening_load = 1.0;

@@ -25,9 +25,8 @@ contains
     type(mslip_parameters) :: p
     integer(mslip_int) :: status
 
-    p = mslip_parameters(flat_half_width=0.0_wp, edge_radius=5.0e-3_wp, length=3.67e-2_wp, normal_force=2268.49_wp, &
-      friction_coefficient=0.647_wp, material=spread(mslip_material(1.14e11_wp, 0.29_wp), 1, 2), &
-      displacement_reference=MSLIP_CENTRE_POINT)
+    p = flat_parameters(1)
+    p%flat_half_width = 0
     call mslip_contact_init(p, cylinder, status)
     call check_status('initialise the cylinder', status, MSLIP_OK)
     call check('no warning', mslip_parameters_warning(p, 1_mslip_int) == '' .and. mslip_parameters_warning(p, 0_mslip_int) == '')
@@ -190,37 +189,24 @@ contains
     call check_status('no states', status, MSLIP_OK)
   end subroutine test_strides
 
-  function element_of(normal_input) result(element)
-    ! The geometry and materials of a history of the reference table.
-    integer(mslip_int), intent(in) :: normal_input
-    type(mslip_element) :: element
-
-    type(mslip_parameters) :: p
-    integer(mslip_int) :: status
-
-    p = mslip_parameters(flat_half_width=1.75081e-4_wp, edge_radius=8.63e-3_wp, length=1.23e-3_wp, normal_force=17.0_wp, &
-      friction_coefficient=0.35_wp, material=spread(mslip_material(6.2e11_wp, 0.22_wp), 1, 2), &
-      displacement_reference=MSLIP_CENTRE_POINT)
-    call mslip_element_init(p, 1_mslip_int, normal_input, element, status)
-    call check_status('initialise an element', status, MSLIP_OK)
-  end function element_of
-
   subroutine test_element_curve()
     ! At the normal force of the parameters the curve begins with the tangential stiffness; a point alone has the bits of several.
     type(mslip_element) :: element
     real(wp) :: displacement(2), compliance(2), one(2)
     integer(mslip_int) :: status
 
-    element = element_of(MSLIP_INPUT_APPROACH)
-    call mslip_element_displacement(element, 0_mslip_int, [0.0_wp, 3.0_wp], [17.0_wp, 12.0_wp], status, displacement, compliance)
+    call mslip_element_init(flat_parameters(1), 1_mslip_int, MSLIP_INPUT_APPROACH, element, status)
+    call check_status('initialise an element', status, MSLIP_OK)
+    call mslip_element_displacement(element, 0_mslip_int, [0.0_wp, 100.0_wp], [800.0_wp, 600.0_wp], status, displacement, &
+      compliance)
     call check_status('element: curve', status, MSLIP_OK)
     call check_same('element: no force', displacement(1:1), [0.0_wp])
     call check_close('element: initial compliance', compliance(1)*element%tangential_stiffness, 1.0_wp, tight)
-    call mslip_element_displacement(element, 0_mslip_int, 3.0_wp, 12.0_wp, status, one(1), one(2))
+    call mslip_element_displacement(element, 0_mslip_int, 100.0_wp, 600.0_wp, status, one(1), one(2))
     call check_same('element: one point of the curve', one, [displacement(2), compliance(2)])
-    call mslip_element_displacement(element, 1_mslip_int, 3.0_wp, 12.0_wp, status)
+    call mslip_element_displacement(element, 1_mslip_int, 100.0_wp, 600.0_wp, status)
     call check_status('element: no second direction', status, MSLIP_BAD_DIRECTIONS)
-    call mslip_element_displacement(element, 0_mslip_int, [3.0_wp], [17.0_wp, 12.0_wp], status)
+    call mslip_element_displacement(element, 0_mslip_int, [100.0_wp], [800.0_wp, 600.0_wp], status)
     call check_status('element: a normal force for each force', status, MSLIP_BAD_ARRAY_SIZE)
   end subroutine test_element_curve
 
@@ -234,12 +220,13 @@ contains
     integer(mslip_int) :: status
     integer :: i
 
-    element = element_of(MSLIP_INPUT_NORMAL_FORCE)
+    call mslip_element_init(flat_parameters(1), 1_mslip_int, MSLIP_INPUT_NORMAL_FORCE, element, status)
+    call check_status('initialise an element', status, MSLIP_OK)
     call check('size of an element: no padding', storage_size(element) == 64*(8 + size(element%reserved)))
     call check('fields of an element', element%directions == 1 .and. element%normal_input == MSLIP_INPUT_NORMAL_FORCE)
-    call check_same('fields of an element', [element%friction_coefficient, element%normal_force], [0.35_wp, 17.0_wp])
-    displacement(1, :) = [(1.0e-8_wp*sin(1.7_wp*i), i = 1, steps)]
-    displacement(2, :) = [(max(9.0_wp + 10.0_wp*sin(0.9_wp*i), 0.0_wp), i = 1, steps)]
+    call check_same('fields of an element', [element%friction_coefficient, element%normal_force], [0.5_wp, 800.0_wp])
+    displacement(1, :) = [(5.0e-7_wp*sin(1.7_wp*i), i = 1, steps)]
+    displacement(2, :) = [(max(450.0_wp + 500.0_wp*sin(0.9_wp*i), 0.0_wp), i = 1, steps)]
     call mslip_element_state_init(1_mslip_int, start, status)
     call check_status('initialise the state of an element', status, MSLIP_OK)
     last = start
