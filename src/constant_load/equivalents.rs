@@ -226,7 +226,7 @@ fn root(function: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::constant_load::contact::tests::{contact, ellipse};
+    use crate::constant_load::contact::tests::{contact, ellipse, elliptic};
     use crate::parameters::{EllipticParameters, Material};
     use std::vec::Vec;
 
@@ -250,12 +250,10 @@ mod tests {
     #[test]
     fn jenkins_is_constant_at_the_largest_amplitudes() {
         let contact = Contact::elliptic(&EllipticParameters {
-            semi_axis_x: 1e-3,
-            semi_axis_y: 1e-3,
             normal_force: 1e-10,
             friction_coefficient: 1e-10,
             material: [Material { young_modulus: 1e60, poisson_ratio: 0.3 }; 2],
-            ..EllipticParameters::default()
+            ..elliptic(1e-3, 1e-3)
         })
         .unwrap();
         let of = |times: f64| jenkins(&contact, times * contact.slip_displacement).unwrap();

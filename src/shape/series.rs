@@ -113,21 +113,13 @@ fn composed(y: &Series, powers: &[Series; ORDER]) -> Series {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::constant_load::contact::tests::{TITANIUM, parameters};
-    use crate::parameters::EllipticParameters;
+    use crate::constant_load::contact::tests::{elliptic, parameters};
     use crate::shape::{Geometry, LayerCompliance};
 
     #[test]
     fn the_curvature_of_the_load_is_that_of_its_series() {
         let shapes = [parameters(0.0), parameters(50e-6), parameters(3e-3)].map(|flat| flat.shape().unwrap());
-        let ellipse = EllipticParameters {
-            semi_axis_x: 1e-4,
-            semi_axis_y: 2e-4,
-            normal_force: 150.0,
-            material: [TITANIUM; 2],
-            ..EllipticParameters::default()
-        };
-        for bare in shapes.into_iter().chain([ellipse.shape().unwrap()]) {
+        for bare in shapes.into_iter().chain([elliptic(1e-4, 2e-4).shape().unwrap()]) {
             for stiffening_load in [f64::NAN, 0.0, 150.0, 1.5] {
                 let mut shape = bare;
                 if stiffening_load >= 0.0 {

@@ -1,5 +1,5 @@
 use super::*;
-use crate::constant_load::contact::tests::{FLATS, ellipse, parameters};
+use crate::constant_load::contact::tests::{FLATS, ellipse, elliptic, parameters};
 use crate::parameters::{CENTRE_POINT, EllipticParameters, Layer, Material, Parameters, RIGID_STRIP};
 use std::vec::Vec;
 
@@ -33,12 +33,11 @@ fn sphere(stiffening_load: f64) -> impl Fn(Sensitivity) -> Contact {
         let young_modulus = factor * parameters(0.0).material[0].young_modulus;
         let semi_axis = (0.75 * normal_force * radius / (factor * modulus)).cbrt();
         Contact::elliptic(&EllipticParameters {
-            semi_axis_x: semi_axis,
-            semi_axis_y: semi_axis,
             normal_force,
             friction_coefficient,
             material: [Material { young_modulus, ..parameters(0.0).material[0] }; 2],
             layer: Layer { tangential_compliance, stiffening_load, reference_load: 80.0, ..Layer::none() },
+            ..elliptic(semi_axis, semi_axis)
         })
         .unwrap()
     }
