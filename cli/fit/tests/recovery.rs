@@ -122,9 +122,8 @@ fn loops_at_several_loads_and_another_radius() {
     assert_recovered(report.contact_compliance, 1.25, "contact compliance");
     assert_eq!(report.series_compliance.status, Status::Fixed);
     // The file has the modulus and the radius divided by the factor.
-    let line = report.contact_toml.lines().find(|line| line.starts_with("edge_radius")).unwrap();
-    let radius: f64 = line.split(" = ").nth(1).unwrap().parse().unwrap();
-    assert!((radius / (50e-3 / report.contact_compliance.value) - 1.0).abs() < 1e-3, "{line}");
+    let radius = fitted(&report, "edge_radius").unwrap();
+    assert!((radius / (50e-3 / report.contact_compliance.value) - 1.0).abs() < 1e-3, "{radius}");
 }
 
 /// Report of three loops under loads up to 800 N in the ratio of 1 to `range`: of a contact with a layer of this N_c, or with a
@@ -163,14 +162,11 @@ fn a_series_stiffness_that_grows_with_the_load_is_seen_from_several_loads() {
     assert!(hits.iter().all(|hits| *hits >= least(results.len())), "{hits:?}");
 
     // The file has the layer; a constant stiffness has no N_c.
-    let number = |report: &Report, name: &str| -> Option<f64> {
-        report.contact_toml.lines().find_map(|line| line.strip_prefix(name)?.strip_prefix(" = ")?.parse().ok())
-    };
     let (report, compliance) = layered(Some(400.0), 8.0, 1);
-    assert!((number(&report, "stiffening_load").unwrap() / 400.0 - 1.0).abs() < 0.02, "{}", report.contact_toml);
-    assert!((number(&report, "tangential_compliance").unwrap() / compliance - 1.0).abs() < 0.02);
+    assert!((fitted(&report, "stiffening_load").unwrap() / 400.0 - 1.0).abs() < 0.02, "{}", report.contact_toml);
+    assert!((fitted(&report, "tangential_compliance").unwrap() / compliance - 1.0).abs() < 0.02);
     let (report, _) = layered(None, 8.0, 1);
-    assert!(number(&report, "stiffening_load").is_none() && says(&report, "A constant series stiffness explains all"));
+    assert!(fitted(&report, "stiffening_load").is_none() && says(&report, "A constant series stiffness explains all"));
     // One load shows nothing of it.
     let (report, _) = layered(None, 1.0, 1);
     assert_eq!((report.series_stiffening.status, report.series_stiffening.value), (Status::Fixed, 0.0));
@@ -312,8 +308,7 @@ fn faults_of_records_are_removed() {
             })
         }),
     ];
-    let document =
-        std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/identification.md")).unwrap();
+    let document = std::fs::read_to_string(DOCUMENT).unwrap();
     for (row, change) in cases {
         let mut one = measured(&flat(), &Rig { noise: [2e-3, 1e-5], amplitude: 2.0, ..RIG }, &mut Random::new(11));
         change(&mut one);
@@ -329,26 +324,14 @@ fn faults_of_records_are_removed() {
 /// be a hundredth, and the given friction coefficient if no loop has gross slip.
 #[test]
 fn the_fitted_file_is_neutral_in_what_the_loops_do_not_determine() {
-    let geometry = |flat_half_width| Geometry::Flat {
-        flat_half_width,
-        edge_radius: 10e-3,
-        length: 12e-3,
-        displacement_reference: microslip_fit::DisplacementReference::CentrePoint,
-    };
-    let contact = |a, friction_coefficient| Contact {
-        geometry: geometry(a),
-        normal_force: 150.0,
-        friction_coefficient,
-        material: [STEEL; 2],
+    let contact = |flat_half_width, friction_coefficient| {
+        let displacement_reference = microslip_fit::DisplacementReference::CentrePoint;
+        let geometry = Geometry::Flat { flat_half_width, edge_radius: 10e-3, length: 12e-3, displacement_reference };
+        Contact { geometry, normal_force: 150.0, friction_coefficient, material: [STEEL; 2] }
     };
     let mut neutral = 0;
-    for (seed, amplitudes, written) in [
-        (0, [1.0, 3.0], 0.47),
-        (1, [1.0, 3.0], 0.47),
-        (2, [1.0, 3.0], 0.47),
-        (3, [0.3, 0.5], 0.6),
-        (4, [0.3, 0.5], 0.6),
-    ] {
+    for seed in 0..5 {
+        let (amplitudes, written) = if seed < 3 { ([1.0, 3.0], 0.47) } else { ([0.3, 0.5], 0.6) };
         let (truth, mut random) = (contact(0.5e-3, 0.47), Random::new(seed));
         let series_compliance = 0.5 / library_contact(&truth, 100.0).initial_stiffness;
         let loops = [100.0, 200.0].into_iter().flat_map(|normal_force| {
@@ -357,13 +340,11 @@ fn the_fitted_file_is_neutral_in_what_the_loops_do_not_determine() {
         let loops: Vec<_> = loops.map(|rig| measured(&truth, &rig, &mut random)).collect();
         let report = fit(&contact(0.2e-3, 0.6), &loops, &Options::default()).unwrap();
         let text = &report.contact_toml;
-        let number = |key: &str| -> f64 {
-            text.lines().find_map(|line| line.strip_prefix(key)?.strip_prefix(" = ")?.parse().ok()).unwrap()
-        };
-        let mut fitted = library_parameters(&contact(number("flat_half_width"), 0.47), number("normal_force"));
-        fitted.friction_coefficient = number("friction_coefficient");
-        assert_eq!(fitted.warnings(None).count(), 0, "{text}");
-        assert!((fitted.friction_coefficient / written - 1.0).abs() < 0.01, "{text}");
+        let number = |key| fitted(&report, key).unwrap();
+        let of_file = contact(number("flat_half_width"), number("friction_coefficient"));
+        let parameters = library_parameters(&of_file, number("normal_force"));
+        assert_eq!(parameters.warnings(None).count(), 0, "{text}");
+        assert!((parameters.friction_coefficient / written - 1.0).abs() < 0.01, "{text}");
         let is_open = report.friction_coefficient.status == Status::LowerBound;
         assert!(
             is_open == (written == 0.6) && is_open == text.contains("do not determine friction_coefficient"),

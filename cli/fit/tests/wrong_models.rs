@@ -271,8 +271,7 @@ fn without_a_plateau_friction_has_a_lower_bound() {
         let reports = of_drawn_seeds(FITS, |seed| {
             let mut drawn = Drawn::new(seed);
             let mut loops = drawn.loops(amplitudes);
-            let carried =
-                loops.iter().flat_map(|one| &one.force).fold(0.0, |most: f64, force| most.max(*force / 800.0));
+            let carried = loops.iter().flat_map(|one| &one.force).copied().fold(0.0, f64::max) / 800.0;
             loops.iter_mut().for_each(|one| drawn.disturb(one));
             let contact = Contact { friction_coefficient: 0.4, ..drawn.contact.clone() };
             let report = fit(&contact, &loops, &drawn.options(seed / 6 % 6)).unwrap();

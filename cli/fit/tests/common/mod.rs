@@ -10,6 +10,8 @@ use std::{env, fs, thread};
 /// Fits of each kind for the tables of the document: `make identification`.
 const ALL: usize = 200;
 
+pub const DOCUMENT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/identification.md");
+
 /// A number from the environment.
 pub fn variable(name: &str) -> Option<usize> {
     env::var(name).ok().map(|value| value.parse().expect("a number"))
@@ -42,10 +44,14 @@ pub fn says(report: &Report, text: &str) -> bool {
     report.verdict.iter().any(|sentence| sentence.contains(text))
 }
 
+/// A number of the file of the fitted contact.
+pub fn fitted(report: &Report, key: &str) -> Option<f64> {
+    report.contact_toml.lines().find_map(|line| line.strip_prefix(key)?.strip_prefix(" = ")?.parse().ok())
+}
+
 /// The rows of a table of the document, each with its number of fits. All fits write it; of fewer, the counts must be those of a part.
 pub fn check_table(name: &str, rows: &[(usize, String)]) {
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/identification.md");
-    let text = fs::read_to_string(path).unwrap();
+    let text = fs::read_to_string(DOCUMENT).unwrap();
     let ends = ["begin", "end"].map(|end| format!("<!-- {name}: {end} -->"));
     let mut lines: Vec<_> = text.lines().collect();
     let [begin, end] = ends.map(|end| lines.iter().position(|line| line.trim() == end).unwrap());
@@ -65,7 +71,7 @@ pub fn check_table(name: &str, rows: &[(usize, String)]) {
     }
     let rows: Vec<_> = rows.iter().map(|(_, row)| format!("{indent}{row}")).collect();
     lines.splice(table, rows.iter().map(String::as_str));
-    fs::write(path, lines.join("\n") + "\n").unwrap();
+    fs::write(DOCUMENT, lines.join("\n") + "\n").unwrap();
 }
 
 pub const STEEL: Material = Material { young_modulus: 2e11, poisson_ratio: 0.3 };
