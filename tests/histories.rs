@@ -409,12 +409,8 @@ fn steps_of_no_length_keep_the_state() {
             let mut memory = History::new(&one, 64);
             let [_, last, again] = [0.0, u, u].map(|u| memory.step(u, NORMAL_FORCE));
             assert_eq!((last.force, last.tangent, 0.0), (again.force, again.tangent, again.dissipated), "{input:?}");
-            let mut state = vec![0.0; TwoDirections::STATE_LENGTH];
-            TwoDirections::state_init(&mut state).unwrap();
-            let mut step = |u: f64| {
-                let step = TwoDirections::step(&two, &mut state, [u, 0.0, NORMAL_FORCE]).unwrap();
-                (step, state.clone())
-            };
+            let mut contact = common::two_directions::Contact::new(&two);
+            let mut step = |u: f64| (contact.to([u, 0.0, NORMAL_FORCE]), contact.state.clone());
             let [_, (last, kept), (again, unchanged)] = [0.0, u, u].map(&mut step);
             assert_eq!((last.force, 0.0, kept), (again.force, again.dissipated, unchanged), "{input:?}");
             // The springs have the stiffness of the element to the error of their number.
@@ -624,16 +620,20 @@ struct Restarts {
 }
 
 impl Restarts {
-    /// Rejects the state, or all later forces are right: with 17 digits to the bit.
+    /// After the first part of a path the state as text is rejected, or all later forces are right: with 17 digits to the bit.
     fn check<L: Law>(
         &mut self,
-        (item, state): (&L::Item, &[f64]),
-        later: &[L::Vector],
+        item: &L::Item,
+        mut state: Vec<f64>,
+        (first, later): (&[L::Vector], &[L::Vector]),
         number_of_digits: &[usize],
         change: impl Fn(&StepOf<L>, &StepOf<L>) -> f64,
     ) {
+        for to in first {
+            L::step(item, &mut state, *to).unwrap();
+        }
         for &digits in number_of_digits {
-            let (mut text, mut exact) = (as_text(state, digits), state.to_vec());
+            let (mut text, mut exact) = (as_text(&state, digits), state.clone());
             if let Err(error) = L::state_check(&text) {
                 assert!(digits < 17 && error == Error::BadState, "{digits}: {error}");
                 self.rejected[digits - 15] += 1;
@@ -703,22 +703,24 @@ fn states_as_text_are_right_or_rejected() {
             })
             .collect();
 
-        let (mut state, displacements) = (unloaded(capacity), path.iter().map(|[u, ..]| *u).collect::<Vec<_>>());
-        displacements[..steps].iter().for_each(|u| _ = advance(contact, &mut state, *u));
-        constant.check::<ConstantLoad>((contact, &state), &displacements[steps..], &ALL, |step, other| {
-            (step.force - other.force).abs()
-        });
-
-        let (mut history, on_line) =
-            (History::new(one, capacity), path.iter().map(|[u, _, w]| [*u, *w]).collect::<Vec<_>>());
-        on_line[..steps].iter().for_each(|[u, w]| _ = history.step(*u, *w));
-        line.check::<OneDirection>((one, &history.state), &on_line[steps..], &ALL, |step, other| {
-            (step.force[0] - other.force[0]).abs()
-        });
-
-        let mut contact = common::two_directions::Contact::new(two);
-        path[..steps].iter().for_each(|to| _ = contact.to(*to));
-        plane.check::<TwoDirections>((two, &contact.state), &path[steps..], &ALL[number % 3..][..1], |step, other| {
+        let displacements: Vec<f64> = path.iter().map(|[u, ..]| *u).collect();
+        constant.check::<ConstantLoad>(
+            contact,
+            unloaded(capacity),
+            displacements.split_at(steps),
+            &ALL,
+            |step, other| (step.force - other.force).abs(),
+        );
+        let on_line: Vec<[f64; 2]> = path.iter().map(|[u, _, w]| [*u, *w]).collect();
+        line.check::<OneDirection>(
+            one,
+            History::new(one, capacity).state,
+            on_line.split_at(steps),
+            &ALL,
+            |step, other| (step.force[0] - other.force[0]).abs(),
+        );
+        let (state, digits) = (common::two_directions::Contact::new(two).state, &ALL[number % 3..][..1]);
+        plane.check::<TwoDirections>(two, state, path.split_at(steps), digits, |step, other| {
             (step.force[0] - other.force[0]).hypot(step.force[1] - other.force[1])
         });
     }

@@ -4,6 +4,7 @@
 use super::values::NON_FINITE;
 use super::*;
 use calls::mutation::{Bytes, mutated_call};
+use microslip::element::{Directions, Element, NormalInput};
 
 /// Pseudorandom bytes, the same in every run.
 fn pseudorandom(seed: u64, length: usize) -> Vec<u8> {
@@ -142,28 +143,23 @@ pub fn set_filled_state(call: &Call, law: &Law, arguments: &mut Arguments, place
 #[test]
 fn states_with_layers_are_valid() {
     let update = call("mslip_element_update");
-    let of = |p: &microslip::Parameters| {
-        calls::element(false, |element| unsafe { mslip_element_init(p, 1, MSLIP_INPUT_NORMAL_FORCE, element) })
+    let element = |layer: microslip::Layer| {
+        let parameters = microslip::Parameters { layer, ..FLAT };
+        (parameters, Element::rounded_flat(&parameters, Directions::One, NormalInput::Force).unwrap())
     };
-    let stiffness = Memory::of_law(&of(&FLAT), 1).values::<mslip_element>()[0].tangential_stiffness;
+    let stiffness = element(microslip::Layer::none()).1.tangential_stiffness;
     for share in 1..=8 {
         let compliance = f64::from(share) / stiffness;
-        let layer = microslip::Layer {
+        let (parameters, element) = element(microslip::Layer {
             normal_compliance: compliance,
             tangential_compliance: compliance,
             stiffening_load: 1e-3 * FLAT.normal_force,
             reference_load: 0.0,
-        };
-        let law = of(&microslip::Parameters { layer, ..FLAT });
-        let element = Memory::of_law(&law, 1);
-        let slip_under = |load: f64| {
-            let (force, mut slip) = (FLAT.friction_coefficient * load, 0.0);
-            let (e, none) = (element.start.cast(), null_mut());
-            let status =
-                unsafe { mslip_element_displacement(e, 0, 1, &raw const force, &raw const load, &raw mut slip, none) };
-            assert_eq!(status, MSLIP_OK);
-            slip
-        };
+        });
+        let law = calls::element(false, |element| unsafe {
+            mslip_element_init(&raw const parameters, 1, MSLIP_INPUT_NORMAL_FORCE, element)
+        });
+        let slip_under = |load: f64| element.displacement_under(0, FLAT.friction_coefficient * load, load).value;
         let shift = slip_under(FLAT.normal_force) / FLAT.friction_coefficient;
         // The edges of the largest dyadic interval, where N/N_c is largest; one beyond the load is at its end.
         for edge in [1.0, 1.25, 1.5, 1.75].map(|part| FLAT.friction_coefficient * part * shift.log2().floor().exp2()) {
