@@ -392,54 +392,80 @@ fn histories_of_elements_equal_those_of_the_library() {
     // Sticking, slip, separation and gross slip; around a corner and back.
     let x = [0.0, 2e-7, -3e-7, 4e-7, 1e-6, 8e-7, -2e-7];
     let y = [1e-7, 3e-7, 3e-7, -2e-7, -1e-6, -1e-6, 4e-7];
-    let force = (Some("normal_force [N]"), [90.0, 200.0, 60.0, 0.0, 120.0, 30.0, 300.0], NormalInput::Force);
-    let approach = (Some("approach [m]"), [5e-7, 9e-7, 2e-7, -3e-7, 6e-7, 2e-7, 1e-6], NormalInput::Approach);
-    let constant = (None, [150.0; 7], NormalInput::Force);
+    let force = Some([90.0, 200.0, 60.0, 0.0, 120.0, 30.0, 300.0]);
+    let approach = Some([5e-7, 9e-7, 2e-7, -3e-7, 6e-7, 2e-7, 1e-6]);
     let (one, two) = (Directions::One, Directions::Two);
-    for (directions, (name, values, input)) in
-        [(one, force), (one, approach), (two, force), (two, approach), (two, constant)]
-    {
-        let by_approach = input == NormalInput::Approach;
+    let by_place_or_name = ["--column 3 --column-y 2", "--column displacement_x --column-y displacement_y"];
+    // The header of the given table, in another order of the columns, which are found by name or given; that of the result.
+    for (directions, input, values, given, header, options) in [
+        (
+            one,
+            NormalInput::Force,
+            force,
+            "t,displacement,normal_force [N]",
+            "displacement [m],normal_force [N],force [N],stiffness [N/m]",
+            ["--normal-force-column 3", "--normal-force-column normal_force"],
+        ),
+        (
+            one,
+            NormalInput::Approach,
+            approach,
+            "t,displacement,approach [m]",
+            "displacement [m],approach [m],normal_force [N],force [N],stiffness [N/m]",
+            ["--approach-column 3", "--approach-column approach"],
+        ),
+        (
+            two,
+            NormalInput::Force,
+            force,
+            "t,displacement_y,displacement_x [m],normal_force [N]",
+            "displacement_x [m],displacement_y [m],normal_force [N],force_x [N],force_y [N]",
+            by_place_or_name,
+        ),
+        (
+            two,
+            NormalInput::Approach,
+            approach,
+            "t,displacement_y,displacement_x [m],approach [m]",
+            "displacement_x [m],displacement_y [m],approach [m],normal_force [N],force_x [N],force_y [N]",
+            by_place_or_name,
+        ),
+        (
+            two,
+            NormalInput::Force,
+            None,
+            "t,displacement_y,displacement_x [m]",
+            "displacement_x [m],displacement_y [m],normal_force [N],force_x [N],force_y [N]",
+            by_place_or_name,
+        ),
+    ] {
+        let normal = values.unwrap_or([150.0; 7]);
         let element = Element::rounded_flat(&flat_parameters(), directions, input).unwrap();
         let mut memory = [vec![0.0; element_state::state_length(7)], vec![0.0; TwoDirections::STATE_LENGTH]];
         OneDirection::state_init(&mut memory[0]).unwrap();
         TwoDirections::state_init(&mut memory[1]).unwrap();
         let row = |i: usize| -> Vec<f64> {
-            let given = if by_approach { vec![values[i]] } else { vec![] };
+            let given = if input == NormalInput::Approach { vec![normal[i]] } else { vec![] };
             if directions == one {
-                let step = OneDirection::step(&element, &mut memory[0], [x[i], values[i]]).unwrap();
+                let step = OneDirection::step(&element, &mut memory[0], [x[i], normal[i]]).unwrap();
                 let results = [step.force[1], step.force[0], step.tangent[0], step.dissipated];
                 [vec![x[i]], given, results.to_vec()].concat()
             } else {
-                let step = TwoDirections::step(&element, &mut memory[1], [x[i], y[i], values[i]]).unwrap();
-                let [force_x, force_y, normal] = step.force;
-                assert!(force_x.hypot(force_y) <= 0.4 * normal * (1.0 + 1e-12) && step.dissipated >= 0.0);
-                [vec![x[i], y[i]], given, vec![normal, force_x, force_y, step.dissipated]].concat()
+                let step = TwoDirections::step(&element, &mut memory[1], [x[i], y[i], normal[i]]).unwrap();
+                let [force_x, force_y, load] = step.force;
+                assert!(force_x.hypot(force_y) <= 0.4 * load * (1.0 + 1e-12) && step.dissipated >= 0.0);
+                [vec![x[i], y[i]], given, vec![load, force_x, force_y, step.dissipated]].concat()
             }
         };
         let expected = with_totals((0..7).map(row).collect());
-        assert!(name.is_none() || expected.iter().any(|row| row[row.len() - 5] == 0.0));
-        let given = if by_approach { "approach [m]," } else { "" };
-        let (columns, results) = if directions == one {
-            ("displacement [m]", "force [N],stiffness [N/m]")
-        } else {
-            ("displacement_x [m],displacement_y [m]", "force_x [N],force_y [N]")
-        };
-        let header = format!("{columns},{given}normal_force [N],{results},dissipated [J],dissipated_total [J]");
-        // In another order of the columns, which are found by name or given.
+        assert!(values.is_none() || expected.iter().any(|row| row[row.len() - 5] == 0.0));
         let rows = (0..7).map(|i| {
-            let y = if directions == two { format!(",{:e}", y[i]) } else { String::new() };
-            let normal = name.map_or(String::new(), |_| format!(",{:e}", values[i]));
-            format!("{i}{y},{:e}{normal}\n", x[i])
+            let cells =
+                [Some(i as f64), (directions == two).then_some(y[i]), Some(x[i]), values.map(|values| values[i])];
+            cells.into_iter().flatten().map(|cell| format!("{cell:e}")).collect::<Vec<_>>().join(",") + "\n"
         });
-        let head = if directions == two { "t,displacement_y,displacement_x [m]" } else { "t,displacement" };
-        let normal = name.map_or(String::new(), |name| format!(",{name}"));
-        shell.write("given.csv", format!("{head}{normal}\n{}", rows.collect::<String>()));
-        let options = match (directions, by_approach) {
-            (Directions::Two, _) => ["--column 3 --column-y 2", "--column displacement_x --column-y displacement_y"],
-            (_, true) => ["--approach-column 3", "--approach-column approach"],
-            (_, false) => ["--normal-force-column 3", "--normal-force-column normal_force"],
-        };
+        shell.write("given.csv", format!("{given}\n{}", rows.collect::<String>()));
+        let header = format!("{header},dissipated [J],dissipated_total [J]");
         for options in [""].into_iter().chain(options) {
             let command = format!("microslip history flat.toml --displacements given.csv {options}");
             assert_table(&shell.stdout(&command), &header, &expected);
