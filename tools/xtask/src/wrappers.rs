@@ -25,24 +25,24 @@ pub fn blocks(functions: &[Function]) -> [(&'static str, Vec<String>); 3] {
         if function.has("by hand") {
             continue;
         }
-        let name = function.name;
-        let mut forms = vec![(Form::Array, name.to_owned())];
-        if function.has("scalar") {
-            let short = name.trim_start_matches("mslip_");
-            let procedure = |end| format!("{short}_{end}");
-            forms = vec![(Form::Array, procedure("array")), (Form::Scalar, procedure("scalar"))];
+        let (name, short) = (function.name, function.name.trim_start_matches("mslip_"));
+        let is_generic = function.has("scalar");
+        if is_generic {
             interfaces.extend([String::new(), format!("  interface {name}")]);
             interfaces.extend(description(function));
-            interfaces.push(format!("    module procedure {}, {}", forms[0].1, forms[1].1));
+            interfaces.push(format!("    module procedure {short}_array, {short}_scalar"));
             interfaces.push(format!("  end interface {name}"));
         }
         public.push(name.to_owned());
-        if function.arguments.iter().any(is_new_state) {
-            let advance = name_of(function, Form::Advance);
-            public.push(advance.clone());
-            forms.push((Form::Advance, advance));
-        }
-        for (form, name) in forms {
+        for form in forms(function) {
+            let name = match form {
+                Form::Array if is_generic => format!("{short}_array"),
+                Form::Scalar => format!("{short}_scalar"),
+                _ => name_of(function, form),
+            };
+            if form == Form::Advance {
+                public.push(name.clone());
+            }
             procedures.push(String::new());
             procedures.extend(Procedure { function, form, name: &name }.lines());
         }
