@@ -303,6 +303,8 @@ fn invalid_memory(call: &Call, law: &Law, arguments: &mut Arguments, place: usiz
     for byte in [0, 0x77_77_77_77_77_77_77_77, u64::MAX] {
         rejected_with(call, arguments, place, &vec![byte; header], argument.status);
     }
+    #[cfg(not(miri))]
+    memory::invalid_headers(call, law, arguments, place, &words);
     // A valid header with more reversals or knots than the state holds.
     if argument.kind == State && !(call.is_of_element() && law.directions == 2) {
         let mut words = words.clone();

@@ -57,47 +57,33 @@ fn changed_contacts_and_elements() {
 }
 
 /// Shifted memory; counts and sizes that are not allowed; random bytes.
-#[test]
-fn headers_are_checked() {
-    for_each_call(|call, law, mut arguments| {
-        for (place, argument) in call.arguments.iter().enumerate() {
-            if !matches!(argument.kind, Contact | Element | State | Workspace) {
-                continue;
+pub fn invalid_headers(call: &Call, law: &Law, arguments: &mut Arguments, place: usize, words: &[u64]) {
+    let argument = &call.arguments[place];
+    let mut expect = |words: &[u64]| rejected_with(call, arguments, place, words, argument.status);
+    expect(&[&words[1..], &words[..1]].concat());
+    match argument.kind {
+        State if !(call.is_of_element() && law.directions == 2) => {
+            let counts = [2000.0, 2f64.powi(32), 2f64.powi(52), 2f64.powi(60), -1.0].map(f64::to_bits);
+            for count in counts.into_iter().chain(NON_FINITE) {
+                expect(&[&words[..1], &[count], &words[2..]].concat());
             }
-            let words = arguments.memory(place).values::<u64>().to_vec();
-            let mut expect = |words: &[u64]| {
-                arguments.memory_mut(place).values_mut().copy_from_slice(words);
-                rejected_as(call, &arguments, argument.status, argument.name);
-            };
-            expect(&[&words[1..], &words[..1]].concat());
-            match argument.kind {
-                State if !(call.is_of_element() && law.directions == 2) => {
-                    for count in [2000.0, 2f64.powi(32), 2f64.powi(52), 2f64.powi(60), -1.0] {
-                        expect(&[&words[..1], &[f64::to_bits(count)], &words[2..]].concat());
-                    }
-                    NON_FINITE.into_iter().for_each(|count| expect(&[&words[..1], &[count], &words[2..]].concat()));
-                }
-                Workspace => {
-                    for sizes in [
-                        [0, 16, 1],
-                        [2, 0, 1],
-                        [2, 4, 1],
-                        [2, (1 << 24) + 1, 1],
-                        [(1 << 24) + 1, 1 << 24, 1],
-                        [2, 16, 0],
-                        [2, 16, (1 << 16) + 1],
-                    ] {
-                        expect(&[&words[..1], &sizes.map(|size| (size as f64).to_bits()), &words[4..]].concat());
-                    }
-                }
-                _ => {}
-            }
-            for seed in 0..20 {
-                expect(&self::words(&pseudorandom(seed, 8 * words.len())));
-            }
-            arguments.memory_mut(place).values_mut().copy_from_slice(&words);
         }
-    });
+        Workspace => {
+            for sizes in [
+                [0, 16, 1],
+                [2, 0, 1],
+                [2, 4, 1],
+                [2, (1 << 24) + 1, 1],
+                [(1 << 24) + 1, 1 << 24, 1],
+                [2, 16, 0],
+                [2, 16, (1 << 16) + 1],
+            ] {
+                expect(&[&words[..1], &sizes.map(|size| (size as f64).to_bits()), &words[4..]].concat());
+            }
+        }
+        _ => {}
+    }
+    (0..20).for_each(|seed| expect(&self::words(&pseudorandom(seed, 8 * words.len()))));
 }
 
 pub fn check(law: &Law, of_element: bool, state: &Memory) -> i32 {
