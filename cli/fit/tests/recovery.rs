@@ -90,6 +90,11 @@ fn intervals_cover_and_the_shape_is_determined_if_the_contact_dominates() {
     check_table("intervals", &rows);
 }
 
+/// A number of the file of the fitted contact.
+fn fitted(report: &Report, key: &str) -> Option<f64> {
+    report.contact_toml.lines().find_map(|line| line.strip_prefix(key)?.strip_prefix(" = ")?.parse().ok())
+}
+
 /// Without noise the error is that of the minimisation.
 fn assert_recovered(estimate: Estimate, truth: f64, name: &str) {
     assert!((estimate.value - truth).abs() <= 2e-4 * truth, "{name}: {} instead of {truth}", estimate.value);

@@ -44,11 +44,6 @@ pub fn says(report: &Report, text: &str) -> bool {
     report.verdict.iter().any(|sentence| sentence.contains(text))
 }
 
-/// A number of the file of the fitted contact.
-pub fn fitted(report: &Report, key: &str) -> Option<f64> {
-    report.contact_toml.lines().find_map(|line| line.strip_prefix(key)?.strip_prefix(" = ")?.parse().ok())
-}
-
 /// The rows of a table of the document, each with its number of fits. All fits write it; of fewer, the counts must be those of a part.
 pub fn check_table(name: &str, rows: &[(usize, String)]) {
     let text = fs::read_to_string(DOCUMENT).unwrap();
