@@ -52,6 +52,10 @@ installed() {
     FC=flang-new-19
     step 'guide: the compilers' compilers_named
     step 'flang: tests of the module' env MICROSLIP_PREFIX="$prefix" "$CARGO" test $workspace --test c_drivers fortran
+    # Debian's older one links with this option only.
+    printf '#!/bin/sh\nexec flang-new-16 -flang-experimental-exec "$@"\n' > "$work/flang-16"
+    chmod +x "$work/flang-16"
+    step 'flang 16: tests of the module' env FC="$work/flang-16" MICROSLIP_PREFIX="$prefix" "$CARGO" test $workspace --test c_drivers fortran
     step 'flang: examples' make -C fortran_examples short PREFIX="$prefix"
     step 'flang: a client' client
     programs_of_documents f90

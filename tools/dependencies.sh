@@ -23,6 +23,7 @@ shellcheck      check                                                 : command 
 valgrind        check                                                 : command valgrind
 clang           check                                                 : command clang
 flang-19        check                                                 : command flang-new-19
+flang-16        check                                                 : command flang-new-16
 llvm            check                                                 : command llvm-symbolizer
 libclang-rt-dev check                                                 : clang -fsanitize=address,undefined
 lld             check                                                 : command ld.lld

@@ -98,12 +98,21 @@ contains
     states = spread(state, 2, n)
     call check_status('set up', ok, MSLIP_OK)
     do i = 1, size(out)
-      out(i) = output()
+      call remove(out(i))
     end do
     call set_outputs()
     if (tested%outputs(5:5) == 's') out(5)%v = spread(untouched, 1, size(state))
     if (tested%outputs(5:5) == 'b') out(5)%m = reshape([real(wp) ::], shape(states), pad=[untouched])
   end subroutine set_up
+
+  subroutine remove(one)
+    type(output), intent(inout) :: one
+
+    if (allocated(one%s)) deallocate (one%s)
+    if (allocated(one%v)) deallocate (one%v)
+    if (allocated(one%m)) deallocate (one%m)
+    if (allocated(one%t)) deallocate (one%t)
+  end subroutine remove
 
   include 'calls.f90'
 
@@ -180,7 +189,7 @@ contains
     do subset = 0, 15
       call set_up()
       do i = 1, 4
-        if (tested%outputs(i:i) == 'o' .and. .not. btest(subset, i - 1)) out(i) = output()
+        if (tested%outputs(i:i) == 'o' .and. .not. btest(subset, i - 1)) call remove(out(i))
       end do
       call perform()
       call check_status(name//'a subset of the outputs', status, MSLIP_OK)
