@@ -173,10 +173,14 @@ impl Contact {
             let (displacement, remaining) =
                 (x * self.slip_displacement, rho * self.slip_displacement * self.outer_scale);
             let (roots, last_roots) = (remaining.map(root_of), remaining.map(last_root_of));
-            let parts: [Part; 4] = core::array::from_fn(|k| match () {
-                () if remaining[k] < END_OF_PIECES => Part::Last(Interval::new(last_roots[k])),
-                () if displacement[k] * self.inner_scale <= 1.0 => Part::Inner,
-                () => Part::Outer(Interval::new(roots[k])),
+            let parts: [Part; 4] = core::array::from_fn(|k| {
+                if remaining[k] < END_OF_PIECES {
+                    Part::Last(Interval::new(last_roots[k]))
+                } else if displacement[k] * self.inner_scale <= 1.0 {
+                    Part::Inner
+                } else {
+                    Part::Outer(Interval::new(roots[k]))
+                }
             });
             for k in 0..4 {
                 // All four are evaluated on a polynomial for those that are on it: in most cases all.

@@ -149,13 +149,13 @@ impl ForceInterpolant {
         (remaining, if SLOPES { 2.0 * scale * slope / root } else { slope })
     }
 
-    /// The derivatives of 1 - τ with respect to ρ at [`last_root_of`] places on one interval of the last ones, if converged; any value at
-    /// others.
-    pub fn last_slopes(&self, Interval(exponent): Interval, root: Lanes<4>) -> Lanes<4> {
-        let z = 4.0 * (power_of(exponent) * root) - 3.0;
+    /// The derivatives of 1 - τ with respect to ρ at places z of one interval, by [`last_root_of`], if converged; any value at others.
+    pub fn last_slopes(&self, Interval(exponent): Interval, z: Lanes<4>) -> Lanes<4> {
+        let argument = 4.0 * (power_of(exponent) * z) - 3.0;
         let piece = self.last.get((1022 - exponent) as usize).unwrap_or(&self.inner);
-        let (value, slope) = values_and_slopes::<_, 4, true>(piece, z);
-        value + (0.125 * (3.0 + z)) * slope
+        let (value, slope) = values_and_slopes::<_, 4, true>(piece, argument);
+        // With f = (1 - τ)/ρ and ρ ~ z⁸, d(ρ f)/dρ = f + z/8 df/dz.
+        value + (0.125 * (3.0 + argument)) * slope
     }
 }
 

@@ -88,14 +88,15 @@ pub(crate) trait Layout<'a>: Sized {
     /// Errors: `WorkspaceTooShort`, and those of [`Layout::check_size`].
     fn init(size: Size, workspace: &'a mut [f64]) -> Result<(), Error> {
         let size = Self::check_size(size)?;
-        let memory = workspace.get_mut(..Self::length(size)).ok_or(Error::WorkspaceTooShort)?;
+        let length = Self::length(size);
+        let memory = workspace.get_mut(..length).ok_or(Error::WorkspaceTooShort)?;
         memory.fill(0.0);
         let (header, buffers) = memory.split_first_chunk_mut::<HEADER>().ok_or(Error::WorkspaceTooShort)?;
         Self::take(size, &mut Parts::Taking(buffers))?.fill();
         let Size { harmonics, samples, periods } = size;
         let [tag, counts @ ..] = header;
         *tag = Self::KIND.tag();
-        counts.copy_from(&[harmonics, samples, periods, Self::length(size)].map(stored));
+        counts.copy_from(&[harmonics, samples, periods, length].map(stored));
         Ok(())
     }
 

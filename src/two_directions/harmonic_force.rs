@@ -51,8 +51,8 @@ pub fn workspace_init(harmonics: usize, samples: usize, periods: usize, workspac
 /// another force, which more periods do not correct.
 const TRANSIENT: usize = 32;
 
-/// After the second period the springs change by so many times its change at once, if more than one period follows before the one that
-/// counts: what would follow if each period changed them by 0.6 of the one before.
+/// Factor of the extrapolation. After the second period the springs change by this factor times their change in that period, if another
+/// period follows before the one that counts. So they would if each period changed them by 0.6 of the change before.
 const AHEAD: f64 = 1.5;
 
 /// Coefficients that are propagated at once, those of the normal component, of u and of v in a block each.
@@ -313,11 +313,12 @@ impl<'a> Walk<'a> {
         self.contact = LoadedContact::new(self.nodes, &Pressed::new(self.element, &self.units, input, &self.normal));
     }
 
+    /// Extrapolates the springs from those a period before.
     fn extrapolate(&mut self, from: &Displacements) {
         for k in 0..2 {
-            self.springs.v[k] = self.springs.v[k] + AHEAD * (self.springs.v[k] - from.v[k]);
-            self.springs.edge[k] += AHEAD * (self.springs.edge[k] - from.edge[k]);
+            extrapolate(&mut self.springs.v[k].0, &from.v[k].0);
         }
+        extrapolate(&mut self.springs.edge, &from.edge);
     }
 
     /// The change of the force from other springs, over its bound.
@@ -390,6 +391,7 @@ fn differentiate(
     }
 }
 
+/// Extrapolates values from those a period before.
 fn extrapolate(values: &mut [f64], before: &[f64]) {
     values.iter_mut().zip(before).for_each(|(value, before)| *value += AHEAD * (*value - before));
 }
@@ -477,7 +479,7 @@ fn walk(element: &Element, workspace: &mut TwoDirectionsWorkspace, displacement:
             if count > 0 && step > 0 && step.is_multiple_of(count) {
                 changes = [changes[1], walk.change(&start)];
                 if step == count {
-                    workspace.earlier.iter_mut().zip(&*workspace.changes).for_each(|(place, change)| *place = *change);
+                    workspace.earlier.copy_from(workspace.changes);
                 } else if step == 2 * count && periods > 2 {
                     extrapolated = changes[1];
                     walk.extrapolate(&start);
@@ -507,8 +509,8 @@ fn walk(element: &Element, workspace: &mut TwoDirectionsWorkspace, displacement:
     }
 }
 
-/// An extrapolation cancels a part of the next changes: what is left is estimated by so many times the last one at least, up to the change
-/// that was extrapolated.
+/// An extrapolation cancels a part of the changes that follow. The drift is at least this factor times the last change, or the change
+/// that was extrapolated if that is smaller.
 const HIDDEN: f64 = 5.0;
 
 /// What a sequence of changes leaves, of which these are the last two: that of a geometric one.

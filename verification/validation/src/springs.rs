@@ -185,7 +185,7 @@ impl Case {
     }
 
     fn solve(&self) -> Vec<Point> {
-        // So many springs that the own error of the reference is small. On lines 120 springs have one of 1e-4 μN.
+        // With 60 springs the error of the reference is small; on lines 120 springs leave 1e-4 μN.
         let springs = if self.motion == "line" { 120 } else { 60 };
         let contact = Contact::new(&self.input, LARGEST_LOAD, springs);
         Case::counted(&contact.solve(&self.path(&element(&self.input)), STEPS))
