@@ -37,26 +37,25 @@ class Microslip(NodeToNodeElement):
 
     def __post_init__(self) -> None:
         self.law = self.data["law"]
-        self.length = 1.0
-        self.evaluated: Any = None
+        self.known = b""
         harmonics, *_ = get_array_nh(self.nh)
         highest = int(harmonics.max())
         # The places of pyHarm's coefficients among all from 0 to the highest harmonic.
         places = np.concatenate([[2 * k - 1, 2 * k] if k else [0] for k in harmonics])
+        size = 2 * highest + 1
+        self.shape: tuple[int, ...] = (size,)
         self.workspace: Any
         if isinstance(self.law, microslip.Element):
             if self.law.normal_input != microslip.INPUT_APPROACH:
                 raise ValueError(f"{self.name}: the normal input of the element must be INPUT_APPROACH")
-            self.components = self.law.directions + 1
+            self.shape = (self.law.directions + 1, size)
             self.workspace = microslip.ElementWorkspace(self.law.directions, highest, self.nti)
         else:
-            self.components = 1
             self.workspace = microslip.Workspace(highest, self.nti)
-        size = 2 * highest + 1
+        self.rest = np.zeros(np.prod(self.shape))
+        self.rest[-size] = self.data.get("interference", 0.0)
+        self.components = len(self.rest) // size
         self.places = np.concatenate([places + size * i for i in range(self.components)])
-        self.rest = np.zeros((self.components, size))
-        if isinstance(self.law, microslip.Element):
-            self.rest[-1, 0] = self.data.get("interference", 0.0)
 
     def __flag_update__(self) -> None:
         self.flag_nonlinear = True
@@ -66,31 +65,29 @@ class Microslip(NodeToNodeElement):
         super().generateIndices(expl_dofs)
         if len(self.Pdir) != self.components:
             raise ValueError(f"{self.name}: {self.components} dirs are required, not {len(self.Pdir)}")
-        relative = self.Pslave - self.Pmaster
-        self.local = np.vstack([direction @ relative for direction in self.Pdir])
+        # The coefficients of the relative displacement from the unknowns of both nodes.
+        self.relative = np.zeros((len(self.rest), len(self.indices)))
+        self.relative[self.places] = np.vstack([direction @ (self.Pslave - self.Pmaster) for direction in self.Pdir])
+        self.motion, self.by_frequency = self.relative, np.zeros(len(self.indices))
 
     def adim(self, lc: float, wc: float) -> None:
-        self.length = lc
+        self.motion = lc * self.relative
         self.flag_adim = True
 
-    def evaluate(self, xg: Any) -> Any:
+    def evaluate(self, xg: Any) -> None:
         """Force and Jacobian; the residual and the Jacobian of one point are one evaluation."""
         x = xg[self.indices]
-        if self.evaluated is None or not np.array_equal(self.evaluated[0], x):
-            displacement = self.rest.copy()
-            displacement.ravel()[self.places] += self.length * (self.local @ x)
-            shape = displacement.shape if self.components > 1 else -1
-            found = self.law.harmonic_force(self.workspace, displacement.reshape(shape))
-            force = found.force.ravel()[self.places]
-            jacobian = self.length * found.jacobian[np.ix_(self.places, self.places)]
-            self.evaluated = x, self.local.T @ force, self.local.T @ jacobian @ self.local
-        return self.evaluated
+        if self.known != (known := x.tobytes()):
+            found = self.law.harmonic_force(self.workspace, (self.rest + self.motion @ x).reshape(self.shape))
+            self.R = found.force.ravel() @ self.relative
+            self.J = self.relative.T @ found.jacobian @ self.motion
+            self.known = known
 
     def evalResidual(self, xg: Any, om: float) -> Any:
-        self.R = self.evaluate(xg)[1]
+        self.evaluate(xg)
         return self.R
 
     def evalJacobian(self, xg: Any, om: float) -> Any:
-        self.J = self.evaluate(xg)[2]
-        self.dJdom = np.zeros(len(self.indices))
+        self.evaluate(xg)
+        self.dJdom = self.by_frequency
         return self.J, self.dJdom
