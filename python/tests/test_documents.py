@@ -45,6 +45,17 @@ def test_examples_print_what_they_say(name, tmp_path):
     assert re.findall(r"^    (.*)$", text.split('"""')[1], re.MULTILINE) == printed
 
 
+def test_figures_of_the_measured_joint_are_computed(tmp_path):
+    file = EXAMPLES / "measured_joint.py"
+    printed = run(str(file), str(tmp_path / "curves"), directory=tmp_path)
+    assert (tmp_path / "curves").read_text() == (REPOSITORY / "docs" / "measured_joint.csv").read_text()
+    page = (REPOSITORY / "docs" / "validation.md").read_text()
+    section = page.partition("## A measured joint")[2].partition("\n## ")[0]
+    assert printed.partition("\n\n")[0] in section
+    figures = [set(re.findall(r"\d+(?:\.\d+)?", text)) for text in (section, printed + file.read_text().split('"""')[1])]
+    assert figures[0] <= figures[1], figures[0] - figures[1]
+
+
 def test_the_blades_of_the_demonstration_are_those_of_their_program(tmp_path):
     files = REPOSITORY / "fortran_examples" / "model"
     run(str(files / "blade_model.py"), str(tmp_path), directory=tmp_path)
