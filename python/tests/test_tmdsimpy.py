@@ -5,9 +5,9 @@ from __future__ import annotations
 import microslip
 import numpy as np
 import pytest
+from microslip.tmdsimpy import MicroslipForce
 from numpy.testing import assert_allclose
 from tables import REPOSITORY, differences
-from tmdsimpy_microslip import MicroslipForce
 from two_masses import CONTACT, DAMPING, MASS, STIFFNESS
 
 contact = microslip.Contact(**CONTACT)

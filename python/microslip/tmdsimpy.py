@@ -1,6 +1,6 @@
 """The law as a nonlinear force of tmdsimpy (github.com/tmd-lab/tmdsimpy).
 
-    from tmdsimpy_microslip import MicroslipForce
+    from microslip.tmdsimpy import MicroslipForce
     vibration_system.add_nl_force(MicroslipForce(Q, T, microslip.Contact(...)))
 
 `Q` (local, N) gives the local displacements of the N degrees of freedom, `T` (N, local) the forces of the local ones. A
@@ -14,22 +14,30 @@ displacement, the library at displacement 0: with `unloaded_at_mean` (default) t
 force, as for tmdsimpy's Jenkins element. The approach keeps its mean.
 """
 
+from __future__ import annotations
+
+from typing import Any
+
 import microslip
 import numpy as np
 
 try:
     from tmdsimpy.nlforces.nonlinear_force import HystereticForce
 except ImportError:  # the interface below is complete without the base class
-
-    class HystereticForce:
-        def nl_force_type(self):
-            return 1
+    HystereticForce = object
 
 
 class MicroslipForce(HystereticForce):
     """Contacts or elements of one law as a hysteretic force."""
 
-    def __init__(self, Q, T, law, interference=0.0, unloaded_at_mean=True):
+    def __init__(
+        self,
+        Q: Any,
+        T: Any,
+        law: Any,
+        interference: float = 0.0,
+        unloaded_at_mean: bool = True,
+    ) -> None:
         self.Q, self.T, self.law = np.asarray(Q, dtype=float), np.asarray(T, dtype=float), law
         if self.T.shape != self.Q.shape[::-1]:
             raise ValueError(f"T must have the shape {self.Q.shape[::-1]}, not {self.T.shape}")
@@ -41,15 +49,20 @@ class MicroslipForce(HystereticForce):
         self.items, rest = divmod(self.Q.shape[0], self.components)
         if rest:
             raise ValueError(f"Q must have {self.components} rows for each element")
-        self.array = (microslip.ElementArray if self.is_element else microslip.ContactArray)([law])
+        self.array = microslip.ElementArray([law]) if self.is_element else microslip.ContactArray([law])
         self.index = np.zeros(self.items, dtype=np.int32)
         self.rest = np.zeros((self.items, self.components))
         if self.is_element:
             self.rest[:, -1] = interference
-        self.workspaces = {}
+        self.workspaces: dict[tuple[int, int], Any] = {}
         self.init_history()
 
-    def aft(self, U, w, h, Nt=128, tol=1e-7, calc_grad=True, **others):
+    def nl_force_type(self) -> int:
+        return 1  # hysteretic
+
+    def aft(
+        self, U: Any, w: float, h: Any, Nt: int = 128, tol: float = 1e-7, calc_grad: bool = True, **others: Any
+    ) -> tuple[Any, ...]:
         """Coefficients (N Nhc) of the forces, their derivatives (N Nhc, N Nhc), and those with respect to the frequency, 0."""
         h = np.asarray(h)
         highest = int(h.max())
@@ -62,8 +75,11 @@ class MicroslipForce(HystereticForce):
         if self.unloaded_at_mean:
             u[:, tangential, 0] = 0
         if (highest, Nt) not in self.workspaces:
-            kind = (microslip.ElementWorkspace, self.components - 1) if self.is_element else (microslip.Workspace,)
-            self.workspaces[highest, Nt] = kind[0](*kind[1:], highest, Nt)
+            self.workspaces[highest, Nt] = (
+                microslip.ElementWorkspace(self.components - 1, highest, Nt)
+                if self.is_element
+                else microslip.Workspace(highest, Nt)
+            )
         found = self.array.harmonic_force(
             self.workspaces[highest, Nt], u if self.is_element else u[:, 0], jacobian=calc_grad, index=self.index
         )
@@ -81,11 +97,11 @@ class MicroslipForce(HystereticForce):
         dFdU = np.einsum("xia,iakbl,iby->kxly", T, jacobian, Q).reshape(F.size, F.size)
         return F, dFdU, np.zeros(F.size)
 
-    def init_history(self):
+    def init_history(self) -> None:
         """Unloaded contacts; open elements."""
         self.states = self.array.states(self.items)
 
-    def force(self, X, update_hist=False):
+    def force(self, X: Any, update_hist: bool = False) -> tuple[Any, Any]:
         """Forces (N) and derivatives (N, N) at displacements X (N) after the load history, which goes on from here if requested."""
         u = (self.Q @ X).reshape(self.items, self.components) + self.rest
         found = self.array.update(self.states, u if self.is_element else u[:, 0], index=self.index)
