@@ -48,7 +48,11 @@ def test_examples_print_what_they_say(name, tmp_path):
 def test_figures_of_the_measured_joint_are_computed(tmp_path):
     file = EXAMPLES / "measured_joint.py"
     printed = run(str(file), str(tmp_path / "curves"), directory=tmp_path)
-    assert (tmp_path / "curves").read_text() == (REPOSITORY / "docs" / "measured_joint.csv").read_text()
+    paths = tmp_path / "curves", REPOSITORY / "docs" / "measured_joint.csv"
+    own, stored = (np.genfromtxt(path, delimiter=",", names=True) for path in paths)
+    assert own.dtype == stored.dtype
+    for name in own.dtype.names:  # by least squares, rounded to 7 digits
+        np.testing.assert_allclose(own[name], stored[name], rtol=1e-5)
     page = (REPOSITORY / "docs" / "validation.md").read_text()
     section = page.partition("## A measured joint")[2].partition("\n## ")[0]
     assert printed.partition("\n\n")[0] in section
