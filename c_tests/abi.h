@@ -42,6 +42,8 @@ CONSTANT(MSLIP_BAD_DIRECTIONS, 42)
 CONSTANT(MSLIP_BAD_NORMAL_INPUT, 43)
 CONSTANT(MSLIP_BAD_PERIODS, 44)
 CONSTANT(MSLIP_BAD_COEFFICIENTS, 45)
+CONSTANT(MSLIP_BAD_AREA, 46)
+CONSTANT(MSLIP_BAD_PRESSURE, 47)
 CONSTANT(MSLIP_BAD_ARRAY_SIZE, 90)
 CONSTANT(MSLIP_BAD_ALIGNMENT, 91)
 CONSTANT(MSLIP_ABI_VERSION, 6)
@@ -115,6 +117,8 @@ FUNCTION(const char *, mslip_parameters_warning, (const struct mslip_parameters 
 FUNCTION(const char *, mslip_elliptic_parameters_warning, (const struct mslip_elliptic_parameters *p, int32_t i))
 FUNCTION(int32_t, mslip_contact_init, (const struct mslip_parameters *p, struct mslip_contact *contact))
 FUNCTION(int32_t, mslip_contact_init_elliptic, (const struct mslip_elliptic_parameters *p, struct mslip_contact *contact))
+FUNCTION(int32_t, mslip_face_parts, (const struct mslip_parameters *p, size_t n, size_t pairs, const double *area,
+     const double *pressure, struct mslip_parameters *parts, double *weight))
 FUNCTION(int32_t, mslip_contact_check, (const struct mslip_contact *contact))
 FUNCTION(int32_t, mslip_tractions, (const struct mslip_contact *contact, double force, size_t n, const double *x,
      double *pressure, double *shear))

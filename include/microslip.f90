@@ -53,7 +53,7 @@ module microslip
 
   public :: mslip_version, mslip_abi_version, mslip_status_text, mslip_parameters_warning, mslip_elliptic_parameters_warning
   public :: mslip_parameters_default, mslip_elliptic_parameters_default
-  public :: mslip_harmonic_workspace_size, mslip_element_workspace_size
+  public :: mslip_face_parts, mslip_harmonic_workspace_size, mslip_element_workspace_size
   ! <generated: public>
   public :: mslip_contact_init, mslip_contact_init_elliptic, mslip_contact_check, mslip_tractions, mslip_slip, &
     mslip_monotonic_displacement, mslip_monotonic_force, mslip_monotonic_sensitivity, mslip_state_length, &
@@ -145,6 +145,10 @@ module microslip
   integer(mslip_int), parameter, public :: MSLIP_BAD_COEFFICIENTS = 45
     !! a displacement must have the number of coefficients of the workspace: 2*harmonics + 1 for each component (in
     !! Fortran)
+  integer(mslip_int), parameter, public :: MSLIP_BAD_AREA = 46
+    !! each area must be between 0 and 1e50, and that of each part at least 1e-50
+  integer(mslip_int), parameter, public :: MSLIP_BAD_PRESSURE = 47
+    !! each pressure must be between 0 and 1e50, and the normal force of a face at least 1e-50
   integer(mslip_int), parameter, public :: MSLIP_BAD_ARRAY_SIZE = 90
     !! the shape of an optional argument, a state or a second input does not agree with that of the first input (in
     !! Fortran), or an array is too long to be addressed
@@ -396,6 +400,16 @@ module microslip
       type(mslip_elliptic_parameters), intent(in) :: p
       type(mslip_contact), intent(inout) :: contact
     end function c_contact_init_elliptic
+
+    integer(c_int32_t) function c_face_parts(p, n, pairs, area, pressure, parts, weight) &
+      bind(c, name='mslip_face_parts')
+      import
+      type(mslip_parameters), intent(in) :: p
+      integer(c_size_t), value :: n, pairs
+      real(c_double), intent(in) :: area(*), pressure(*)
+      type(mslip_parameters), intent(inout) :: parts(*)
+      type(c_ptr), value :: weight
+    end function c_face_parts
 
     integer(c_int32_t) function c_contact_check(contact) bind(c, name='mslip_contact_check')
       import
@@ -838,7 +852,7 @@ contains
   end function mslip_elliptic_parameters_warning
 
   ! ---------------------------------------------------------------------------------------------------------------------
-  ! Defaults, and sizes of workspaces
+  ! Defaults, parts of a face, and sizes of workspaces
 
   subroutine mslip_parameters_default(parameters)
     !! Every value unset (NaN, the displacement reference -1), so that a forgotten one is rejected by name.
@@ -857,6 +871,39 @@ contains
 
     call c_elliptic_parameters_default(parameters)
   end subroutine mslip_elliptic_parameters_default
+
+  subroutine mslip_face_parts(parameters, area, pressure, parts, status, weight)
+    !! Divides a face with an uneven pressure along its length into n parts, each with a normal force of its own: `parts` are the
+    !! parameters of their contacts or elements, whose forces add up to that of the face. A part is a row of pairs of opposite
+    !! nodes in the direction of motion. The displacements of a part are the sums of those of its pairs times `weight`, and a pair
+    !! carries its weight times the forces of the part.
+    !!
+    !! `normal_force` of the whole face is not read, but the sum of pressures times areas, which is also the reference load of a
+    !! layer if that is 0. A part whose normal force is below 1e-50 is open: it gets a `normal_force` of 0 and weights in
+    !! proportion to the areas, and does not count in the length. An element requires a `normal_force` > 0, the largest in its
+    !! motion: set that of each part before `mslip_element_init`.
+    !!
+    !! Since 0.1.0 (interface 6).
+    type(mslip_parameters), intent(in) :: parameters  !! Geometry and materials of the whole face.
+    real(mslip_real), intent(in) :: area(:, :)  !! (pairs, n): area of each pair [m2]; 0 fills up a shorter row.
+    real(mslip_real), intent(in) :: pressure(:, :)  !! (pairs, n): pressure at each pair [Pa], >= 0.
+    type(mslip_parameters), intent(inout) :: parts(:)  !! (n): the parameters of each part.
+    integer(mslip_int), intent(out) :: status
+      !! `MSLIP_OK`, `MSLIP_BAD_AREA`, `MSLIP_BAD_PRESSURE`, the code of the first other parameter that is invalid, or
+      !! `MSLIP_OUT_OF_RANGE`.
+    real(mslip_real), intent(inout), optional, target, contiguous :: weight(:, :)  !! (pairs, n): share of each pair in its part.
+
+    integer(mslip_size) :: pairs, n
+    type(c_ptr) :: ptr
+
+    pairs = size(area, 1, mslip_size)
+    n = size(area, 2, mslip_size)
+    ptr = c_null_ptr
+    status = MSLIP_OK
+    if (present(weight)) call check_array(weight, [pairs, n], ptr, status)
+    if (any(shape(pressure) /= shape(area)) .or. size(parts) /= n) status = MSLIP_BAD_ARRAY_SIZE
+    if (status == MSLIP_OK) status = c_face_parts(parameters, n, pairs, area, pressure, parts, ptr)
+  end subroutine mslip_face_parts
 
   subroutine mslip_harmonic_workspace_size(workspace, harmonics, samples, rule, status)
     !! The arguments with which a workspace was initialised.

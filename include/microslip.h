@@ -154,6 +154,12 @@
 // a displacement must have the number of coefficients of the workspace: 2*harmonics + 1 for each component (in Fortran)
 #define MSLIP_BAD_COEFFICIENTS 45
 
+// each area must be between 0 and 1e50, and that of each part at least 1e-50
+#define MSLIP_BAD_AREA 46
+
+// each pressure must be between 0 and 1e50, and the normal force of a face at least 1e-50
+#define MSLIP_BAD_PRESSURE 47
+
 // the shape of an optional argument, a state or a second input does not agree with that of the first input (in Fortran), or an array is too long to be addressed
 #define MSLIP_BAD_ARRAY_SIZE 90
 
@@ -374,6 +380,29 @@ int32_t mslip_contact_init(const struct mslip_parameters *p, struct mslip_contac
 // Since 0.1.0 (interface 6).
 int32_t mslip_contact_init_elliptic(const struct mslip_elliptic_parameters *p,
                                     struct mslip_contact *contact);
+
+// Divides a face with an uneven pressure along its length into n parts, each with a normal force of its own: parts[n] are the
+// parameters of their contacts or elements, whose forces add up to that of the face. Each part has the same number of pairs of
+// opposite nodes, a row in the direction of motion: area[pairs n] [m2] and pressure[pairs n] [Pa], part after part. weight[pairs
+// n] is the share of a pair in its part: the displacements of the part are the weighted sums of those of its pairs, and a pair
+// carries its weight times the forces of the part.
+//
+// p are the parameters of the whole face; its normal_force is not read, but the sum of pressures times areas, which is also the
+// reference load of a layer if that is 0. A part whose normal force is below 1e-50 is open: it gets a normal_force of 0 and weights in
+// proportion to the areas, and does not count in the length. An element requires a normal_force > 0, the largest in its motion: set
+// that of each part before mslip_element_init.
+//
+// Returns MSLIP_NULL_POINTER, MSLIP_BAD_AREA, MSLIP_BAD_PRESSURE, the code of the first other parameter that is invalid, or
+// MSLIP_OUT_OF_RANGE.
+//
+// Since 0.1.0 (interface 6).
+int32_t mslip_face_parts(const struct mslip_parameters *p,
+                         size_t n,
+                         size_t pairs,
+                         const double *area,
+                         const double *pressure,
+                         struct mslip_parameters *parts,
+                         double *weight);
 
 // Validates a contact that was read from a file or a message: its checksum must be that written at initialisation, which detects any
 // single changed bit. Text needs 17 digits; initialise it again instead. Other functions only check a tag.

@@ -99,6 +99,8 @@ status_codes! {
     BadPeriods, MSLIP_BAD_PERIODS = 44: "the number of periods must be at most 65536";
     BadCoefficients, MSLIP_BAD_COEFFICIENTS = 45:
         "a displacement must have the number of coefficients of the workspace: 2*harmonics + 1 for each component (in Fortran)";
+    BadArea, MSLIP_BAD_AREA = 46: "each area must be between 0 and 1e50, and that of each part at least 1e-50";
+    BadPressure, MSLIP_BAD_PRESSURE = 47: "each pressure must be between 0 and 1e50, and the normal force of a face at least 1e-50";
     BadArraySize, MSLIP_BAD_ARRAY_SIZE = 90:
         "the shape of an optional argument, a state or a second input does not agree with that of the first input (in Fortran), or an array is too long to be addressed";
     BadAlignment, MSLIP_BAD_ALIGNMENT = 91: "misaligned pointer: doubles need 8-byte, int32 flags 4-byte alignment";

@@ -46,6 +46,7 @@ mod tag;
 mod fourier;
 pub mod shape;
 
+pub mod face;
 mod plausibility;
 
 pub mod element;

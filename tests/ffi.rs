@@ -264,7 +264,7 @@ fn invalid_length(call: &Call, arguments: &mut Arguments, place: usize) {
         for (place, argument) in call.arguments.iter().enumerate() {
             let is_of_items = match argument.kind {
                 Contact | Element | State => call.has(Index),
-                Workspace => false,
+                Workspace | Parameters => false,
                 _ => slots[place].pointer().is_some(),
             };
             if is_of_items {

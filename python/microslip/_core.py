@@ -68,6 +68,8 @@ class Status(IntEnum):
     BAD_NORMAL_INPUT = 43
     BAD_PERIODS = 44
     BAD_COEFFICIENTS = 45
+    BAD_AREA = 46
+    BAD_PRESSURE = 47
     BAD_ARRAY_SIZE = 90
     BAD_ALIGNMENT = 91
     # </generated>

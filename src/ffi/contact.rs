@@ -2,6 +2,7 @@
 
 use crate::constant_load::contact::Contact;
 use crate::error::Error;
+use crate::face::divide;
 use crate::ffi::mslip_contact;
 use crate::ffi::pointers::{self, call, each, input, item, output, outputs, place, set, sum};
 use crate::limits::{check_displacement, check_positions};
@@ -86,6 +87,37 @@ pub unsafe extern "C" fn mslip_contact_init(p: *const Parameters, contact: *mut 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_contact_init_elliptic(p: *const EllipticParameters, contact: *mut mslip_contact) -> i32 {
     initialise(p, contact, Contact::elliptic)
+}
+
+/// Divides a face with an uneven pressure along its length into n parts, each with a normal force of its own: parts\[n\] are the
+/// parameters of their contacts or elements, whose forces add up to that of the face. Each part has the same number of pairs of
+/// opposite nodes, a row in the direction of motion: area\[pairs n\] \[m2\] and pressure\[pairs n\] \[Pa\], part after part. weight\[pairs
+/// n\] is the share of a pair in its part: the displacements of the part are the weighted sums of those of its pairs, and a pair
+/// carries its weight times the forces of the part.
+///
+/// p are the parameters of the whole face; its normal_force is not read, but the sum of pressures times areas, which is also the
+/// reference load of a layer if that is 0. A part whose normal force is below 1e-50 is open: it gets a normal_force of 0 and weights in
+/// proportion to the areas, and does not count in the length. An element requires a normal_force > 0, the largest in its motion: set
+/// that of each part before mslip_element_init.
+///
+/// Returns MSLIP_NULL_POINTER, MSLIP_BAD_AREA, MSLIP_BAD_PRESSURE, the code of the first other parameter that is invalid, or
+/// MSLIP_OUT_OF_RANGE.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn mslip_face_parts(
+    p: *const Parameters,
+    n: size_t,
+    pairs: size_t,
+    area: *const f64,
+    pressure: *const f64,
+    parts: *mut Parameters,
+    weight: *mut f64,
+) -> i32 {
+    call(|| {
+        let all = n.saturating_mul(pairs);
+        let (p, area, pressure) = (item(p)?, input(area, all)?, input(pressure, all)?);
+        let (parts, weight) = (output(parts, n)?.unwrap_or_default(), output(weight, all)?.unwrap_or_default());
+        if n == 0 { Ok(()) } else { divide(*p, pairs, area, pressure, parts, weight) }
+    })
 }
 
 /// Validates a contact that was read from a file or a message: its checksum must be that written at initialisation, which detects any

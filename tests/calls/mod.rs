@@ -17,6 +17,7 @@ pub use table::CALLS;
 pub enum Kind {
     Parameters,
     EllipticParameters,
+    NewParameters,
     Contact,
     Element,
     NewContact,
@@ -49,18 +50,21 @@ use Kind::*;
 
 impl Kind {
     pub fn is_written(self) -> bool {
-        matches!(self, NewContact | NewElement | FailedItem | FoundChoice | FoundSize | NewState | Buffer | Output)
+        matches!(
+            self,
+            NewParameters | NewContact | NewElement | FailedItem | FoundChoice | FoundSize | NewState | Buffer | Output
+        )
     }
 
     pub fn is_required(self) -> bool {
-        !matches!(self, Index | Active | FailedItem | FoundChoice | FoundSize | NewState | Output)
+        !matches!(self, NewParameters | Index | Active | FailedItem | FoundChoice | FoundSize | NewState | Output)
     }
 }
 
 pub struct Argument {
     pub name: &'static str,
     pub kind: Kind,
-    /// n: items or steps, m: components of a displacement, k: coefficients, p: parameters.
+    /// n: items or steps, m: components of a displacement, k: coefficients, p: parameters, q: pairs.
     pub extents: &'static str,
     /// The status of an invalid value.
     pub status: i32,
@@ -308,6 +312,8 @@ pub const HARMONICS: usize = 1;
 /// Of ellipses one less.
 pub const SAMPLES: usize = 9;
 pub const PERIODS: usize = 2;
+/// Of nodes of a part.
+pub const PAIRS: usize = 2;
 
 /// A contact or an element, with its units, and the rule of a workspace.
 #[derive(Clone)]
@@ -428,6 +434,7 @@ impl Law {
             'n' => N,
             'm' => m,
             'k' => m * (2 * self.harmonics + 1),
+            'q' => PAIRS,
             _ => MSLIP_PARAMETER_COUNT as usize,
         };
         extents.chars().map(factor).product()
@@ -451,6 +458,8 @@ impl Law {
             _ if normal && harmonic => self.normal * [0.5, 0.3, 0.1][i % 3],
             _ if normal => self.normal * [0.4, 0.9, 0.6][i % 3],
             "x" => part * self.half_width,
+            "area" => [1e-6, 3e-6, 0.0][i % 3],
+            "pressure" => [2e6, 0.0, 0.0, 4e6][i % 4],
             "force" => part * self.force,
             "force_amplitude" => part.abs() * self.force,
             "amplitude" => 1.5 * part.abs() * self.displacement,
@@ -574,6 +583,7 @@ impl Arguments {
                 Size => Ok(Slot::Size(match argument.name {
                     "harmonics" => law.harmonics,
                     "periods" => PERIODS,
+                    "pairs" => PAIRS,
                     _ => law.samples,
                 })),
                 Choice => Ok(Slot::Choice(match argument.name {
@@ -585,6 +595,7 @@ impl Arguments {
                 Parameters => Err(Memory::of(&[FLAT])),
                 EllipticParameters => Err(Memory::of(&[SPHERE])),
                 Contact | Element => Err(Memory::of_law(law, items)),
+                NewParameters => Err(Memory::of(&[FLAT; N])),
                 NewContact => Err(Memory::new::<mslip_contact>(1)),
                 NewElement => Err(Memory::new::<mslip_element>(1)),
                 Index => Err(Memory::of::<i32>(&[2, 0, 1])),

@@ -17,7 +17,7 @@ const LEAST: f64 = 5e-324;
 
 /// Invalid values of a quantity with their status; forces as multiples of mu N.
 #[rustfmt::skip]
-const INVALID: [(&str, i32, &[f64]); 15] = [
+const INVALID: [(&str, i32, &[f64]); 17] = [
     ("force", MSLIP_FORCE_EXCEEDS_SLIP, &[1.001, -1.001, 1.0 + 1e-12, 1e300, -1e300]),
     ("force_amplitude", MSLIP_FORCE_EXCEEDS_SLIP, &[1.001, 1e300]),
     ("force_amplitude", MSLIP_BAD_FORCE_AMPLITUDE, &[-1.0, -1e-320, -1e300]),
@@ -31,13 +31,17 @@ const INVALID: [(&str, i32, &[f64]); 15] = [
     ("approach", MSLIP_LENGTH_TOO_SHORT, &[1.0, 1e150]),
     ("normal_force", MSLIP_LENGTH_TOO_SHORT, &[1e12, 1e150]),
     ("coefficient of approach", MSLIP_LENGTH_TOO_SHORT, &[1.0, 1e149]),
+    ("area", MSLIP_BAD_AREA, &[-1.0, -LEAST, 1.000_000_1e50, f64::MAX]),
+    ("pressure", MSLIP_BAD_PRESSURE, &[-1.0, -LEAST, 1.000_000_1e50, f64::MAX]),
     ("x", MSLIP_BAD_POSITION, &[]),
     ("force", MSLIP_BAD_FORCE, &[]),
     ("displacement", MSLIP_BAD_DISPLACEMENT, &[1e160]),
 ];
 
 #[rustfmt::skip]
-const VALID: [(&str, &[f64]); 7] = [
+const VALID: [(&str, &[f64]); 9] = [
+    ("area", &[1e-50, 1e-20, 1e50]),
+    ("pressure", &[0.0, -0.0, LEAST, 1e-300, 1.0, 1e50]),
     ("x", &[0.0, -0.0, LEAST, -1e-300, 1e300, f64::MIN]),
     ("force", &[0.0, -0.0, 1e-320, -1e-300, 1.0, -1.0]),
     ("force_amplitude", &[0.0, -0.0, 1e-320, 1e-300, 1.0]),

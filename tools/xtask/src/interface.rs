@@ -43,9 +43,10 @@ pub struct Prototype<'a> {
 }
 
 impl Prototype<'_> {
-    /// Structures are arrays if their number is an argument.
+    /// Structures are arrays if their number is an argument, or they are parts.
     pub fn is_counted(&self, argument: &Declaration) -> bool {
-        self.arguments.iter().any(|count| count.name.strip_prefix("n_") == Some(argument.name))
+        argument.name == "parts"
+            || self.arguments.iter().any(|count| count.name.strip_prefix("n_") == Some(argument.name))
     }
 }
 
@@ -189,7 +190,7 @@ impl<'a> Fact<'a> {
         let (name, extents) = head.trim_end_matches([' ', '!', ')']).split_once(" (").unwrap_or((head, ""));
         let name = name.trim_end_matches([' ', '!']);
         let extents: String = extents.chars().filter(|letter| letter.is_alphabetic()).collect();
-        match extents.trim_matches(['n', 'm', 'k', 'p']) {
+        match extents.trim_matches(['n', 'm', 'k', 'p', 'q']) {
             "" => Ok(Fact { name, extents, required, comment: comment.trim() }),
             _ => Err(format!("unknown extents: {line}")),
         }

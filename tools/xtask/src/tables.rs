@@ -21,6 +21,7 @@ fn kind(argument: &Argument) -> &'static str {
     let declared = &argument.declaration;
     let name = argument.name();
     match (declared.base, declared.pointer, declared.constant) {
+        ("mslip_parameters", _, false) => "NewParameters",
         ("mslip_parameters", ..) => "Parameters",
         ("mslip_elliptic_parameters", ..) => "EllipticParameters",
         ("mslip_contact", _, true) => "Contact",

@@ -13,6 +13,7 @@ mod fretting;
 mod golden;
 mod histories;
 mod mindlin;
+mod parts;
 #[path = "../../paper/src/path.rs"]
 mod path;
 mod rebound;
@@ -51,6 +52,7 @@ fn main() -> ExitCode {
         springs::compare,
         rebound::compare,
         strips::compare,
+        parts::compare,
         finite_elements::compare,
         fretting::compare,
         fretting::opening,

@@ -24,13 +24,13 @@ fn within([low, high]: Range, least: f64, most: f64) -> bool {
 }
 
 /// A strip of half-width 1. The units are such that 2 mu P/(pi E*) and E* are 1, and energies are per mu N.
-fn contact(aspect_ratio: f64, a: f64, displacement_reference: i32) -> Contact {
+pub fn parameters(aspect_ratio: f64, a: f64, displacement_reference: i32) -> Parameters {
     let w = ((1.0 - a) * (1.0 + a)).sqrt();
     let g = 2.0 * w.atan2(a) - 2.0 * a * w;
     let length = 2.0 * aspect_ratio;
     let normal_force = PI * length;
     let young_modulus = 2.0 * (1.0 - POISSON_RATIO * POISSON_RATIO);
-    let parameters = Parameters {
+    Parameters {
         flat_half_width: a,
         edge_radius: g * length / (4.0 * normal_force),
         length,
@@ -39,8 +39,11 @@ fn contact(aspect_ratio: f64, a: f64, displacement_reference: i32) -> Contact {
         material: [Material { young_modulus, poisson_ratio: POISSON_RATIO }; 2],
         displacement_reference,
         ..Parameters::default()
-    };
-    Contact::rounded_flat(&parameters).expect("a contact")
+    }
+}
+
+fn contact(aspect_ratio: f64, a: f64, displacement_reference: i32) -> Contact {
+    Contact::rounded_flat(&parameters(aspect_ratio, a, displacement_reference)).expect("a contact")
 }
 
 /// The errors of the law against boundary elements, `law/elements - 1`.

@@ -1,0 +1,213 @@
+//! A face with an uneven pressure, divided along its length into parts: each is a line contact with its own normal force.
+//!
+//! A part of length L_i = s L returns s times the force of a contact of length L that is loaded everywhere as the part is. That is
+//! the force of a contact of length L with Young's moduli times s, and with a layer whose stiffness under equal load per length is
+//! s times that of the whole: compliances over s, N_c and N_r times s. A part without load does not count in L. (Parts of a line
+//! contact in `docs/derivation.md`)
+
+use crate::error::Error;
+use crate::numerics::fp_class::in_0_to;
+use crate::parameters::Parameters;
+use crate::shape::Geometry;
+
+/// Bounds of areas, pressures and loads: shares, and what is multiplied with them, are representable.
+const LEAST: f64 = 1e-50;
+const LARGEST: f64 = 1e50;
+/// Larger compliances are those of no contact, and beyond it the stiffness of a layer is constant under any load.
+const LARGEST_OF_LAYER: f64 = 1e160;
+
+/// Parameters of the parts of a face, with the given number of pairs of nodes each, and weights of the pairs: their share in the
+/// normal force of their part, or in its area if it has no load. The normal force of the whole is the sum of all pairs.
+/// Errors: `BadArea`, `BadPressure`, or that of the first other parameter that is invalid.
+pub fn divide(
+    mut whole: Parameters,
+    pairs: usize,
+    area: &[f64],
+    pressure: &[f64],
+    parts: &mut [Parameters],
+    weight: &mut [f64],
+) -> Result<(), Error> {
+    for (values, error) in [(area, Error::BadArea), (pressure, Error::BadPressure)] {
+        if !values.iter().all(|value| in_0_to(LARGEST, *value)) {
+            return Err(error);
+        }
+    }
+    let pairs = pairs.max(1);
+    // Areas and forces of the pairs of a part, with their sums.
+    let rows = || {
+        area.chunks(pairs).zip(pressure.chunks(pairs)).map(|(area, pressure)| {
+            let forces = area.iter().zip(pressure).map(|(area, pressure)| (*area, area * pressure));
+            let [sum, load] = forces.clone().fold([0.0; 2], |[sum, load], (area, force)| [sum + area, load + force]);
+            (forces, sum, if load < LEAST { 0.0 } else { load })
+        })
+    };
+    let mut all = 0.0;
+    let mut touching = 0.0;
+    whole.normal_force = 0.0;
+    for (_, area, load) in rows() {
+        if area < LEAST {
+            return Err(Error::BadArea);
+        }
+        all += area;
+        whole.normal_force += load;
+        touching += if load > 0.0 { area } else { 0.0 };
+    }
+    if whole.normal_force <= 0.0 {
+        return Err(Error::BadPressure);
+    }
+    whole.checked()?.composite_modulus()?;
+    whole.length *= touching / all;
+    if whole.layer.reference_load <= 0.0 {
+        whole.layer.reference_load = whole.normal_force;
+    }
+    for ((_, area, load), part) in rows().zip(parts) {
+        let share = area / touching;
+        *part = Parameters { normal_force: load, ..whole };
+        part.material.iter_mut().for_each(|body| body.young_modulus *= share);
+        let layer = &mut part.layer;
+        for (value, factor) in [
+            (&mut layer.normal_compliance, 1.0 / share),
+            (&mut layer.tangential_compliance, 1.0 / share),
+            (&mut layer.stiffening_load, share),
+            (&mut layer.reference_load, share),
+        ] {
+            *value = value.min(LARGEST_OF_LAYER) * factor;
+        }
+    }
+    for ((forces, sum, load), weight) in rows().zip(weight.chunks_mut(pairs)) {
+        for ((area, force), weight) in forces.zip(weight) {
+            *weight = if load > 0.0 { force / load } else { area / sum };
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::constant_load::contact::Contact;
+    use crate::element::{Directions, Element, NormalInput};
+    use crate::parameters::{Layer, Material, RIGID_STRIP};
+    use std::vec;
+    use std::vec::Vec;
+
+    const PAIRS: usize = 3;
+    const AREA: [f64; 4 * PAIRS] = [2e-5, 1e-5, 0.0, 3e-5, 4e-5, 3e-5, 1e-5, 1e-5, 1e-5, 1e-6, 1e-6, 2e-6];
+    const PRESSURE: f64 = 5e6;
+
+    fn flank(layer: Layer) -> Parameters {
+        let body = |young_modulus| Material { young_modulus, poisson_ratio: 0.32 };
+        Parameters {
+            flat_half_width: 1.2e-3,
+            edge_radius: 3e-3,
+            length: 24e-3,
+            friction_coefficient: 0.3,
+            material: [body(114e9), body(200e9)],
+            layer,
+            displacement_reference: RIGID_STRIP,
+            ..Parameters::default()
+        }
+    }
+
+    fn divided(whole: Parameters, area: &[f64], pressure: &[f64]) -> Result<(Vec<Parameters>, Vec<f64>), Error> {
+        let (mut parts, mut weight) = (vec![whole; area.len() / PAIRS], vec![f64::NAN; area.len()]);
+        divide(whole, PAIRS, area, pressure, &mut parts, &mut weight).map(|()| (parts, weight))
+    }
+
+    /// Equal to some roundings.
+    fn close(what: &str, found: f64, expected: f64) {
+        assert!((found / expected - 1.0).abs() < 1e-14, "{what}: {found}, {expected}");
+    }
+
+    /// Parts of equal pressure are the undivided contact, with a layer and without, also as elements; their weights are the shares of
+    /// the area.
+    #[test]
+    fn equal_pressures() {
+        let soft =
+            Layer { normal_compliance: 2e-9, tangential_compliance: 3e-9, stiffening_load: 90.0, reference_load: 0.0 };
+        for layer in [
+            Layer::none(),
+            soft,
+            Layer { reference_load: 400.0, ..soft },
+            Layer { stiffening_load: f64::INFINITY, ..soft },
+        ] {
+            let normal_force = PRESSURE * AREA.iter().sum::<f64>();
+            let whole = Parameters { normal_force, ..flank(layer) };
+            let (parts, weight) = divided(flank(layer), &AREA, &[PRESSURE; AREA.len()]).unwrap();
+            close("a weight", weight[4], 0.4);
+            let contact = Contact::rounded_flat(&whole).unwrap();
+            let contacts: Vec<Contact> = parts.iter().map(|part| Contact::rounded_flat(part).unwrap()).collect();
+            for amplitude in [0.01, 0.5, 0.99, 1.5].map(|part| part * contact.slip_displacement) {
+                let force = |contact: &Contact| contact.curve_at_displacement(amplitude).unwrap().force();
+                let stiffness = |contact: &Contact| contact.complex_stiffness(amplitude).unwrap();
+                close("T", contacts.iter().map(force).sum(), force(&contact));
+                close("K'", contacts.iter().map(|part| stiffness(part).real).sum(), stiffness(&contact).real);
+                close(
+                    "K''",
+                    contacts.iter().map(|part| stiffness(part).imaginary).sum(),
+                    stiffness(&contact).imaginary,
+                );
+            }
+            let element = |p: &Parameters| Element::rounded_flat(p, Directions::One, NormalInput::Approach).unwrap();
+            let one = element(&whole);
+            let values =
+                |element: &Element| [element.normal_force, element.normal_stiffness, element.tangential_stiffness];
+            let sum = parts
+                .iter()
+                .map(element)
+                .fold([0.0; 3], |sum, part| core::array::from_fn(|i| sum[i] + values(&part)[i]));
+            sum.iter().zip(values(&one)).for_each(|(sum, one)| close("an element", *sum, one));
+            parts.iter().for_each(|part| close("approach", element(part).approach, one.approach));
+        }
+    }
+
+    /// A part without load is an open contact with weights; the others are those of a shorter face.
+    #[test]
+    fn open_parts() {
+        let layer = Layer { tangential_compliance: 3e-9, stiffening_load: 90.0, ..Layer::none() };
+        let mut pressure: Vec<f64> = (0..AREA.len()).map(|i| 1e6 * i as f64).collect();
+        pressure[3..6].fill(1e-60);
+        let (parts, weight) = divided(flank(layer), &AREA, &pressure).unwrap();
+        let open = Contact::rounded_flat(&parts[1]).unwrap();
+        assert_eq!([open.slip_force, open.initial_stiffness, weight[3], weight[4]], [0.0, 0.0, 0.3, 0.4]);
+        weight.chunks(PAIRS).for_each(|weight| close("weights", weight.iter().sum(), 1.0));
+        let [area, pressure] = [&AREA[..], &pressure].map(|values| [&values[..3], &values[6..]].concat());
+        let shorter =
+            Parameters { length: 24e-3 * area.iter().sum::<f64>() / AREA.iter().sum::<f64>(), ..flank(layer) };
+        let (rest, of_rest) = divided(shorter, &area, &pressure).unwrap();
+        for (part, rest) in [parts[0], parts[2], parts[3]].iter().zip(rest) {
+            let stiffness = |p: &Parameters| Contact::rounded_flat(p).unwrap().complex_stiffness(1e-6).unwrap();
+            close("K'", stiffness(part).real, stiffness(&rest).real);
+            close("N", part.normal_force, rest.normal_force);
+        }
+        assert_eq!(weight[6..], of_rest[3..]);
+    }
+
+    #[test]
+    fn invalid_faces() {
+        let status = |whole: Parameters, area: &[f64], pressure: &[f64]| divided(whole, area, pressure).err();
+        let whole = flank(Layer::none());
+        let pressure = [PRESSURE; AREA.len()];
+        assert_eq!(status(whole, &[&AREA[..3], &[0.0; 3]].concat(), &pressure[..6]), Some(Error::BadArea));
+        assert_eq!(status(whole, &AREA, &[0.0; AREA.len()]), Some(Error::BadPressure));
+        assert_eq!(divide(whole, 0, &[], &[], &mut [whole], &mut []), Err(Error::BadPressure));
+        assert_eq!(status(Parameters { normal_force: f64::NAN, ..whole }, &AREA, &pressure), None);
+        for (whole, error) in [
+            (Parameters { flat_half_width: -1.0, ..whole }, Error::BadFlatHalfWidth),
+            (Parameters { edge_radius: 0.0, ..whole }, Error::BadEdgeRadius),
+            (Parameters { length: f64::NAN, ..whole }, Error::BadLength),
+            (Parameters { material: Parameters::default().material, ..whole }, Error::BadYoungModulus),
+            (
+                Parameters { material: [Material { young_modulus: 1e200, ..whole.material[0] }; 2], ..whole },
+                Error::OutOfRange,
+            ),
+            (
+                Parameters { layer: Layer { tangential_compliance: -1.0, ..whole.layer }, ..whole },
+                Error::BadTangentialCompliance,
+            ),
+            (Parameters { displacement_reference: -1, ..whole }, Error::BadDisplacementReference),
+        ] {
+            assert_eq!(status(whole, &AREA, &pressure), Some(error));
+        }
+    }
+}
