@@ -878,9 +878,9 @@ contains
     !! nodes in the direction of motion. The displacements of a part are the sums of those of its pairs times `weight`, and a pair
     !! carries its weight times the forces of the part.
     !!
-    !! `normal_force` of the whole face is not read, but the sum of pressures times areas, which is also the reference load of a
-    !! layer if that is 0. A part whose normal force is below 1e-50 is open: it gets a `normal_force` of 0 and weights in
-    !! proportion to the areas, and does not count in the length. An element requires a `normal_force` > 0, the largest in its
+    !! The `normal_force` of the whole face is not read: it is the sum of pressures times areas, also for a layer whose
+    !! `reference_load` is 0. A part whose normal force is below 1e-50 is open: its `normal_force` is 0, its weights are in
+    !! proportion to the areas, and it does not count in the length. An element requires a `normal_force` > 0, the largest in its
     !! motion: set that of each part before `mslip_element_init`.
     !!
     !! Since 0.1.0 (interface 6).

@@ -27,6 +27,7 @@ from ._contact import (
 )
 from ._core import Error, Parameter, Status, ffi, lib, status_text
 from ._element import Element, ElementArray, ElementStep, NormalApproach, NormalForce, StaticDisplacement
+from ._face import FaceParts, face_parts
 from ._fit import FitError, fit
 from ._law import PlausibilityWarning
 from ._memory import ElementState, ElementWorkspace, State, Workspace
@@ -59,6 +60,7 @@ __all__ = [
     "ElementStep",
     "ElementWorkspace",
     "Error",
+    "FaceParts",
     "FitError",
     "HarmonicForce",
     "HysteresisLoop",
@@ -79,6 +81,7 @@ __all__ = [
     "Tractions",
     "Workspace",
     "__version__",
+    "face_parts",
     "fit",
     "read_parameters",
     "status_text",

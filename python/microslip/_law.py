@@ -62,6 +62,27 @@ class PlausibilityWarning(UserWarning):
     """Parameters are valid but implausible: another unit, an exchanged pair, or a contact for which the model is inaccurate."""
 
 
+def c_parameters(kind: str, given: Mapping[str, Any]) -> tuple[Any, dict[str, Any]]:
+    """Parameters in C, and their checked values by name, from arguments that have the names of the fields."""
+    parameters = ffi.new(f"{kind} *")
+    getattr(lib, f"{kind}_default")(parameters)
+    fields, layer = ([name for name, _ in ffi.typeof(one).fields] for one in (kind, "mslip_layer"))
+    checked: dict[str, Any] = {}
+    for name in [name for name in given if name in fields]:
+        value = given[name]
+        if name == "displacement_reference":
+            checked[name] = choice(value, name, REFERENCES)
+        else:
+            checked[name] = number(value, name)
+        setattr(parameters, name, checked[name])
+    bodies = {name: tuple(pair(given[name], name)) for name in ("young_modulus", "poisson_ratio")}
+    parameters.material = list(zip(*bodies.values()))
+    for name in layer:
+        checked[name] = number(given[name], name)
+        setattr(parameters.layer, name, checked[name])
+    return parameters, checked | bodies
+
+
 class _Components(Value):
     @property
     def _components(self) -> tuple[int, ...]:
@@ -118,22 +139,7 @@ class _Law(_Components):
     def _initialise(self, shape: str, given: dict[str, Any], *more: int) -> Any:
         """Of the `shape` "" or "_elliptic", with `given` arguments that have the names of the fields of the parameters."""
         kind = f"mslip{shape}_parameters"
-        parameters = ffi.new(f"{kind} *")
-        getattr(lib, f"{kind}_default")(parameters)
-        fields, layer = ([name for name, _ in ffi.typeof(one).fields] for one in (kind, "mslip_layer"))
-        checked: dict[str, Any] = {}
-        for name in [name for name in given if name in fields]:
-            value = given[name]
-            if name == "displacement_reference":
-                checked[name] = choice(value, name, REFERENCES)
-            else:
-                checked[name] = number(value, name)
-            setattr(parameters, name, checked[name])
-        bodies = {name: tuple(pair(given[name], name)) for name in ("young_modulus", "poisson_ratio")}
-        parameters.material = list(zip(*bodies.values()))
-        for name in layer:
-            checked[name] = number(given[name], name)
-            setattr(parameters.layer, name, checked[name])
+        parameters, checked = c_parameters(kind, given)
         for i in range(2**31 - 1):
             text = getattr(lib, f"{kind}_warning")(parameters, i)
             if text == ffi.NULL:
@@ -141,7 +147,7 @@ class _Law(_Components):
             warnings.warn(ffi.string(text).decode(), PlausibilityWarning, stacklevel=3)
         self._c = ffi.new(f"{self._type} *")
         check(getattr(lib, f"{self._type}_init{shape}")(parameters, *more, self._c))
-        self._parameters = checked | bodies | dict(zip(("directions", "normal_input"), more))
+        self._parameters = checked | dict(zip(("directions", "normal_input"), more))
         return self
 
     def __bytes__(self) -> bytes:

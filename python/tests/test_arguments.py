@@ -150,6 +150,33 @@ def test_parameters_are_shown_and_kept():
     assert "bytes" in repr(from_bytes)
 
 
+def test_parts_of_a_face():
+    whole = {**FLAT, "displacement_reference": "rigid_strip", "tangential_compliance": 1e-9, "stiffening_load": 50.0}
+    area = np.array([[1e-6, 2e-6, 0.0], [3e-6, 2e-6, 1e-6], [1e-6, 0.0, 0.0]])
+    even = np.full_like(area, 800.0 / area.sum())
+    parts, weight = microslip.face_parts(whole, area, even)
+    np.testing.assert_allclose(weight, area / area.sum(axis=1, keepdims=True), rtol=1e-15)
+    many = microslip.ContactArray(microslip.Contact(**part) for part in parts)
+    one = microslip.Contact(**whole)
+    for amplitude in (0.1 * SLIP, 2 * SLIP):
+        found, expected = many.complex_stiffness(np.full(3, amplitude)), one.complex_stiffness(amplitude)
+        np.testing.assert_allclose([found.k_real.sum(), found.k_imag.sum()], expected[:2], rtol=1e-13)
+    parts, weight = microslip.face_parts(whole, area[:, ::-1], even * [[1], [0], [3]])
+    assert [part["normal_force"] for part in parts] == [240.0, 0.0, 240.0]
+    np.testing.assert_allclose(weight.sum(axis=1), 1.0, rtol=1e-15)
+    assert microslip.Contact(**parts[1]).slip_force == 0.0
+    for change, message in [
+        ((whole, area, -even), "BAD_PRESSURE"),
+        ((whole, -area, even), "BAD_AREA"),
+        (({**whole, "edge_radius": 0.0}, area, even), "BAD_EDGE_RADIUS"),
+        ((whole, area, even[0]), r"pressure must be an array of shape \(3, 3\), not an array"),
+        (({**whole, "radius": 1.0}, area, even), "radius"),
+        (({"length": 1.0}, area, even), "missing"),
+    ]:
+        with pytest.raises((TypeError, ValueError), match=message):
+            microslip.face_parts(*change)
+
+
 def test_warnings_of_implausible_parameters():
     millimetres = {name: 1e3 * FLAT[name] for name in ("flat_half_width", "edge_radius", "length")}
     for changes, texts in [

@@ -90,15 +90,15 @@ pub unsafe extern "C" fn mslip_contact_init_elliptic(p: *const EllipticParameter
 }
 
 /// Divides a face with an uneven pressure along its length into n parts, each with a normal force of its own: parts\[n\] are the
-/// parameters of their contacts or elements, whose forces add up to that of the face. Each part has the same number of pairs of
-/// opposite nodes, a row in the direction of motion: area\[pairs n\] \[m2\] and pressure\[pairs n\] \[Pa\], part after part. weight\[pairs
-/// n\] is the share of a pair in its part: the displacements of the part are the weighted sums of those of its pairs, and a pair
-/// carries its weight times the forces of the part.
+/// parameters of their contacts or elements, whose forces add up to that of the face. A part is a row of pairs of opposite nodes in the
+/// direction of motion: area \[m2\] and pressure \[Pa\], pairs x n, part after part; an area of 0 fills up a shorter row. weight, pairs x
+/// n, is the share of a pair in its part: the displacements of the part are the sums of those of its pairs times their weights, and a
+/// pair carries its weight times the forces of the part.
 ///
-/// p are the parameters of the whole face; its normal_force is not read, but the sum of pressures times areas, which is also the
-/// reference load of a layer if that is 0. A part whose normal force is below 1e-50 is open: it gets a normal_force of 0 and weights in
-/// proportion to the areas, and does not count in the length. An element requires a normal_force > 0, the largest in its motion: set
-/// that of each part before mslip_element_init.
+/// p are the parameters of the whole face. Their normal_force is not read: it is the sum of pressures times areas, also for a layer
+/// whose reference_load is 0. A part whose normal force is below 1e-50 is open: its normal_force is 0, its weights are in proportion to
+/// the areas, and it does not count in the length. An element requires a normal_force > 0, the largest in its motion: set that of
+/// each part before mslip_element_init.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_AREA, MSLIP_BAD_PRESSURE, the code of the first other parameter that is invalid, or
 /// MSLIP_OUT_OF_RANGE.

@@ -14,6 +14,7 @@ program test_microslip
   call test_state()
   call test_workspaces()
   call test_elliptic()
+  call test_face()
   call test_strides()
   call test_element_curve()
   call test_element_memory()
@@ -136,6 +137,36 @@ contains
     call mslip_contact_init_elliptic(p, sphere, status)
     call check_status('second axis not set', status, MSLIP_BAD_SEMI_AXIS_Y)
   end subroutine test_elliptic
+
+  subroutine test_face()
+    ! Two parts of two pairs in sections; other shapes.
+    type(mslip_parameters) :: parts(3)
+    real(wp), dimension(4, 3) :: area, pressure
+    real(wp) :: weight(2, 2), wide(2, 3)
+    integer(mslip_int) :: status
+
+    area = untouched
+    pressure = untouched
+    area(1::3, 1::2) = reshape([1.0e-6_wp, 3.0e-6_wp, 4.0e-6_wp, 0.0_wp], [2, 2])
+    pressure(1::3, 1::2) = reshape([2.0e6_wp, 2.0e6_wp, 1.0e6_wp, 9.0e6_wp], [2, 2])
+    call mslip_face_parts(flat_parameters(1), area(1::3, 1::2), pressure(1::3, 1::2), parts(1::2), status, weight)
+    call check_status('face: sections', status, MSLIP_OK)
+    call check_close('face: force of the first part', parts(1)%normal_force, 8.0_wp, 1e-15_wp)
+    call check_close('face: force of the last part', parts(3)%normal_force, 4.0_wp, 1e-15_wp)
+    call check_close('face: modulus', parts(1)%material(2)%young_modulus, 1.0e11_wp, 1e-15_wp)
+    call check('face: gaps are not written', .not. parts(2)%length > 0)
+    call check('face: weights', all(abs(weight - reshape([0.25_wp, 0.75_wp, 1.0_wp, 0.0_wp], [2, 2])) < 1e-15_wp))
+    call mslip_face_parts(flat_parameters(1), area(1::3, 1::2), pressure(1::3, 1::2), parts(:2), status)
+    call check_status('face: without weights', status, MSLIP_OK)
+    call mslip_face_parts(flat_parameters(1), area(1::3, 1::2), pressure(1::3, 1::2), parts, status)
+    call check_status('face: three parts', status, MSLIP_BAD_ARRAY_SIZE)
+    call mslip_face_parts(flat_parameters(1), area(1::3, 1::2), pressure(1::3, :), parts(:2), status)
+    call check_status('face: other pressures', status, MSLIP_BAD_ARRAY_SIZE)
+    call mslip_face_parts(flat_parameters(1), area(1::3, 1::2), pressure(1::3, 1::2), parts(:2), status, wide)
+    call check_status('face: other weights', status, MSLIP_BAD_ARRAY_SIZE)
+    call mslip_face_parts(flat_parameters(1), area, pressure, parts, status)
+    call check_status('face: negative areas', status, MSLIP_BAD_AREA)
+  end subroutine test_face
 
   subroutine test_strides()
     ! Sections that are not contiguous, as arguments of every kind, and arrays without elements.

@@ -87,7 +87,7 @@ test_case case_of(double shape);
 
 /* Adds the entries of one amplitude or number of harmonics, whose number is k. */
 typedef void set_up(const test_case *c, const extent *x, int k);
-set_up set_up_initialisation, set_up_harmonic, set_up_step, set_up_element, set_up_plane;
+set_up set_up_initialisation, set_up_harmonic, set_up_step, set_up_element, set_up_face, set_up_plane;
 
 void write_tables(FILE *file);
 void write_entries(FILE *file);

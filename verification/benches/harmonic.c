@@ -2,6 +2,7 @@
 #include "bench.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Coefficients; samples of parallel sliders; nodes of a converged quadrature. */
 enum { MOST = 38, COMPARED = 128, CONVERGED = 4096 };
@@ -139,6 +140,71 @@ static void add_elements(entry call, job j, const sliders *slider)
     add(&call, "spring-slider", &j, exact.force);
 }
 
+/* Coefficients of the first harmonic in one direction: the displacements u and w of an element with this approach. */
+static void first_harmonic_of(double u, double approach, double *c, int harmonics)
+{
+    const double normal[] = { 0.45 * approach, 0.32 * 0.35 * approach, 0.7 * 0.35 * approach };
+    const double tangential[] = { 0.03 * u, u, 0.11 * u };
+    memcpy(c, tangential, sizeof tangential);
+    memcpy(c + 2 * harmonics + 1, normal, sizeof normal);
+}
+
+/* A face whose pressure varies along the length by 50 %: one element for each row of pairs of nodes. */
+enum { ROWS = 10, PAIRS = 5, PER_ROW = 6 };
+typedef struct {
+    mslip_element *elements;
+    double *workspace;
+    double weight[ROWS][PAIRS], displacement[ROWS][PAIRS][PER_ROW], force[ROWS][PAIRS][PER_ROW];
+    double motion[ROWS][PER_ROW], force_of_row[ROWS][PER_ROW], jacobian[ROWS][PER_ROW * PER_ROW];
+} face;
+
+static double run_face(void *context)
+{
+    face *f = context;
+    for (int i = 0; i < ROWS; ++i) {
+        for (int k = 0; k < PER_ROW; ++k) {
+            f->motion[i][k] = 0.0;
+            for (int j = 0; j < PAIRS; ++j) {
+                f->motion[i][k] += f->weight[i][j] * f->displacement[i][j][k];
+            }
+        }
+    }
+    mslip_batch_element_harmonic_force(ROWS, ROWS, f->elements, NULL, NULL, f->workspace, *f->motion, *f->force_of_row, *f->jacobian,
+                                       NULL, NULL, NULL);
+    for (int i = 0; i < ROWS; ++i) {
+        for (int j = 0; j < PAIRS; ++j) {
+            for (int k = 0; k < PER_ROW; ++k) {
+                f->force[i][j][k] = f->weight[i][j] * f->force_of_row[i][k];
+            }
+        }
+    }
+    return f->force[ROWS - 1][0][1] + f->jacobian[0][1];
+}
+
+void set_up_face(const test_case *t, const extent *x, int k)
+{
+    face f = { .elements = allocate(ROWS * sizeof *f.elements) };
+    double area[ROWS][PAIRS], pressure[ROWS][PAIRS];
+    mslip_parameters rows[ROWS];
+    for (int i = 0; i < ROWS; ++i) {
+        for (int j = 0; j < PAIRS; ++j) {
+            area[i][j] = 1.0 / (ROWS * PAIRS);
+            pressure[i][j] = t->parameters.normal_force * (1.0 + 0.5 * (2 * i + 1 - ROWS) / ROWS);
+        }
+    }
+    require(mslip_face_parts(&t->parameters, ROWS, PAIRS, *area, *pressure, rows, *f.weight));
+    for (int i = 0; i < ROWS; ++i) {
+        require(mslip_element_init(&rows[i], 1, MSLIP_INPUT_APPROACH, &f.elements[i]));
+        for (int j = 0; j < PAIRS; ++j) {
+            first_harmonic_of(0.2 * t->contact.slip_displacement, f.elements[i].approach, f.displacement[i][j], 1);
+        }
+    }
+    const job j = { .element = f.elements, .harmonics = 1, .blocks = 2 };
+    f.workspace = workspace_of(&j, 64, MSLIP_UNIFORM_SAMPLING);
+    entry_add((entry) { .task = "face", .method = "microslip", .amplitude = 0.2, .harmonics = 1, .samples = 64, .run = run_face,
+                        .items = 1 }, &f, sizeof f);
+}
+
 /* Microslip in one direction under a load that varies, with a phase. */
 void set_up_element(const test_case *t, const extent *x, int k)
 {
@@ -149,12 +215,7 @@ void set_up_element(const test_case *t, const extent *x, int k)
         const entry call = { .task = "element", .amplitude = 0.2, .samples = harmonics < 5 ? 64 : harmonics < 9 ? 128 : 256 };
         job j = { .element = element, .harmonics = harmonics, .blocks = 2 };
         double *tangential = j.displacement, *normal = tangential + 2 * harmonics + 1;
-        tangential[0] = 0.03 * u;
-        tangential[1] = u;
-        tangential[2] = 0.11 * u;
-        normal[0] = 0.45 * w;
-        normal[1] = 0.32 * swing;
-        normal[2] = 0.7 * swing;
+        first_harmonic_of(u, w, j.displacement, harmonics);
         for (int h = 2; h <= harmonics; ++h) {
             tangential[2 * h - 1] = 0.3 * u / (h * h);
             tangential[2 * h] = -0.13 * u / (h * h);

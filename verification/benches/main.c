@@ -20,6 +20,7 @@ static const struct { const char *name; set_up *set_up; int cases, one_shape; } 
     { "harmonic force", set_up_harmonic, AMPLITUDES_AND_HARMONICS, 0 },
     { "time step", set_up_step, AMPLITUDES, 0 },
     { "element", set_up_element, 1, 0 },
+    { "face", set_up_face, 1, 0 },
     { "two directions", set_up_plane, 2, 1 },
 };
 
