@@ -164,11 +164,8 @@ def test_parts_of_a_face():
     parts, weight = microslip.face_parts(whole, area[:, ::-1], even * [[1], [0], [3]])
     assert [part["normal_force"] for part in parts] == [240.0, 0.0, 240.0]
     np.testing.assert_allclose(weight.sum(axis=1), 1.0, rtol=1e-15)
-    assert microslip.Contact(**parts[1]).slip_force == 0.0
     for change, message in [
         ((whole, area, -even), "BAD_PRESSURE"),
-        ((whole, -area, even), "BAD_AREA"),
-        (({**whole, "edge_radius": 0.0}, area, even), "BAD_EDGE_RADIUS"),
         ((whole, area, even[0]), r"pressure must be an array of shape \(3, 3\), not an array"),
         (({**whole, "radius": 1.0}, area, even), "radius"),
         (({"length": 1.0}, area, even), "missing"),
