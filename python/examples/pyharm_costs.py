@@ -1,7 +1,8 @@
 """What harmonic force and Jacobian of a contact cost in pyHarm: its own friction elements, and microslip through the adapter.
 
 Prints medians of the processor time in microseconds over rounds in which the elements take turns, for 1, 5 and 9 harmonics and 128
-samples; in brackets what `Contact.harmonic_force` takes of it. Set OPENBLAS_NUM_THREADS=1: the matrices are small."""
+samples; in brackets what `Contact.harmonic_force` takes of it. Then the seconds of a whole response of the two masses with
+one contact, and with twenty that share its load and stiffness. Set OPENBLAS_NUM_THREADS=1: the matrices are small."""
 
 import contextlib
 import io
@@ -12,16 +13,26 @@ import microslip
 import numpy as np
 from microslip.pyharm import Microslip
 from pyHarm.Maestro import Maestro
+from pyharm_two_masses import two_masses
 from two_masses import CONTACT, DAMPING, MASS, STIFFNESS
 
 CALLS = 20
 law = microslip.Contact(**CONTACT)
-slider = {"mu": law.friction_coefficient, "N0": law.normal_force}
-ELEMENTS = {
-    "Jenkins": {"type": "Jenkins", "dirs": [0], "k": law.initial_stiffness, **slider},
-    "Penalty3D": {"type": "Penalty3D", "dirs": [2, 0, 1], "g": 0.0, "k_n": 1e8, "k_t": law.initial_stiffness, **slider},
-    "microslip": {"type": "microslip", "dirs": [0], "law": law},
-}
+
+
+def elements(share=1.0):
+    """Contacts that carry a share of the load and have the same slip displacement."""
+    shares = {name: share * CONTACT[name] for name in ("normal_force", "young_modulus")}
+    part = microslip.Contact(**CONTACT | shares)
+    slider = {"mu": part.friction_coefficient, "N0": part.normal_force}
+    return {
+        "Jenkins": {"type": "Jenkins", "dirs": [0], "k": part.initial_stiffness, **slider},
+        "Penalty3D": {"type": "Penalty3D", "dirs": [2, 0, 1], "g": 0.0, "k_n": 1e8, "k_t": part.initial_stiffness, **slider},
+        "microslip": {"type": "microslip", "dirs": [0], "law": part},
+    }
+
+
+ELEMENTS = elements()
 
 
 def element(contact, harmonics):
@@ -49,6 +60,18 @@ def seconds(evaluate, motions):
     return (time.process_time() - start) / len(motions)
 
 
+def response(name, number):
+    """Processor time of a response with a number of contacts at the second mass."""
+    contact = elements(1 / number)[name]
+    data = two_masses(contact, [300.0, 900.0], ndofs=len(contact["dirs"]))
+    data["connectors"] |= {f"contact {i}": data["connectors"]["contact"] for i in range(1, number)}
+    with contextlib.redirect_stdout(io.StringIO()):
+        maestro = Maestro(data)
+        start = time.process_time()
+        maestro.operate()
+    return time.process_time() - start
+
+
 def main(rounds=41):
     random = np.random.default_rng(1)
     print("| harmonics | " + " | ".join(ELEMENTS) + " |")
@@ -70,6 +93,10 @@ def main(rounds=41):
         times = [[seconds(*task) for task in tasks.values()] for _ in range(rounds)]
         *cells, alone = (1e6 * median(column) for column in zip(*times))
         print(f"| {harmonics} | " + " | ".join(f"{cell:.0f}" for cell in cells) + f" ({alone:.0f}) |")
+    print("| contacts | Jenkins | microslip |")
+    for number in (1, 20):
+        cells = [median(response(name, number) for _ in range(min(rounds, 5))) for name in ("Jenkins", "microslip")]
+        print(f"| {number} | " + " | ".join(f"{cell:.2f}" for cell in cells) + " |")
 
 
 if __name__ == "__main__":
