@@ -24,7 +24,9 @@ import numpy as np
 LENGTH, WIDTH, MODULUS, DENSITY = 0.4, 0.02, 2.1e11, 7850.0  # m, Pa, kg/m^3; a square section
 ELEMENTS, STRIPS, HARMONICS, SAMPLES = 10, 10, 3, 128
 FACE = {"flat_half_width": 0, "edge_radius": 0.1, "length": 0.04, "friction_coefficient": 0.3}
-FACE |= {"poisson_ratio": 0.3, "displacement_reference": "rigid_strip"}
+FACE |= {"young_modulus": MODULUS, "poisson_ratio": 0.3, "displacement_reference": "rigid_strip"}
+AREA = np.full((STRIPS, 1), 0.04 * 2e-3 / STRIPS)  # m^2
+PRESSURE = 37.5e6 * np.linspace(1.5, 0.5, STRIPS)[:, None]  # Pa
 
 
 def beam():
@@ -50,8 +52,7 @@ def beam():
 
 MASS, STIFFNESS, ON_FACE = beam()
 TIP = len(MASS) - 2
-FORCES = 3000 * np.linspace(1.5, 0.5, STRIPS) / STRIPS
-CONTACTS = microslip.ContactArray(microslip.Contact(normal_force=force, young_modulus=MODULUS / STRIPS, **FACE) for force in FORCES)
+CONTACTS = microslip.ContactArray(microslip.Contact(**part) for part in microslip.face_parts(FACE, AREA, PRESSURE).parts)
 WORKSPACE = microslip.Workspace(HARMONICS, SAMPLES)
 # The derivative by the phase: cos k becomes -k sin k, sin k becomes k cos k.
 PHASE = np.zeros((2 * HARMONICS + 1, 2 * HARMONICS + 1))
