@@ -14,10 +14,10 @@
 //! propagated for a few coefficients at once.
 
 use super::matrix::dot;
-use super::nodes::{Both, N, NEIGHBOUR, Nodes, ROWS, Units, both, fill, length};
-use super::path::PathInContact;
+use super::nodes::{NEIGHBOUR, Nodes, PerAxis, ROWS, SPRINGS, Units, by_axis, fill, length};
+use super::path::ContactPath;
 use super::shells::Pressed;
-use super::step::{Displacements, LoadedContact, SlipStep, StepMotion, bounded};
+use super::step::{Displacements, LoadedContact, SpringMotion, StepWork, within_friction_limit};
 use super::tangent::{
     self, ContactSlopes, END, PARAMETERS, ParameterChanges, ParameterTerms, REFERENCE, START, SpringChanges, propagate,
     slopes_of_nodes,
@@ -49,18 +49,18 @@ pub fn workspace_init(harmonics: usize, samples: usize, periods: usize, workspac
 
 /// Samples of a cycle of the highest harmonic, at least, in the periods that are advanced by fewer. With half of them a sticking core may keep
 /// another force, which more periods do not correct.
-const TRANSIENT: usize = 32;
+const TRANSIENT_SAMPLES: usize = 32;
 
 /// Factor of the extrapolation. After the second period the springs change by this factor times their change in that period, if another
 /// period follows before the one that counts. So they would if each period changed them by 0.6 of the change before.
-const AHEAD: f64 = 1.5;
+const EXTRAPOLATION: f64 = 1.5;
 
 /// Coefficients that are propagated at once, those of the normal component, of u and of v in a block each.
 const BLOCK: usize = 4;
 const COLUMNS: usize = 3 * BLOCK;
 type Columns = Lanes<COLUMNS>;
 /// Changes of springs as rows of columns in the workspace: both directions, and the spring at the edge.
-const CHANGES: usize = 2 * N + 2;
+const CHANGES: usize = 2 * SPRINGS + 2;
 
 /// Doubles of a sample: the motion, the normal force and its derivative, and the tangential forces.
 const SAMPLE: usize = 8;
@@ -232,7 +232,7 @@ fn first_of_largest_load(workspace: &TwoDirectionsWorkspace) -> (usize, f64) {
 }
 
 /// The walk along a motion that was synthesised.
-struct Walk<'a> {
+struct PeriodIntegration<'a> {
     element: &'a Element,
     units: Units,
     nodes: &'a Nodes,
@@ -242,30 +242,30 @@ struct Walk<'a> {
     contact: LoadedContact,
     normal: Normal,
     springs: Displacements,
-    step: &'a mut SlipStep,
+    step: &'a mut StepWork,
     /// Derivatives of the contact before and of the present one, by the normal component and by the reference size, if they are known.
     slopes: [Option<[ContactSlopes; 2]>; 2],
     terms: &'a mut [ParameterTerms; PARAMETERS],
 }
 
 /// What a step gives besides the springs.
-struct Advanced {
-    force: Both<f64>,
-    unbounded: Both<f64>,
-    motion: StepMotion,
-    path: PathInContact,
+struct StepForces {
+    force: PerAxis<f64>,
+    unbounded: PerAxis<f64>,
+    motion: SpringMotion,
+    path: ContactPath,
     closed: [bool; 2],
 }
 
-impl<'a> Walk<'a> {
+impl<'a> PeriodIntegration<'a> {
     /// Pressed by a normal component. The step and the terms are large: memory of the caller is not copied.
     fn new(
         element: &'a Element,
         (units, nodes): (Units, &'a Nodes),
         top: f64,
-        (step, terms): (&'a mut SlipStep, &'a mut [ParameterTerms; PARAMETERS]),
-    ) -> Walk<'a> {
-        let mut walk = Walk {
+        (step, terms): (&'a mut StepWork, &'a mut [ParameterTerms; PARAMETERS]),
+    ) -> PeriodIntegration<'a> {
+        let mut walk = PeriodIntegration {
             element,
             units,
             nodes,
@@ -283,13 +283,13 @@ impl<'a> Walk<'a> {
     }
 
     /// Advances to a sample.
-    fn advance(&mut self, to: [f64; 3], derivatives: bool) -> Advanced {
+    fn advance(&mut self, to: [f64; 3], derivatives: bool) -> StepForces {
         let closed = [self.contact.now.load > 0.0, self.element.is_closed(to[2])];
         let same = closed[0] && to[2].to_bits() == self.at[2].to_bits();
-        let path = PathInContact::new(self.element, &self.units, [self.at, to], closed);
+        let path = ContactPath::new(self.element, &self.units, [self.at, to], closed);
         self.from = self.contact;
         let motion =
-            StepMotion { shift_before: self.from.now.shift, displacement: path.displacement, constant_load: same };
+            SpringMotion { shift_before: self.from.now.shift, displacement: path.displacement, constant_load: same };
         self.at = to;
         let (mut force, mut unbounded) = ([0.0; 2], [0.0; 2]);
         if closed[1] {
@@ -298,12 +298,12 @@ impl<'a> Walk<'a> {
             }
             let contacts = [&self.from, &self.contact];
             unbounded = self.step.advance(self.nodes, contacts, &motion, &mut self.springs, derivatives);
-            force = bounded(unbounded, self.contact.now.load);
+            force = within_friction_limit(unbounded, self.contact.now.load);
         } else {
             (self.contact, self.springs, self.normal) = (LoadedContact::OPEN, Displacements::NONE, Normal::OPEN);
             self.slopes = [None; 2];
         }
-        Advanced { force, unbounded, motion, path, closed }
+        StepForces { force, unbounded, motion, path, closed }
     }
 
     /// The contact under a normal component that closes it.
@@ -315,17 +315,17 @@ impl<'a> Walk<'a> {
 
     /// Extrapolates the springs from those a period before.
     fn extrapolate(&mut self, from: &Displacements) {
-        for k in 0..2 {
-            extrapolate(&mut self.springs.v[k].0, &from.v[k].0);
+        for axis in 0..2 {
+            extrapolate(&mut self.springs.v[axis].0, &from.v[axis].0);
         }
         extrapolate(&mut self.springs.edge, &from.edge);
     }
 
     /// The change of the force from other springs, over its bound.
     fn change(&self, from: &Displacements) -> f64 {
-        let change = both(|k| {
-            let differences = (self.springs.v[k] - from.v[k]).map(f64::abs);
-            dot(&self.step.springs.stiffness[k], &differences)
+        let change = by_axis(|axis| {
+            let differences = (self.springs.v[axis] - from.v[axis]).map(f64::abs);
+            dot(&self.step.springs.stiffness[axis], &differences)
         });
         quotient(length(change), self.contact.now.load)
     }
@@ -335,16 +335,16 @@ impl<'a> Walk<'a> {
 /// largest normal component over its scale.
 fn differentiate(
     workspace: &mut TwoDirectionsWorkspace,
-    walk: &mut Walk,
-    advanced: &Advanced,
+    walk: &mut PeriodIntegration,
+    advanced: &StepForces,
     (nodes, by_top): (&Nodes, f64),
     samples: [Option<usize>; 3],
 ) {
     let n = workspace.coefficients();
     let [start, end, top] = samples.map(|index| index.map_or(&[][..], |index| row(workspace.basis, n, index)));
     let (per_scale, own_nodes) = (1.0 / walk.element.input_scale(), walk.nodes);
-    let Advanced { motion, path, unbounded, .. } = advanced;
-    let Walk { from, contact, step, springs, slopes: [first, second], terms, .. } = walk;
+    let StepForces { motion, path, unbounded, .. } = advanced;
+    let PeriodIntegration { from, contact, step, springs, slopes: [first, second], terms, .. } = walk;
     let derive = |contact: &LoadedContact| {
         [ContactSlopes::by_load(own_nodes, contact), ContactSlopes::by_reference(own_nodes, nodes, contact)]
     };
@@ -364,11 +364,11 @@ fn differentiate(
         let mut parameters = ParameterChanges { terms, changes: [Lanes::ZERO; PARAMETERS] };
         for lane in 0..BLOCK.min(n - BLOCK * block) {
             let c = BLOCK * block + lane;
-            for k in 0..2 {
-                let [per_start, per_end] = path.per_input[k];
-                displacement[k][lane] =
+            for axis in 0..2 {
+                let [per_start, per_end] = path.per_input[axis];
+                displacement[axis][lane] =
                     per_start * (per_scale * start.or_zero(c)) + per_end * (per_scale * end.or_zero(c));
-                displacement[k][BLOCK * (k + 1) + lane] = path.per_distance * (end.or_zero(c) - start.or_zero(c));
+                displacement[axis][BLOCK * (axis + 1) + lane] = path.per_distance * (end.or_zero(c) - start.or_zero(c));
             }
             // The load at the start of the first step is that of the largest one.
             let [from, to, top] = [start, end, top].map(|basis| per_scale * basis.or_zero(c));
@@ -376,16 +376,16 @@ fn differentiate(
             (parameters.changes[END][lane], parameters.changes[REFERENCE][lane]) = (to, by_top * top);
         }
         let mut changes = SpringChanges {
-            v: both(|k| core::array::from_fn(|j| Lanes(columns[k * N + j]))),
-            edge: both(|k| Lanes(columns[2 * N + k])),
+            v: by_axis(|axis| core::array::from_fn(|j| Lanes(columns[axis * SPRINGS + j]))),
+            edge: by_axis(|axis| Lanes(columns[2 * SPRINGS + axis])),
         };
         let forces = propagate(contact, own_nodes, (motion, &displacement), values, &mut changes, &parameters);
-        let forces = tangent::bounded(*unbounded, contact.now.load, forces, &parameters);
-        for k in 0..2 {
-            for j in 0..N {
-                columns[k * N + j] = changes.v[k][j].0;
+        let forces = tangent::within_friction_limit(*unbounded, contact.now.load, forces, &parameters);
+        for axis in 0..2 {
+            for j in 0..SPRINGS {
+                columns[axis * SPRINGS + j] = changes.v[axis][j].0;
             }
-            columns[2 * N + k] = changes.edge[k].0;
+            columns[2 * SPRINGS + axis] = changes.edge[axis].0;
         }
         (*to_x, *to_y) = (forces[0].0, forces[1].0);
     }
@@ -393,7 +393,7 @@ fn differentiate(
 
 /// Extrapolates values from those a period before.
 fn extrapolate(values: &mut [f64], before: &[f64]) {
-    values.iter_mut().zip(before).for_each(|(value, before)| *value += AHEAD * (*value - before));
+    values.iter_mut().zip(before).for_each(|(value, before)| *value += EXTRAPOLATION * (*value - before));
 }
 
 /// Changes below are 0, after this number of steps: memory that fades would end in subnormal numbers, which are slow.
@@ -428,9 +428,9 @@ fn walk(element: &Element, workspace: &mut TwoDirectionsWorkspace, displacement:
     // A contact that opens forgets: whatever was before, the second period is the steady state.
     let opens = workspace.samples.iter().any(|sample| !element.is_closed(sample[2]));
     let periods = if opens { 1 } else { periods };
-    let stride = count.checked_div(TRANSIENT * harmonics).unwrap_or(1).max(1);
+    let stride = count.checked_div(TRANSIENT_SAMPLES * harmonics).unwrap_or(1).max(1);
     let mut left = 0.0;
-    let mut nodes = [[[0.0; N]; ROWS]; 3];
+    let mut nodes = [[[0.0; SPRINGS]; ROWS]; 3];
     if slides {
         fill(&mut nodes[0], element, &units, 1.0);
         if derivatives {
@@ -439,11 +439,11 @@ fn walk(element: &Element, workspace: &mut TwoDirectionsWorkspace, displacement:
             workspace.changes.fill(0.0);
             workspace.sums.fill(0.0);
         }
-        let (mut step, mut terms) = (SlipStep::NONE, [ParameterTerms::NONE; PARAMETERS]);
-        let mut walk = Walk::new(element, (units, &nodes[0]), top, (&mut step, &mut terms));
+        let (mut step, mut terms) = (StepWork::NONE, [ParameterTerms::NONE; PARAMETERS]);
+        let mut walk = PeriodIntegration::new(element, (units, &nodes[0]), top, (&mut step, &mut terms));
         let slopes = slopes_of_nodes([&nodes[1], &nodes[2]]);
         // The reference size is not that of the largest load if this is below the least reference load.
-        let by_top = if walk.normal.load >= units.load * 0.99 { 0.5 * walk.contact.slopes.square } else { 0.0 };
+        let by_top = if walk.normal.load >= units.load * 0.99 { 0.5 * walk.contact.slopes.leg_squared } else { 0.0 };
         let mut before = None;
         let (mut start, mut changes, mut extrapolated) = (walk.springs, [0.0; 2], 0.0);
         for step in 0..=(periods + 1) * count {
@@ -488,7 +488,7 @@ fn walk(element: &Element, workspace: &mut TwoDirectionsWorkspace, displacement:
                 start = walk.springs;
             }
         }
-        left = remaining(changes).max(extrapolated.min(HIDDEN * changes[1]));
+        left = remaining(changes).max(extrapolated.min(LEAST_DRIFT_FACTOR * changes[1]));
     } else {
         without_friction(element, workspace.samples);
     }
@@ -511,7 +511,7 @@ fn walk(element: &Element, workspace: &mut TwoDirectionsWorkspace, displacement:
 
 /// An extrapolation cancels a part of the changes that follow. The drift is at least this factor times the last change, or the change
 /// that was extrapolated if that is smaller.
-const HIDDEN: f64 = 5.0;
+const LEAST_DRIFT_FACTOR: f64 = 5.0;
 
 /// What a sequence of changes leaves, of which these are the last two: that of a geometric one.
 fn remaining([before, last]: [f64; 2]) -> f64 {

@@ -1,6 +1,6 @@
 //! The part of a step in contact, in the units of the springs.
 
-use super::nodes::{Both, Units};
+use super::nodes::{PerAxis, Units};
 use crate::element::Element;
 
 /// A motion over more than this many slip displacements is shortened to it: the force does not depend on the rest, and the energy is
@@ -9,18 +9,18 @@ pub(super) const LONGEST: f64 = 1e9;
 
 /// Displacement of the springs and its derivatives, between contacts of which at least one is closed.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct PathInContact {
-    pub displacement: Both<f64>,
+pub(super) struct ContactPath {
+    pub displacement: PerAxis<f64>,
     pub per_distance: f64,
     /// By the normal component over its scale at the start and at the end, in each direction.
-    pub per_input: Both<[f64; 2]>,
+    pub per_input: PerAxis<[f64; 2]>,
     /// The factor by which the motion was shortened.
     pub scale: f64,
 }
 
-impl PathInContact {
+impl ContactPath {
     /// From and to displacements and normal components, of contacts that are closed or not.
-    pub fn new(element: &Element, units: &Units, [from, to]: [[f64; 3]; 2], closed: [bool; 2]) -> PathInContact {
+    pub fn new(element: &Element, units: &Units, [from, to]: [[f64; 3]; 2], closed: [bool; 2]) -> ContactPath {
         let (start, end) = (from[2], to[2]);
         let (part, slopes) = match closed {
             [true, false] => (element.crossing(start, end.min(0.0)), [0.0; 2]),
@@ -34,7 +34,7 @@ impl PathInContact {
         let distance = [to[0] - from[0], to[1] - from[1]].map(|distance| distance * per_unit);
         let longest = (part * distance[0].abs().max(distance[1].abs())).max(LONGEST);
         let per_scale = LONGEST / longest;
-        PathInContact {
+        ContactPath {
             displacement: distance.map(|distance| part * distance * per_scale),
             per_distance: part * per_unit * per_scale,
             per_input: distance.map(|distance| slopes.map(|slope| distance * slope * per_scale)),

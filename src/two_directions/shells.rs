@@ -12,22 +12,22 @@
 //! of a step is the contact whose shells are the means of those at both ends.
 
 use super::nodes::{
-    Both, FLAT_EDGE, LOAD, LOAD_STEP, Matrix, N, Nodes, PRESSURE, Row, SHIFT, SHIFT_STEP, Units, both, bounded,
-    first_shell, last_node, pressure, pressure_at_edge, pressure_at_edge_slope, pressure_slope,
+    FLAT_EDGE, LOAD, LOAD_STEP, Matrix, Nodes, PRESSURE, PerAxis, Row, SHIFT, SHIFT_STEP, SPRINGS, Units, by_axis,
+    first_shell, last_node, monotone_pressure, pressure, pressure_at_edge, pressure_at_edge_slope, pressure_slope,
 };
 use crate::element::{Element, Normal, SMALLEST_LOAD};
 use crate::numerics::guard::{TINY, quotient};
 use crate::numerics::lanes::Lanes;
 use core::ops::Range;
 
-/// The normal state in the units of the springs: N, S of both directions, w²; N and S of a slightly smaller size, inside the edge.
+/// The normal state in the units of the springs: N, S of both directions, leg²; N and S of a slightly smaller size, inside the edge.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Pressed {
     pub load: f64,
-    pub shift: Both<f64>,
-    pub square: f64,
+    pub shift: PerAxis<f64>,
+    pub leg_squared: f64,
     pub inside: f64,
-    pub inside_shift: Both<f64>,
+    pub inside_shift: PerAxis<f64>,
 }
 
 /// Values of a normal state.
@@ -42,18 +42,19 @@ const THINNEST: f64 = 1e-9;
 const LEAST_STIFFNESS: f64 = 1e-12;
 
 impl Pressed {
-    pub const NONE: Pressed = Pressed { load: 0.0, shift: [0.0; 2], square: 0.0, inside: 0.0, inside_shift: [0.0; 2] };
+    pub const NONE: Pressed =
+        Pressed { load: 0.0, shift: [0.0; 2], leg_squared: 0.0, inside: 0.0, inside_shift: [0.0; 2] };
 
     /// The state of a contact that is closed, and its derivatives by the normal component over its scale.
     pub fn new(element: &Element, units: &Units, input: f64, normal: &Normal) -> [Pressed; 2] {
         // Products only: the compiler may divide by what is beside a number in its vector register.
-        let [per_load, per_shift, per_size] = [units.load, units.shift, units.size].map(f64::recip);
-        let [w, slope] = element.shape().size_under(normal.load.max(SMALLEST_LOAD * element.normal_force));
-        let (size, slope) = (w * per_size, slope * normal.load_slope * per_size * per_size);
+        let [per_load, per_shift, per_leg] = [units.load, units.shift, units.leg].map(f64::recip);
+        let [leg, slope] = element.shape().size_under(normal.load.max(SMALLEST_LOAD * element.normal_force));
+        let (leg, slope) = (leg * per_leg, slope * normal.load_slope * per_leg * per_leg);
         let (inside, scale) = (element.normal(INSIDE_EDGE * input), element.input_scale());
         let [y, y_inside] = [normal, &inside].map(|normal| element.lateral(normal));
         let per = [per_load, per_shift, per_shift, 1.0, per_load, per_shift, per_shift];
-        let now = [normal.load, normal.shift, y[0], size * size, inside.load, inside.shift, y_inside[0]];
+        let now = [normal.load, normal.shift, y[0], leg * leg, inside.load, inside.shift, y_inside[0]];
         let inner = [inside.load_slope, inside.shift_slope, y_inside[1]].map(|slope| INSIDE_EDGE * slope);
         let slopes = [normal.load_slope, normal.shift_slope, y[1], slope, inner[0], inner[1], inner[2]];
         [now, slopes.map(|slope| scale * slope)]
@@ -61,13 +62,13 @@ impl Pressed {
     }
 
     /// From all its values, in order.
-    pub fn from_values([load, x, y, square, inside, inside_x, inside_y]: [f64; VALUES]) -> Pressed {
-        Pressed { load, shift: [x, y], square, inside, inside_shift: [inside_x, inside_y] }
+    pub fn from_values([load, x, y, leg_squared, inside, inside_x, inside_y]: [f64; VALUES]) -> Pressed {
+        Pressed { load, shift: [x, y], leg_squared, inside, inside_shift: [inside_x, inside_y] }
     }
 
     pub fn values(&self) -> [f64; VALUES] {
-        let Pressed { load, shift: [x, y], square, inside, inside_shift: [inside_x, inside_y] } = *self;
-        [load, x, y, square, inside, inside_x, inside_y]
+        let Pressed { load, shift: [x, y], leg_squared, inside, inside_shift: [inside_x, inside_y] } = *self;
+        [load, x, y, leg_squared, inside, inside_x, inside_y]
     }
 }
 
@@ -78,12 +79,12 @@ pub(crate) struct Shells {
     pub first: usize,
     pub last: usize,
     /// ΔN_j and ΔS_j for both directions.
-    pub load_step: Both<Row>,
-    pub shift_step: Both<Row>,
+    pub load_step: PerAxis<Row>,
+    pub shift_step: PerAxis<Row>,
     /// F_ij of the last shell.
     last_pressure: Row,
     /// Stiffness of the spring at the edge, from the size inside on.
-    pub edge_stiffness: Both<f64>,
+    pub edge_stiffness: PerAxis<f64>,
 }
 
 impl Shells {
@@ -97,7 +98,7 @@ impl Shells {
     };
 
     pub fn new(nodes: &Nodes, now: &Pressed) -> Shells {
-        let last = last_node(nodes, now.inside_shift[0] * (1.0 - THINNEST)).min(N - 1);
+        let last = last_node(nodes, now.inside_shift[0] * (1.0 - THINNEST)).min(SPRINGS - 1);
         let mut shells = Shells::before(nodes, first_shell(nodes), last);
         shells.set_last(nodes, now);
         shells
@@ -105,11 +106,11 @@ impl Shells {
 
     /// The shells from one to the one before the last one.
     pub fn before(nodes: &Nodes, first: usize, last: usize) -> Shells {
-        let mut shells = Shells { first, last: last.min(N - 1), ..Shells::NONE };
+        let mut shells = Shells { first, last: last.min(SPRINGS - 1), ..Shells::NONE };
         for j in 0..shells.last {
-            for k in 0..2 {
-                shells.load_step[k][j] = nodes[LOAD_STEP][j];
-                shells.shift_step[k][j] = nodes[SHIFT_STEP + k][j];
+            for axis in 0..2 {
+                shells.load_step[axis][j] = nodes[LOAD_STEP][j];
+                shells.shift_step[axis][j] = nodes[SHIFT_STEP + axis][j];
             }
         }
         shells
@@ -117,23 +118,23 @@ impl Shells {
 
     /// The last shell.
     fn set_last(&mut self, nodes: &Nodes, now: &Pressed) {
-        let last = self.last.min(N - 1);
+        let last = self.last.min(SPRINGS - 1);
         let (next_to_last, mut steps) = (last.max(1) - 1, [0.0; 2]);
-        for k in 0..2 {
-            let (node, shift) = (nodes[SHIFT + k][last], now.shift[k] - nodes[SHIFT + k][last]);
+        for axis in 0..2 {
+            let (node, shift) = (nodes[SHIFT + axis][last], now.shift[axis] - nodes[SHIFT + axis][last]);
             // The polygon of N(S) has its last corner at the size inside.
-            let secant = quotient(now.inside - nodes[LOAD][last], now.inside_shift[k] - node);
-            let outer = quotient(now.load - now.inside, now.shift[k] - now.inside_shift[k]);
-            (self.load_step[k][last], self.shift_step[k][last]) = (secant * shift, shift);
-            self.edge_stiffness[k] = outer - secant;
-            steps[k] = quotient(shift, nodes[SHIFT_STEP + k][next_to_last]);
+            let secant = quotient(now.inside - nodes[LOAD][last], now.inside_shift[axis] - node);
+            let outer = quotient(now.load - now.inside, now.shift[axis] - now.inside_shift[axis]);
+            (self.load_step[axis][last], self.shift_step[axis][last]) = (secant * shift, shift);
+            self.edge_stiffness[axis] = outer - secant;
+            steps[axis] = quotient(shift, nodes[SHIFT_STEP + axis][next_to_last]);
         }
         for i in self.first..last {
-            let own = pressure(nodes, last, now.square, i);
-            let bound = bounded(own, nodes[PRESSURE + next_to_last][i], steps);
+            let own = pressure(nodes, last, now.leg_squared, i);
+            let bound = monotone_pressure(own, nodes[PRESSURE + next_to_last][i], steps);
             self.last_pressure[i] = if i <= next_to_last { bound } else { own };
         }
-        self.last_pressure[last] = pressure_at_edge(nodes, last, now.square);
+        self.last_pressure[last] = pressure_at_edge(nodes, last, now.leg_squared);
     }
 
     /// Derivatives of the last shell, from those of the normal state and of the nodes by one parameter.
@@ -145,36 +146,36 @@ impl Shells {
         slopes: &Pressed,
         by_nodes: Option<&Nodes>,
     ) {
-        let last = of.last.min(N - 1);
+        let last = of.last.min(SPRINGS - 1);
         let slope = |row: usize, i: usize| by_nodes.map_or(0.0, |nodes| nodes[row][i]);
         let (next_to_last, mut steps, mut by_steps) = (last.max(1) - 1, [0.0; 2], [0.0; 2]);
-        for k in 0..2 {
-            let inner = (now.inside_shift[k] - nodes[SHIFT + k][last]).max(TINY);
-            let (shift, secant) = (of.shift_step[k][last], (now.inside - nodes[LOAD][last]) / inner);
-            let by_shift = slopes.shift[k] - slope(SHIFT + k, last);
-            let by_inner = slopes.inside_shift[k] - slope(SHIFT + k, last);
+        for axis in 0..2 {
+            let inner = (now.inside_shift[axis] - nodes[SHIFT + axis][last]).max(TINY);
+            let (shift, secant) = (of.shift_step[axis][last], (now.inside - nodes[LOAD][last]) / inner);
+            let by_shift = slopes.shift[axis] - slope(SHIFT + axis, last);
+            let by_inner = slopes.inside_shift[axis] - slope(SHIFT + axis, last);
             let by_secant = (slopes.inside - slope(LOAD, last) - secant * by_inner) / inner;
-            let edge = (now.shift[k] - now.inside_shift[k]).max(TINY);
-            let by_edge = slopes.shift[k] - slopes.inside_shift[k];
-            self.load_step[k][last] = by_secant * shift + secant * by_shift;
-            self.shift_step[k][last] = by_shift;
-            self.edge_stiffness[k] =
-                (slopes.load - slopes.inside - (of.edge_stiffness[k] + secant) * by_edge) / edge - by_secant;
-            let step = nodes[SHIFT_STEP + k][next_to_last].max(TINY);
-            steps[k] = shift / step;
-            by_steps[k] = (by_shift - steps[k] * slope(SHIFT_STEP + k, next_to_last)) / step;
+            let edge = (now.shift[axis] - now.inside_shift[axis]).max(TINY);
+            let by_edge = slopes.shift[axis] - slopes.inside_shift[axis];
+            self.load_step[axis][last] = by_secant * shift + secant * by_shift;
+            self.shift_step[axis][last] = by_shift;
+            self.edge_stiffness[axis] =
+                (slopes.load - slopes.inside - (of.edge_stiffness[axis] + secant) * by_edge) / edge - by_secant;
+            let step = nodes[SHIFT_STEP + axis][next_to_last].max(TINY);
+            steps[axis] = shift / step;
+            by_steps[axis] = (by_shift - steps[axis] * slope(SHIFT_STEP + axis, next_to_last)) / step;
         }
-        let k = usize::from(steps[1] <= steps[0]);
+        let axis = usize::from(steps[1] <= steps[0]);
         for i in of.first..last {
-            let own = pressure(nodes, last, now.square, i);
+            let own = pressure(nodes, last, now.leg_squared, i);
             let is_bound = i <= next_to_last && of.last_pressure[i] < own;
             self.last_pressure[i] = if is_bound {
-                nodes[PRESSURE + next_to_last][i] * by_steps[k] + slope(PRESSURE + next_to_last, i) * steps[k]
+                nodes[PRESSURE + next_to_last][i] * by_steps[axis] + slope(PRESSURE + next_to_last, i) * steps[axis]
             } else {
-                pressure_slope(nodes, by_nodes, last, [now.square, slopes.square], i)
+                pressure_slope(nodes, by_nodes, last, [now.leg_squared, slopes.leg_squared], i)
             };
         }
-        self.last_pressure[last] = pressure_at_edge_slope(nodes, by_nodes, last, [now.square, slopes.square]);
+        self.last_pressure[last] = pressure_at_edge_slope(nodes, by_nodes, last, [now.leg_squared, slopes.leg_squared]);
     }
 
     /// F_ij of a shell. Without the tables of the nodes, only that of the last shell is not 0.
@@ -194,21 +195,21 @@ impl Shells {
     /// The contact in the middle of a step: the means of the shells at both ends.
     pub fn middle([from, to]: [&Shells; 2]) -> Shells {
         let mut middle = Shells { first: to.first, last: from.last.max(to.last), ..Shells::NONE };
-        for k in 0..2 {
-            middle.load_step[k] = 0.5 * (from.load_step[k] + to.load_step[k]);
-            middle.shift_step[k] = 0.5 * (from.shift_step[k] + to.shift_step[k]);
+        for axis in 0..2 {
+            middle.load_step[axis] = 0.5 * (from.load_step[axis] + to.load_step[axis]);
+            middle.shift_step[axis] = 0.5 * (from.shift_step[axis] + to.shift_step[axis]);
         }
         middle
     }
 
     /// The shells, and springs, from the first to the last one.
     pub fn range(&self) -> Range<usize> {
-        self.first.min(FLAT_EDGE)..(self.last + 1).min(N)
+        self.first.min(FLAT_EDGE)..(self.last + 1).min(SPRINGS)
     }
 
     /// k_j in a direction, given 1/ΔS_j.
-    pub fn stiffness(&self, k: usize, per_shift: &Row) -> Row {
-        let (secant, mut stiffness) = (self.load_step[k] * *per_shift, Row::ZERO);
+    pub fn stiffness(&self, axis: usize, per_shift: &Row) -> Row {
+        let (secant, mut stiffness) = (self.load_step[axis] * *per_shift, Row::ZERO);
         let mut before = 0.0;
         for j in self.range() {
             let least = LEAST_STIFFNESS * secant[j];
@@ -223,7 +224,7 @@ impl Shells {
 /// v_j - v_{j+1}: the springs beyond the edge are 0.
 pub(crate) fn falls(v: &Row) -> Row {
     let mut falls = *v;
-    for j in 0..N - 1 {
+    for j in 0..SPRINGS - 1 {
         falls[j] -= v[j + 1];
     }
     falls
@@ -238,20 +239,20 @@ pub(crate) struct Springs {
     pub pressure: Matrix,
     pub per_pressure: Row,
     /// 1/ΔS_j and k_j.
-    pub per_shift: Both<Row>,
-    pub stiffness: Both<Row>,
+    pub per_shift: PerAxis<Row>,
+    pub stiffness: PerAxis<Row>,
     /// C⁻¹, the inverse of the map from v to q, a row for each spring: no entry is negative.
-    pub inverse: Both<Matrix>,
+    pub inverse: PerAxis<Matrix>,
 }
 
 impl Springs {
     pub const NONE: Springs = Springs {
         shells: Shells::NONE,
-        pressure: [Row::ZERO; N],
+        pressure: [Row::ZERO; SPRINGS],
         per_pressure: Row::ZERO,
         per_shift: [Row::ZERO; 2],
         stiffness: [Row::ZERO; 2],
-        inverse: [[Row::ZERO; N]; 2],
+        inverse: [[Row::ZERO; SPRINGS]; 2],
     };
 
     /// Sets the springs in the middle between shells: at the end of a step, between the same ones.
@@ -259,25 +260,25 @@ impl Springs {
         let Springs { shells, pressure, per_pressure, per_shift, stiffness, inverse } = self;
         *shells = Shells::middle(ends);
         let mut pressures = Row::ZERO;
-        for j in 0..N {
+        for j in 0..SPRINGS {
             pressure[j] = Shells::middle_pressure(ends, Some(nodes), j);
             if j >= FLAT_EDGE {
                 pressures += pressure[j];
             }
         }
         *per_pressure = quotient(1.0, pressures);
-        for k in 0..2 {
-            per_shift[k] = quotient(1.0, shells.shift_step[k]);
-            stiffness[k] = shells.stiffness(k, &per_shift[k]);
-            let (per_shift, inverse) = (&per_shift[k], &mut inverse[k]);
+        for axis in 0..2 {
+            per_shift[axis] = quotient(1.0, shells.shift_step[axis]);
+            stiffness[axis] = shells.stiffness(axis, &per_shift[axis]);
+            let (per_shift, inverse) = (&per_shift[axis], &mut inverse[axis]);
             inverse.iter_mut().take(shells.range().start).for_each(|row| *row = Row::ZERO);
             inverse.iter_mut().skip(shells.range().end).for_each(|row| *row = Row::ZERO);
-            for i in shells.range().rev().map(|i| i.min(N - 1)) {
+            for i in shells.range().rev().map(|i| i.min(SPRINGS - 1)) {
                 // v_i = [p_i q_i + Σ_{j>i} (g_i,j-1 - g_ij) v_j]/g_ii, with p_i g_ij in place of g_ij.
                 let (mut row, mut before) = (Row::ZERO, pressure[i][i] * per_shift[i]);
                 let per_map = quotient(1.0, before);
                 row[i] = pressures[i];
-                for j in i + 1..(shells.last + 1).min(N) {
+                for j in i + 1..(shells.last + 1).min(SPRINGS) {
                     let own = pressure[j][i] * per_shift[j];
                     row += (before - own) * inverse[j];
                     before = own;
@@ -288,12 +289,12 @@ impl Springs {
     }
 
     /// q of springs.
-    pub fn tractions(&self, v: &Both<Row>) -> Both<Row> {
+    pub fn tractions(&self, v: &PerAxis<Row>) -> PerAxis<Row> {
         let mut q = [Row::ZERO; 2];
-        let falls = both(|k| falls(&v[k]) * self.per_shift[k]);
+        let falls = by_axis(|axis| falls(&v[axis]) * self.per_shift[axis]);
         for j in self.shells.range() {
-            for k in 0..2 {
-                q[k] += falls[k][j] * self.pressure[j];
+            for axis in 0..2 {
+                q[axis] += falls[axis][j] * self.pressure[j];
             }
         }
         [self.per_pressure * q[0], self.per_pressure * q[1]]

@@ -14,7 +14,7 @@
 //! Derivatives are one more step of Newton's method from the solution, see [`Slip::differentiate`].
 
 use super::matrix::{Factors, dot, times};
-use super::nodes::{Both, Matrix, N, Row, length};
+use super::nodes::{Matrix, PerAxis, Row, SPRINGS, length};
 use super::shells::Springs;
 use crate::numerics::guard::{TINY, quotient};
 use crate::numerics::lanes::Lanes;
@@ -24,14 +24,14 @@ use crate::numerics::total::Total;
 pub(crate) type Set = u32;
 
 /// Newton steps, and changes of the set, after which a guess is given up.
-const STEPS: usize = 60;
-const CHANGES: usize = 12;
+const MAX_STEPS: usize = 60;
+const MAX_SET_CHANGES: usize = 12;
 /// Newton's method has converged when the change of the angles that would be next is at most this.
-const CONVERGED: f64 = 1e-11;
+const TURN_TOLERANCE: f64 = 1e-11;
 /// The factors of J are kept while the changes of the angles are at most this.
-const KEPT: f64 = 1e-2;
+const REUSE_TURN: f64 = 1e-2;
 /// Newton's method is given up at a change of angles whose square could overflow.
-const LOST: f64 = 1e100;
+const DIVERGED_TURN: f64 = 1e100;
 /// A change of the angles is a rounding error if it is more than the part `STALLED` of the one before, which was at most `SMALL_TURN`, and
 /// both followed from new factors.
 const SMALL_TURN: f64 = 1e-9;
@@ -40,13 +40,15 @@ const STALLED: f64 = 0.5;
 const SWEEPS: usize = 30;
 const ATTEMPTS: usize = 8;
 /// Newton steps after which points that slip backwards stick: the angle of a point that hardly slips is undetermined.
-const REVIEW: usize = 15;
+const REVIEW_INTERVAL: usize = 15;
 /// Coulomb's bound of |q|², but for rounding: a point whose |q|² is larger slips.
-const BEYOND: f64 = 1.0 + 1e-12;
+const SLIP_THRESHOLD: f64 = 1.0 + 1e-12;
 /// A point sticks again if its slip against the traction is more than this part of the scale of slip, a rounding error.
-const BACKWARDS: f64 = 1e-14;
-/// A point is expected to slip if its traction is more than this part of the bound, and to turn again if the cosine of its angle is more.
-const NEAR: f64 = 0.5;
+const BACKSLIP_TOLERANCE: f64 = 1e-14;
+/// A point is expected to slip if its traction is more than this part of the bound.
+const EXPECTED_SLIP: f64 = 0.5;
+/// A point is expected to turn by the same angle in the next step if the cosine of this angle is more.
+const SAME_TURN_COSINE: f64 = 0.5;
 
 /// Slip of the points of a contact, and what its derivatives need.
 #[repr(align(32))]
@@ -63,13 +65,13 @@ pub(crate) struct Slip {
 /// The metric K of a set of slipping points under a load: from the innermost one on, with the points that stick eliminated.
 #[repr(align(32))]
 pub(crate) struct Metric {
-    of: Both<Matrix>,
+    matrices: PerAxis<Matrix>,
     /// The set and the load; a load that is NaN is never met again.
-    known: (Set, f64),
+    computed_for: (Set, f64),
 }
 
 impl Metric {
-    pub const NONE: Metric = Metric { of: [[Row::ZERO; N]; 2], known: (0, 0.0) };
+    pub const NONE: Metric = Metric { matrices: [[Row::ZERO; SPRINGS]; 2], computed_for: (0, 0.0) };
 }
 
 /// The points of a contact after slip.
@@ -79,10 +81,10 @@ pub(crate) struct Points {
     pub first: usize,
     slips: Row,
     /// Directions of the tractions of points that slip, tractions, slip, and the springs.
-    pub e: Both<Row>,
-    pub q: Both<Row>,
-    pub r: Both<Row>,
-    pub v: Both<Row>,
+    pub e: PerAxis<Row>,
+    pub q: PerAxis<Row>,
+    pub r: PerAxis<Row>,
+    pub v: PerAxis<Row>,
 }
 
 impl Slip {
@@ -93,19 +95,20 @@ impl Slip {
     };
 
     /// Finds the slip from a trial state of springs under a load. The derivatives of slip are prepared if they are requested.
-    pub fn find(&mut self, metric: &mut Metric, springs: &Springs, trial: &Both<Row>, load: f64, derivatives: bool) {
+    pub fn find(&mut self, metric: &mut Metric, springs: &Springs, trial: &PerAxis<Row>, load: f64, derivatives: bool) {
         let q = springs.tractions(trial);
         let [x, y] = directions(&q);
-        let mut beyond = members(&square(&q), &Lanes([BEYOND; N]));
+        let mut beyond = members(&square(&q), &Lanes([SLIP_THRESHOLD; SPRINGS]));
         let points = &mut self.points;
         (points.set, points.v, points.q, points.r) = (beyond, *trial, q, [Row::ZERO; 2]);
         if beyond == 0 {
             return;
         }
         // First guess: if a point slips, so do those outside that are near their bound, and those inside that turned in the step before.
-        beyond |= members(&square(&q), &Lanes([NEAR * NEAR; N])) & within([beyond.trailing_zeros() as usize, N]);
+        beyond |= members(&square(&q), &Lanes([EXPECTED_SLIP * EXPECTED_SLIP; SPRINGS]))
+            & within([beyond.trailing_zeros() as usize, SPRINGS]);
         let turned_before = members(&self.turned.map(f64::abs), &Row::ZERO);
-        for _ in 0..N {
+        for _ in 0..SPRINGS {
             beyond |= beyond >> 1 & turned_before;
         }
         (points.set, points.e) = (beyond, [x, y]);
@@ -120,7 +123,7 @@ impl Slip {
         }
         let Points { e, slips, .. } = &self.points;
         let (cos, sin) = (x * e[0] + y * e[1], x * e[1] - y * e[0]);
-        let near = cos.map(|cos| if cos > NEAR { 1.0 } else { 0.0 });
+        let near = cos.map(|cos| if cos > SAME_TURN_COSINE { 1.0 } else { 0.0 });
         self.turned = near * *slips * sin / (1.0 + cos.max(0.0));
     }
 
@@ -129,57 +132,58 @@ impl Slip {
         &mut self,
         metric: &mut Metric,
         springs: &Springs,
-        [trial, q]: [&Both<Row>; 2],
+        [trial, q]: [&PerAxis<Row>; 2],
         load: f64,
         derivatives: bool,
     ) -> bool {
         let Slip { points, solution, kept, .. } = self;
-        let Metric { of: metric, known } = metric;
+        let Metric { matrices, computed_for } = metric;
         let mut steps = 0;
-        'sets: for _ in 0..CHANGES {
-            points.first = (points.set.trailing_zeros() as usize).min(N);
+        'sets: for _ in 0..MAX_SET_CHANGES {
+            points.first = (points.set.trailing_zeros() as usize).min(SPRINGS);
             let range = [points.first, springs.shells.range().end];
             points.slips = lanes_of(points.set);
-            if *known != (points.set, load) {
-                set_metric(metric, springs, range, points.set);
-                *known = (points.set, load);
+            if *computed_for != (points.set, load) {
+                set_metric(matrices, springs, range, points.set);
+                *computed_for = (points.set, load);
             }
             // The factors of the step before are kept while changes of angles fall to a tenth.
-            let (mut turn, mut done, mut holds) = (f64::MAX, false, kept.0 == points.set);
-            let mut renewed = [false; 2];
+            let (mut largest_turn, mut converged, mut keeps_factors) = (f64::MAX, false, kept.0 == points.set);
+            let mut refactored = [false; 2];
             loop {
-                let [across, along] = points.residual(metric, q, range);
-                let undetermined = steps % REVIEW == REVIEW - 1;
-                if (done || undetermined) && points.review(springs, metric, trial, q) {
+                let [across, along] = points.residual(matrices, q, range);
+                let undetermined = steps % REVIEW_INTERVAL == REVIEW_INTERVAL - 1;
+                if (converged || undetermined) && points.review(springs, matrices, trial, q) {
                     continue 'sets;
                 }
-                renewed = [renewed[1], !holds];
-                if done {
+                refactored = [refactored[1], !keeps_factors];
+                if converged {
                     // The iteration is the same with derivatives and without.
                     if derivatives {
-                        points.factorise(solution, metric, &along, range);
+                        points.factorise(solution, matrices, &along, range);
                     }
                     return true;
                 }
-                if renewed[1] {
-                    points.factorise(&mut kept.1, metric, &along, range);
+                if refactored[1] {
+                    points.factorise(&mut kept.1, matrices, &along, range);
                     kept.0 = points.set;
                 }
                 let turns = kept.1.solve(range, &(points.slips * across));
-                let before = turn;
-                turn = largest(&turns);
+                let before = largest_turn;
+                largest_turn = largest(&turns);
                 steps += 1;
-                if steps > STEPS || turn > LOST {
+                if steps > MAX_STEPS || largest_turn > DIVERGED_TURN {
                     return false;
                 }
                 points.turn(&turns);
                 // Quadratic with new factors, linear with old ones, of which the first change tells nothing.
-                let linear = quotient(turn, before);
-                let rate = if renewed[1] { turn } else { linear };
-                let is_first = before > LOST && !renewed[1];
-                let stalled = renewed == [true; 2] && before <= SMALL_TURN && turn >= STALLED * before;
-                done = stalled || turn * (if rate < 1.0 && !is_first { rate } else { 1.0 }) <= CONVERGED;
-                holds = turn <= 0.1 * before && turn <= KEPT;
+                let linear_rate = quotient(largest_turn, before);
+                let rate = if refactored[1] { largest_turn } else { linear_rate };
+                let is_first = before > DIVERGED_TURN && !refactored[1];
+                let stalled = refactored == [true; 2] && before <= SMALL_TURN && largest_turn >= STALLED * before;
+                converged =
+                    stalled || largest_turn * (if rate < 1.0 && !is_first { rate } else { 1.0 }) <= TURN_TOLERANCE;
+                keeps_factors = largest_turn <= 0.1 * before && largest_turn <= REUSE_TURN;
             }
         }
         false
@@ -188,19 +192,19 @@ impl Slip {
 
 impl Points {
     /// Slip across and along these directions: the former is the residual. Tractions of points that stick.
-    fn residual(&mut self, metric: &Both<Matrix>, q: &Both<Row>, range: [usize; 2]) -> [Row; 2] {
+    fn residual(&mut self, metric: &PerAxis<Matrix>, q: &PerAxis<Row>, range: [usize; 2]) -> [Row; 2] {
         let inside = lanes_of(within(range)) * (1.0 - self.slips);
-        for k in 0..2 {
-            let sum = times(&metric[k], range, &(self.slips * (q[k] - self.e[k])));
-            self.r[k] = self.slips * sum;
-            self.q[k] = self.slips * self.e[k] + (1.0 - self.slips) * q[k] + inside * sum;
+        for axis in 0..2 {
+            let sum = times(&metric[axis], range, &(self.slips * (q[axis] - self.e[axis])));
+            self.r[axis] = self.slips * sum;
+            self.q[axis] = self.slips * self.e[axis] + (1.0 - self.slips) * q[axis] + inside * sum;
         }
         let ([e_x, e_y], [r_x, r_y]) = (self.e, self.r);
         [e_x * r_y - e_y * r_x, e_x * r_x + e_y * r_y]
     }
 
     /// The factors of J, which is the identity at points that stick.
-    fn factorise(&self, factors: &mut Factors, metric: &Both<Matrix>, along: &Row, range: [usize; 2]) {
+    fn factorise(&self, factors: &mut Factors, metric: &PerAxis<Matrix>, along: &Row, range: [usize; 2]) {
         let [x, y] = [self.slips * self.e[0], self.slips * self.e[1]];
         let diagonal = self.slips * *along + (1.0 - self.slips);
         factors.set(range, &diagonal, |m| x * (x[m] * metric[1][m]) + y * (y[m] * metric[0][m]));
@@ -215,40 +219,40 @@ impl Points {
     }
 
     /// The springs after slip. Points beyond the limit slip, and those whose slip is against the traction stick: whether any has changed.
-    fn review(&mut self, springs: &Springs, metric: &Both<Matrix>, trial: &Both<Row>, q: &Both<Row>) -> bool {
+    fn review(&mut self, springs: &Springs, metric: &PerAxis<Matrix>, trial: &PerAxis<Row>, q: &PerAxis<Row>) -> bool {
         let before = self.set;
         self.v = *trial;
         if before != 0 {
-            for k in 0..2 {
+            for axis in 0..2 {
                 for j in self.first..springs.shells.range().end {
-                    self.v[k][j] = dot(&springs.inverse[k][j], &self.q[k]);
+                    self.v[axis][j] = dot(&springs.inverse[axis][j], &self.q[axis]);
                 }
             }
             self.q = springs.tractions(&self.v);
         } else {
             self.q = *q;
         }
-        let (directions, beyond) = (directions(&self.q), members(&square(&self.q), &Lanes([BEYOND; N])));
+        let (directions, beyond) = (directions(&self.q), members(&square(&self.q), &Lanes([SLIP_THRESHOLD; SPRINGS])));
         let (mut scale, along) = (Row::ZERO, self.r[0] * self.e[0] + self.r[1] * self.e[1]);
-        for i in 0..N {
+        for i in 0..SPRINGS {
             scale[i] = metric[0][i][i] + metric[1][i][i];
         }
-        let (backwards, slips) = (members(&(-along), &(BACKWARDS * scale)), beyond & !before);
+        let (backwards, slips) = (members(&(-along), &(BACKSLIP_TOLERANCE * scale)), beyond & !before);
         self.set = before & !backwards | slips;
-        for k in 0..2 {
-            self.e[k] += lanes_of(slips) * (directions[k] - self.e[k]);
+        for axis in 0..2 {
+            self.e[axis] += lanes_of(slips) * (directions[axis] - self.e[axis]);
         }
         self.set != before
     }
 }
 
 /// Squares of the lengths of tractions.
-fn square([x, y]: &Both<Row>) -> Row {
+fn square([x, y]: &PerAxis<Row>) -> Row {
     *x * *x + *y * *y
 }
 
 /// Directions of tractions; 0 of none.
-fn directions(q: &Both<Row>) -> Both<Row> {
+fn directions(q: &PerAxis<Row>) -> PerAxis<Row> {
     let per_length = 1.0 / square(q).max(TINY).sqrt();
     q.map(|q| q * per_length)
 }
@@ -256,31 +260,31 @@ fn directions(q: &Both<Row>) -> Both<Row> {
 /// The points at which values exceed limits.
 fn members(values: &Row, limits: &Row) -> Set {
     let mut set = 0;
-    for i in 0..N {
+    for i in 0..SPRINGS {
         set |= Set::from(values[i] > limits[i]) << i;
     }
     set
 }
 
 /// Sets `K = C⁻¹'k C⁻¹` in a direction, of the springs from one on.
-fn set_full_metric(metric: &mut Matrix, springs: &Springs, k: usize, first: usize) {
+fn set_full_metric(metric: &mut Matrix, springs: &Springs, axis: usize, first: usize) {
     for m in first..springs.shells.range().end {
         let mut row = Row::ZERO;
         for j in first..=m {
-            let inverse = &springs.inverse[k][j];
-            row += (springs.stiffness[k][j] * inverse[m]) * *inverse;
+            let inverse = &springs.inverse[axis][j];
+            row += (springs.stiffness[axis][j] * inverse[m]) * *inverse;
         }
         metric[m] = row;
     }
 }
 
 /// Sets K of a set of points, the innermost of which is the first of a range: the others in it are eliminated.
-pub(crate) fn set_metric(metric: &mut Both<Matrix>, springs: &Springs, [first, end]: [usize; 2], set: Set) {
-    for k in 0..2 {
-        set_full_metric(&mut metric[k], springs, k, first);
-        for i in first..end.min(N) {
+pub(crate) fn set_metric(metric: &mut PerAxis<Matrix>, springs: &Springs, [first, end]: [usize; 2], set: Set) {
+    for axis in 0..2 {
+        set_full_metric(&mut metric[axis], springs, axis, first);
+        for i in first..end.min(SPRINGS) {
             if set >> i & 1 == 0 {
-                eliminate(&mut metric[k], i, [first, end]);
+                eliminate(&mut metric[axis], i, [first, end]);
             }
         }
     }
@@ -289,7 +293,7 @@ pub(crate) fn set_metric(metric: &mut Both<Matrix>, springs: &Springs, [first, e
 /// 1 at the points of a set, 0 at others.
 pub(crate) fn lanes_of(set: Set) -> Row {
     let mut row = Row::ZERO;
-    for i in 0..N {
+    for i in 0..SPRINGS {
         row[i] = if set >> i & 1 == 1 { 1.0 } else { 0.0 };
     }
     row
@@ -302,10 +306,10 @@ pub(crate) fn within([first, end]: [usize; 2]) -> Set {
 
 /// Eliminates a point from a symmetric matrix: what is left of it between others, its row times its reciprocal, and minus this reciprocal.
 fn eliminate(matrix: &mut Matrix, i: usize, [first, end]: [usize; 2]) {
-    let i = i.min(N - 1);
+    let i = i.min(SPRINGS - 1);
     let per_pivot = quotient(1.0, matrix[i][i]);
     let row = per_pivot * matrix[i];
-    for m in first..end.min(N) {
+    for m in first..end.min(SPRINGS) {
         let x = matrix[m][i];
         if m != i {
             matrix[m] -= x * row;
@@ -319,25 +323,25 @@ fn eliminate(matrix: &mut Matrix, i: usize, [first, end]: [usize; 2]) {
 /// Sweeps of the points, each of which moves towards the nearest traction within its bound: directions, and the points at the bound.
 #[cold]
 #[inline(never)]
-fn sweep(springs: &Springs, trial: &Both<Row>, q: &mut Both<Row>) -> (Both<Row>, Set) {
-    let mut metric = [[Row::ZERO; N]; 2];
-    for k in 0..2 {
-        set_full_metric(&mut metric[k], springs, k, springs.shells.first);
+fn sweep(springs: &Springs, trial: &PerAxis<Row>, q: &mut PerAxis<Row>) -> (PerAxis<Row>, Set) {
+    let mut metric = [[Row::ZERO; SPRINGS]; 2];
+    for axis in 0..2 {
+        set_full_metric(&mut metric[axis], springs, axis, springs.shells.first);
     }
     let mut set = 0;
     for _ in 0..SWEEPS {
         set = 0;
-        for i in springs.shells.range().rev().map(|i| i.min(N - 1)) {
+        for i in springs.shells.range().rev().map(|i| i.min(SPRINGS - 1)) {
             // The stiffer direction bounds the curvature in both.
             let per = quotient(1.0, metric[0][i][i].max(metric[1][i][i]));
             let mut to = [0.0; 2];
-            for k in 0..2 {
-                to[k] = q[k][i] + per * dot(&metric[k][i], &(trial[k] - q[k]));
+            for axis in 0..2 {
+                to[axis] = q[axis][i] + per * dot(&metric[axis][i], &(trial[axis] - q[axis]));
             }
             let length = length(to);
             set |= Set::from(length > 1.0) << i;
-            for k in 0..2 {
-                q[k][i] = to[k] / length.max(1.0);
+            for axis in 0..2 {
+                q[axis][i] = to[axis] / length.max(1.0);
             }
         }
     }
@@ -349,8 +353,8 @@ fn largest(x: &Row) -> f64 {
     let larger = |a: f64, b: f64| if a > b { a } else { b };
     let mut largest = Lanes::<4>::ZERO;
     for block in x.blocks::<4>() {
-        for k in 0..4 {
-            largest[k] = larger(block[k].abs(), largest[k]);
+        for lane in 0..4 {
+            largest[lane] = larger(block[lane].abs(), largest[lane]);
         }
     }
     larger(larger(largest[0], largest[1]), larger(largest[2], largest[3]))

@@ -15,12 +15,14 @@
 use super::TwoDirections;
 use super::harmonic_force::{HarmonicOutput, TwoDirectionsWorkspace, harmonic_force};
 use super::nodes::{
-    Both, FLAT_EDGE, N, NEIGHBOUR, Nodes, POINTS, PRESSURE, ROWS, SHIFT, SQUARE, Units, both, fill, first_shell,
-    last_node, length,
+    FLAT_EDGE, LEG_SQUARED, NEIGHBOUR, Nodes, POINT_SQUARED, PRESSURE, PerAxis, ROWS, SHIFT, SPRINGS, Units, by_axis,
+    fill, first_shell, last_node, length,
 };
-use super::path::{LONGEST, PathInContact};
+use super::path::{ContactPath, LONGEST};
 use super::shells::{Pressed, VALUES};
-use super::step::{Displacements, LEAST, LoadedContact, SlipStep, StepMotion, bounded, dissipated, separated};
+use super::step::{
+    Displacements, LEAST, LoadedContact, SpringMotion, StepWork, dissipated, separated, within_friction_limit,
+};
 use super::tangent::{
     self, ContactSlopes, END, PARAMETERS, ParameterChanges, ParameterTerms, REFERENCE, SpringChanges, propagate,
     slopes_of_nodes,
@@ -53,7 +55,7 @@ const ALL_DIGITS: f64 = 1_000.000_000_000_000_5;
 
 const HEADER_ROWS: usize = 2;
 const STATE_ROWS: usize = HEADER_ROWS + 4 + ROWS;
-pub(super) const LENGTH: usize = N * STATE_ROWS;
+pub(super) const LENGTH: usize = SPRINGS * STATE_ROWS;
 
 impl Law for TwoDirections {
     type Item = Element;
@@ -100,23 +102,23 @@ impl Law for TwoDirections {
         if at.normal_force == 0.0 {
             return Ok(());
         }
-        let Units { load, shift, size } = at.units;
+        let Units { load, shift, leg } = at.units;
         let [now, slopes] = &at.pressed;
-        let positive = [at.normal_force, load, shift, size, now.load, now.shift[0], now.shift[1], now.square];
+        let positive = [at.normal_force, load, shift, leg, now.load, now.shift[0], now.shift[1], now.leg_squared];
         let small = slopes.values().iter().all(|slope| slope.abs() <= 1.0 / LEAST);
         // The nodes lie in order. Only places of points and sizes over that of the flat may be negative, only pressures under sharp edges great.
         let ordered = [SHIFT, SHIFT + 1].into_iter().all(|row| nodes[row].iter().skip(FLAT_EDGE).is_sorted());
         let tables = nodes.iter().enumerate().all(|(row, values)| {
-            let least = if row == SQUARE || row == POINTS { f64::MIN } else { 0.0 };
+            let least = if row == LEG_SQUARED || row == POINT_SQUARED { f64::MIN } else { 0.0 };
             let most = if row < PRESSURE { LONGEST } else { LONGEST * LONGEST };
             values.iter().all(|value| (least..=most).contains(value))
         });
         let turned = memory.turned.as_flattened().iter().all(|tangent| tangent.abs() <= 1.0);
         let contact = LoadedContact::new(nodes, &at.pressed);
-        let within = (0..2).all(|k| {
-            let (limits, rounding) = (contact.limits(nodes)[k], 1e-9 * now.shift[k] + 1e-30);
-            springs.v[k].iter().zip(limits.iter()).all(|(v, limit)| v.abs() <= limit + rounding)
-                && springs.edge[k].abs() <= contact.edge_limits()[k] + rounding
+        let within = (0..2).all(|axis| {
+            let (limits, rounding) = (contact.limits(nodes)[axis], 1e-9 * now.shift[axis] + 1e-30);
+            springs.v[axis].iter().zip(limits.iter()).all(|(v, limit)| v.abs() <= limit + rounding)
+                && springs.edge[axis].abs() <= contact.edge_limits()[axis] + rounding
         });
         let [.., all_digits, _, _, _, _, _, _, _] = memory.header[0];
         let positive = positive.iter().all(|value| *value > 0.0);
@@ -147,7 +149,7 @@ impl Law for TwoDirections {
 
 /// Where a contact is; open if the normal force is 0.
 #[derive(Debug, Clone, Copy, Default)]
-struct Situation {
+struct ContactState {
     displacement: [f64; 3],
     normal_force: f64,
     load_slope: f64,
@@ -159,29 +161,29 @@ struct Situation {
 
 /// The parts of a state.
 struct State<'a> {
-    header: &'a mut [[f64; N]; HEADER_ROWS],
-    v: &'a mut Both<[f64; N]>,
-    turned: &'a mut Both<[f64; N]>,
+    header: &'a mut [[f64; SPRINGS]; HEADER_ROWS],
+    v: &'a mut PerAxis<[f64; SPRINGS]>,
+    turned: &'a mut PerAxis<[f64; SPRINGS]>,
     nodes: &'a mut Nodes,
 }
 
 impl State<'_> {
     fn split(state: &mut [f64]) -> Option<State<'_>> {
-        let (header, rest) = state.blocks_mut::<N>().split_first_chunk_mut()?;
+        let (header, rest) = state.blocks_mut::<SPRINGS>().split_first_chunk_mut()?;
         let (v, rest) = rest.split_first_chunk_mut()?;
         let (turned, rest) = rest.split_first_chunk_mut()?;
         Some(State { header, v, turned, nodes: rest.first_chunk_mut()? })
     }
 
-    fn place(&self) -> Situation {
+    fn place(&self) -> ContactState {
         let [first, [now @ .., _, _, _, _, _, _, a, b, c, d, e, f, g]] = *self.header;
-        let [_, normal_force, load_slope, v, u, input, key, load, shift, size, ..] = first;
-        Situation {
+        let [_, normal_force, load_slope, v, u, input, key, load, shift, leg, ..] = first;
+        ContactState {
             displacement: [u, v, input],
             normal_force,
             load_slope,
             key,
-            units: Units { load, shift, size },
+            units: Units { load, shift, leg },
             pressed: [Pressed::from_values(now), Pressed::from_values([a, b, c, d, e, f, g])],
         }
     }
@@ -191,16 +193,16 @@ impl State<'_> {
         Displacements { v: [Lanes(x), Lanes(y)], edge: [edge_x, edge_y] }
     }
 
-    fn write(&mut self, at: &Situation, springs: &Displacements) {
-        let Situation { displacement: [u, v, input], normal_force, load_slope, key, units, pressed } = *at;
-        let Units { load, shift, size } = units;
+    fn write(&mut self, at: &ContactState, springs: &Displacements) {
+        let ContactState { displacement: [u, v, input], normal_force, load_slope, key, units, pressed } = *at;
+        let Units { load, shift, leg } = units;
         let ([x, y], tag) = (springs.edge, Kind::TwoDirectionsState.tag());
         let all_digits = if normal_force > 0.0 { ALL_DIGITS } else { 0.0 };
-        *self.header = [[0.0; N]; HEADER_ROWS];
+        *self.header = [[0.0; SPRINGS]; HEADER_ROWS];
         let [first, second] = &mut *self.header;
-        first.copy_from(&[tag, normal_force, load_slope, v, u, input, key, load, shift, size, x, y, all_digits]);
+        first.copy_from(&[tag, normal_force, load_slope, v, u, input, key, load, shift, leg, x, y, all_digits]);
         second.copy_from(&pressed[0].values());
-        second.part_mut(N - VALUES..).copy_from(&pressed[1].values());
+        second.part_mut(SPRINGS - VALUES..).copy_from(&pressed[1].values());
         *self.v = [springs.v[0].0, springs.v[1].0];
     }
 
@@ -220,7 +222,7 @@ impl State<'_> {
         if at.key != element.key {
             // The springs of another element relax where they are.
             springs = Displacements::NONE;
-            at = Situation { displacement: at.displacement, key: element.key, ..Situation::default() };
+            at = ContactState { displacement: at.displacement, key: element.key, ..ContactState::default() };
             if element.is_closed(at.displacement[2]) && self.header[0][1] > 0.0 {
                 at.set_nodes(element, self.nodes, element.normal(at.displacement[2]).load);
             }
@@ -231,7 +233,7 @@ impl State<'_> {
             (true, false) => element.normal(to[2]),
             _ => Normal { load: at.normal_force, load_slope: at.load_slope, ..Normal::OPEN },
         };
-        let (mut from, mut outgrown) = (LoadedContact::OPEN, None);
+        let (mut from, mut old_nodes) = (LoadedContact::OPEN, None);
         if was_closed {
             from = LoadedContact::new(self.nodes, &at.pressed);
         } else {
@@ -240,13 +242,13 @@ impl State<'_> {
             fill(self.nodes, element, &at.units, 1.0);
         }
         if was_closed && normal.load > at.units.load * (1.0 + ROUNDING) {
-            let old = Outgrown { units: at.units, springs, nodes: *self.nodes, contact: from };
+            let old = OldNodes { units: at.units, springs, nodes: *self.nodes, contact: from };
             at.set_nodes(element, self.nodes, normal.load);
-            springs = old.springs_at(self.nodes, &at.pressed[0], &at.units);
+            springs = old.moved_to(self.nodes, &at.pressed[0], &at.units);
             from = LoadedContact::new(self.nodes, &at.pressed);
-            outgrown = Some(old);
+            old_nodes = Some(old);
         }
-        let path = PathInContact::new(element, &at.units, [at.displacement, to], [was_closed, closes]);
+        let path = ContactPath::new(element, &at.units, [at.displacement, to], [was_closed, closes]);
         let unit = element.friction_coefficient * at.units.load;
         let energy_unit = unit * element.friction_coefficient * at.units.shift * path.scale;
         if !closes {
@@ -263,17 +265,18 @@ impl State<'_> {
             pressed = Some(LoadedContact::new(self.nodes, &at.pressed));
         }
         let contact = pressed.as_ref().unwrap_or(&from);
-        let motion = StepMotion { shift_before: from.now.shift, displacement: path.displacement, constant_load: same };
-        let mut step = SlipStep::NONE;
+        let motion =
+            SpringMotion { shift_before: from.now.shift, displacement: path.displacement, constant_load: same };
+        let mut step = StepWork::NONE;
         (step.middle.turned, step.end.turned) = (Lanes(self.turned[0]), Lanes(self.turned[1]));
         let contacts = [&from, contact];
         let force = step.advance(self.nodes, contacts, &motion, &mut springs, requested.tangent);
-        let [x, y] = bounded(force, contact.now.load);
+        let [x, y] = within_friction_limit(force, contact.now.load);
         result.force = [unit * x, unit * y, normal.load];
         if requested.tangent {
             let units = [unit * path.per_distance, unit / element.input_scale()];
-            let outgrown = outgrown.as_ref().map(|outgrown| (outgrown, element, &at.units));
-            let slopes = tangent(self.nodes, contacts, (&path, &motion), (&step, &springs, force), outgrown);
+            let old_nodes = old_nodes.as_ref().map(|old_nodes| (old_nodes, element, &at.units));
+            let slopes = tangent(self.nodes, contacts, (&path, &motion), (&step, &springs, force), old_nodes);
             result.tangent = tangent_of(slopes, units, normal.load_slope);
         }
         if requested.energy {
@@ -283,9 +286,9 @@ impl State<'_> {
         (at.displacement, at.normal_force, at.load_slope) = (to, normal.load, normal.load_slope);
         let load = at.remembered_load(contact, &step, &springs, [x, y]);
         if load < at.units.load * (1.0 - LEAST_CHANGE) {
-            let old = Outgrown { units: at.units, springs, nodes: *self.nodes, contact: *contact };
+            let old = OldNodes { units: at.units, springs, nodes: *self.nodes, contact: *contact };
             at.set_nodes(element, self.nodes, load);
-            springs = old.springs_at(self.nodes, &at.pressed[0], &at.units);
+            springs = old.moved_to(self.nodes, &at.pressed[0], &at.units);
         }
         self.write(&at, &springs);
         result
@@ -294,13 +297,13 @@ impl State<'_> {
     /// The state of a new contact, at a place.
     fn open(&mut self, displacement: [f64; 3]) {
         if self.header[0][6] != 0.0 {
-            (*self.turned, *self.nodes) = ([[0.0; N]; 2], [[0.0; N]; ROWS]);
+            (*self.turned, *self.nodes) = ([[0.0; SPRINGS]; 2], [[0.0; SPRINGS]; ROWS]);
         }
-        self.write(&Situation { displacement, ..Situation::default() }, &Displacements::NONE);
+        self.write(&ContactState { displacement, ..ContactState::default() }, &Displacements::NONE);
     }
 }
 
-impl Situation {
+impl ContactState {
     /// Nodes of a load.
     #[inline(never)]
     fn set_nodes(&mut self, element: &Element, nodes: &mut Nodes, load: f64) {
@@ -316,9 +319,9 @@ impl Situation {
     fn remembered_load(
         &self,
         contact: &LoadedContact,
-        step: &SlipStep,
+        step: &StepWork,
         springs: &Displacements,
-        force: Both<f64>,
+        force: PerAxis<f64>,
     ) -> f64 {
         let (load, largest) = (REMEMBERED * self.normal_force, self.units.load);
         if largest <= load {
@@ -329,7 +332,8 @@ impl Situation {
             return largest;
         }
         let first = contact.shells.first.min(FLAT_EDGE);
-        let slip = both(|k| (step.trial[k][first] - springs.v[k][first]) / contact.now.shift[k].max(LEAST));
+        let slip =
+            by_axis(|axis| (step.trial[axis][first] - springs.v[axis][first]) / contact.now.shift[axis].max(LEAST));
         load + (largest - load) / (1.0 + aligned.min(1.0) * length(slip))
     }
 }
@@ -340,28 +344,28 @@ impl Situation {
 fn tangent(
     nodes: &Nodes,
     [from, contact]: [&LoadedContact; 2],
-    (path, motion): (&PathInContact, &StepMotion),
-    (step, springs, force): (&SlipStep, &Displacements, Both<f64>),
-    outgrown: Option<(&Outgrown, &Element, &Units)>,
+    (path, motion): (&ContactPath, &SpringMotion),
+    (step, springs, force): (&StepWork, &Displacements, PerAxis<f64>),
+    old_nodes: Option<(&OldNodes, &Element, &Units)>,
 ) -> [[f64; 3]; 2] {
     let (mut displacement, mut changes) = ([Lanes::<4>::ZERO; 2], SpringChanges::ZERO);
     let (mut terms, mut by_parameters) = ([ParameterTerms::NONE; PARAMETERS], [Lanes::ZERO; PARAMETERS]);
     (by_parameters[END][END], by_parameters[REFERENCE][REFERENCE]) = (1.0, 1.0);
-    for k in 0..2 {
-        (displacement[k][END], displacement[k][ALONG[k]]) = (path.per_input[k][1], 1.0);
+    for axis in 0..2 {
+        (displacement[axis][END], displacement[axis][ALONG[axis]]) = (path.per_input[axis][1], 1.0);
     }
     let slopes = ContactSlopes::by_load(nodes, contact);
     terms[END].set(contact, (step, motion.constant_load), [None, Some(&slopes)], None);
-    if let Some((outgrown, element, units)) = outgrown {
-        let mut neighbours = [[[0.0; N]; ROWS]; 2];
+    if let Some((old_nodes, element, units)) = old_nodes {
+        let mut neighbours = [[[0.0; SPRINGS]; ROWS]; 2];
         let springs = [1.0 + NEIGHBOUR, 1.0 - NEIGHBOUR].map(|size| {
             let nodes = &mut neighbours[usize::from(size < 1.0)];
             fill(nodes, element, units, size);
-            outgrown.springs_at(nodes, &from.now, units)
+            old_nodes.moved_to(nodes, &from.now, units)
         });
-        for k in 0..2 {
-            for j in 0..N {
-                changes.v[k][j][REFERENCE] = (0.5 / NEIGHBOUR) * (springs[0].v[k][j] - springs[1].v[k][j]);
+        for axis in 0..2 {
+            for j in 0..SPRINGS {
+                changes.v[axis][j][REFERENCE] = (0.5 / NEIGHBOUR) * (springs[0].v[axis][j] - springs[1].v[axis][j]);
             }
         }
         let [larger, smaller] = &neighbours;
@@ -378,38 +382,38 @@ fn tangent(
         let (motion, values) = ((motion, &displacement), (step, springs));
         let parameters = ParameterChanges { terms: &terms, changes: by_parameters };
         let force_slopes = propagate(contact, nodes, motion, values, &mut changes, &parameters);
-        tangent::bounded(force, contact.now.load, force_slopes, &parameters)
+        tangent::within_friction_limit(force, contact.now.load, force_slopes, &parameters)
     };
     // The size is the reference size.
     slopes.map(|slopes| {
-        [slopes[END] + 0.5 * contact.slopes.square * slopes[REFERENCE], slopes[ALONG[0]], slopes[ALONG[1]]]
+        [slopes[END] + 0.5 * contact.slopes.leg_squared * slopes[REFERENCE], slopes[ALONG[0]], slopes[ALONG[1]]]
     })
 }
 
 /// Springs at nodes of another load.
-struct Outgrown {
+struct OldNodes {
     units: Units,
     springs: Displacements,
     nodes: Nodes,
     contact: LoadedContact,
 }
 
-impl Outgrown {
+impl OldNodes {
     /// The springs at new nodes, in their units: their displacements are polygons over S, with the old nodes as corners.
-    fn springs_at(&self, nodes: &Nodes, now: &Pressed, units: &Units) -> Displacements {
+    fn moved_to(&self, nodes: &Nodes, now: &Pressed, units: &Units) -> Displacements {
         let (ratio, first) = (self.units.shift / units.shift, self.contact.shells.first.min(FLAT_EDGE));
         let last = last_node(nodes, now.inside_shift[0]);
         let mut new = Displacements { edge: self.springs.edge.map(|edge| ratio * edge), ..Displacements::NONE };
         let limits = self.contact.limits(&self.nodes);
-        for k in 0..2 {
-            let (limits, old) = (limits[k], &self.springs.v[k]);
+        for axis in 0..2 {
+            let (limits, old) = (limits[axis], &self.springs.v[axis]);
             // A flat that was too small for the old nodes moves with the innermost spring.
             for j in first_shell(nodes)..FLAT_EDGE {
-                new.v[k][j] = ratio * old[j.max(first)];
+                new.v[axis][j] = ratio * old[j.max(first)];
             }
-            for (place, node) in new.v[k].iter_mut().zip(&nodes[SHIFT + k]).take(last + 1).skip(FLAT_EDGE) {
+            for (place, node) in new.v[axis].iter_mut().zip(&nodes[SHIFT + axis]).take(last + 1).skip(FLAT_EDGE) {
                 let corners = limits.iter().zip(old.iter()).take(self.contact.shells.range().end).skip(FLAT_EDGE).rev();
-                *place = ratio * polygon((now.shift[k] - node) / ratio, corners.map(|(limit, v)| [*limit, *v]));
+                *place = ratio * polygon((now.shift[axis] - node) / ratio, corners.map(|(limit, v)| [*limit, *v]));
             }
         }
         new

@@ -12,7 +12,7 @@
 //! The edge spring is one more spring from a size just inside the edge on, on its own: it makes the stuck stiffness that of the contact.
 
 use super::matrix::dot;
-use super::nodes::{Both, FLAT_EDGE, N, Nodes, Row, SHIFT, both, length};
+use super::nodes::{FLAT_EDGE, Nodes, PerAxis, Row, SHIFT, SPRINGS, by_axis, length};
 use super::shells::{Pressed, Shells, Springs};
 use super::slip::{Metric, Slip, lanes_of, within};
 use crate::numerics::guard::{TINY, quotient, root};
@@ -35,13 +35,13 @@ impl LoadedContact {
     }
 
     /// The limits S_b - S_j of the springs, 0 beyond the edge.
-    pub fn limits(&self, nodes: &Nodes) -> Both<Row> {
-        both(|k| self.used() * (self.now.shift[k] - Lanes(nodes[SHIFT + k])))
+    pub fn limits(&self, nodes: &Nodes) -> PerAxis<Row> {
+        by_axis(|axis| self.used() * (self.now.shift[axis] - Lanes(nodes[SHIFT + axis])))
     }
 
     /// The limit of the spring at the edge.
-    pub fn edge_limits(&self) -> Both<f64> {
-        both(|k| self.now.shift[k] - self.now.inside_shift[k])
+    pub fn edge_limits(&self) -> PerAxis<f64> {
+        by_axis(|axis| self.now.shift[axis] - self.now.inside_shift[axis])
     }
 
     /// 1 for the springs in use, 0 for others.
@@ -53,8 +53,8 @@ impl LoadedContact {
 /// The springs: displacements, and those of the spring at the edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Displacements {
-    pub v: Both<Row>,
-    pub edge: Both<f64>,
+    pub v: PerAxis<Row>,
+    pub edge: PerAxis<f64>,
 }
 
 impl Displacements {
@@ -63,9 +63,9 @@ impl Displacements {
 
 /// A step, straight in S and in the displacement: S at the start, the displacement, and whether the load is that of the start.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct StepMotion {
-    pub shift_before: Both<f64>,
-    pub displacement: Both<f64>,
+pub(crate) struct SpringMotion {
+    pub shift_before: PerAxis<f64>,
+    pub displacement: PerAxis<f64>,
     pub constant_load: bool,
 }
 
@@ -73,38 +73,39 @@ pub(crate) struct StepMotion {
 pub(crate) const LEAST: f64 = 1e-40;
 
 /// Displacements over the innermost limit between which a step erases the memory.
-const FAR: [f64; 2] = [2.5, 5.0];
+const BLEND_RANGE: [f64; 2] = [2.5, 5.0];
 
 /// How far a step slides: the displacement δ, and that part of the innermost spring which a falling load cuts off, over the innermost limit.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Far {
+pub(crate) struct GrossSlipBlend {
     /// The part of the springs that ends in gross slip, 0 to 1, and its derivative by the distance.
     pub part: f64,
     pub slope: f64,
     /// The part of the innermost spring that is cut off.
-    pub cut: Both<f64>,
+    pub cut: PerAxis<f64>,
     /// The distance over the limits, in both directions and its length; its direction, and 1 over its length \[in the unit of S\].
-    pub ratio: Both<f64>,
+    pub ratio: PerAxis<f64>,
     pub distance: f64,
-    pub e: Both<f64>,
+    pub e: PerAxis<f64>,
     pub per_length: f64,
 }
 
-impl Far {
-    fn new(to: &LoadedContact, motion: &StepMotion, old: &Displacements) -> Far {
+impl GrossSlipBlend {
+    fn new(to: &LoadedContact, motion: &SpringMotion, old: &Displacements) -> GrossSlipBlend {
         let (mut slide, mut cut, mut ratio) = (motion.displacement, [0.0; 2], [0.0; 2]);
-        for k in 0..2 {
-            let limit = to.now.shift[k].max(LEAST);
-            cut[k] = (1.0 - limit / motion.shift_before[k].max(limit)) * f64::from(u8::from(!motion.constant_load));
-            slide[k] += cut[k] * old.v[k][to.shells.first.min(FLAT_EDGE)];
-            ratio[k] = slide[k] / limit;
+        for axis in 0..2 {
+            let limit = to.now.shift[axis].max(LEAST);
+            cut[axis] =
+                (1.0 - limit / motion.shift_before[axis].max(limit)) * f64::from(u8::from(!motion.constant_load));
+            slide[axis] += cut[axis] * old.v[axis][to.shells.first.min(FLAT_EDGE)];
+            ratio[axis] = slide[axis] / limit;
         }
         let distance = length(ratio);
         let per_length = 1.0 / length(slide).max(LEAST);
-        let x = ((distance - FAR[0]) / (FAR[1] - FAR[0])).clamp(0.0, 1.0);
-        let slope = 6.0 * x * (1.0 - x) / (FAR[1] - FAR[0]);
+        let x = ((distance - BLEND_RANGE[0]) / (BLEND_RANGE[1] - BLEND_RANGE[0])).clamp(0.0, 1.0);
+        let slope = 6.0 * x * (1.0 - x) / (BLEND_RANGE[1] - BLEND_RANGE[0]);
         let e = slide.map(|slide| slide * per_length);
-        Far { part: x * x * (3.0 - 2.0 * x), slope, cut, ratio, distance, e, per_length }
+        GrossSlipBlend { part: x * x * (3.0 - 2.0 * x), slope, cut, ratio, distance, e, per_length }
     }
 }
 
@@ -116,7 +117,7 @@ const LARGEST_FALL: f64 = 4.0;
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Released {
     /// The trial state over the limit, and its length.
-    pub ratio: Both<f64>,
+    pub ratio: PerAxis<f64>,
     pub length: f64,
     /// The part of the excess that is left, and the factor by which the trial state is reduced.
     pub part: f64,
@@ -124,8 +125,8 @@ pub(crate) struct Released {
 }
 
 impl Released {
-    pub fn new(limit: Both<f64>, fall: f64, trial: Both<f64>) -> Released {
-        let ratio = both(|k| trial[k] / limit[k].max(LEAST));
+    pub fn new(limit: PerAxis<f64>, fall: f64, trial: PerAxis<f64>) -> Released {
+        let ratio = by_axis(|axis| trial[axis] / limit[axis].max(LEAST));
         let length = length(ratio);
         let part = (LARGEST_FALL * limit[0] / (limit[0] + fall).max(LEAST)).min(1.0);
         let scale = if length > 1.0 { (1.0 + part * (length - 1.0)) / length.max(1.0) } else { 1.0 };
@@ -134,11 +135,11 @@ impl Released {
 }
 
 /// A step while it is computed, and what its derivatives and its energy need.
-pub(crate) struct SlipStep {
+pub(crate) struct StepWork {
     /// The springs at the start and in the trial state, and the parts of the displacement that they follow.
     pub old: Displacements,
-    pub trial: Both<Row>,
-    pub parts: Both<Row>,
+    pub trial: PerAxis<Row>,
+    pub parts: PerAxis<Row>,
     /// The springs of the contact at the end, and of that in the middle if the load changes.
     pub springs: Springs,
     pub between: Springs,
@@ -146,7 +147,7 @@ pub(crate) struct SlipStep {
     pub end: Slip,
     /// K of the last slip.
     metric: Metric,
-    pub far: Far,
+    pub far: GrossSlipBlend,
     pub edge: EdgeSpring,
 }
 
@@ -154,19 +155,19 @@ pub(crate) struct SlipStep {
 /// the length of this, and whether it slips.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct EdgeSpring {
-    pub part: Both<f64>,
-    pub kept: Both<f64>,
+    pub part: PerAxis<f64>,
+    pub kept: PerAxis<f64>,
     /// Its limit at the start.
-    pub limit_before: Both<f64>,
-    pub ratio: Both<f64>,
+    pub limit_before: PerAxis<f64>,
+    pub ratio: PerAxis<f64>,
     pub length: f64,
     pub slips: bool,
 }
 
-impl SlipStep {
-    pub const NONE: SlipStep = {
+impl StepWork {
+    pub const NONE: StepWork = {
         let (none, rows) = ([0.0; 2], [Row::ZERO; 2]);
-        SlipStep {
+        StepWork {
             old: Displacements::NONE,
             trial: rows,
             parts: rows,
@@ -175,7 +176,15 @@ impl SlipStep {
             middle: Slip::NONE,
             end: Slip::NONE,
             metric: Metric::NONE,
-            far: Far { part: 0.0, slope: 0.0, cut: none, ratio: none, distance: 0.0, e: none, per_length: 0.0 },
+            far: GrossSlipBlend {
+                part: 0.0,
+                slope: 0.0,
+                cut: none,
+                ratio: none,
+                distance: 0.0,
+                e: none,
+                per_length: 0.0,
+            },
             edge: EdgeSpring { part: none, kept: none, limit_before: none, ratio: none, length: 0.0, slips: false },
         }
     };
@@ -186,15 +195,15 @@ impl SlipStep {
         &mut self,
         nodes: &Nodes,
         [from, to]: [&LoadedContact; 2],
-        motion: &StepMotion,
+        motion: &SpringMotion,
         springs: &mut Displacements,
         derivatives: bool,
-    ) -> Both<f64> {
+    ) -> PerAxis<f64> {
         if !motion.constant_load || self.springs.shells.last != to.shells.last {
             self.springs.set(nodes, [&to.shells; 2]);
         }
         self.old = *springs;
-        self.far = Far::new(to, motion, springs);
+        self.far = GrossSlipBlend::new(to, motion, springs);
         self.stick(nodes, to, motion);
         if self.far.part < 1.0 {
             self.slip(nodes, [from, to], motion, derivatives);
@@ -203,44 +212,45 @@ impl SlipStep {
         }
         let (mut force, rest) = ([0.0; 2], 1.0 - self.far.part);
         self.move_edge([from, to], motion, springs);
-        for k in 0..2 {
-            springs.v[k] = self.end.points.v[k];
+        for axis in 0..2 {
+            springs.v[axis] = self.end.points.v[axis];
             if self.far.part > 0.0 {
-                let gross_slip = self.far.part * self.far.e[k] * to.limits(nodes)[k];
-                springs.v[k] = rest * self.end.points.v[k] + gross_slip;
+                let gross_slip = self.far.part * self.far.e[axis] * to.limits(nodes)[axis];
+                springs.v[axis] = rest * self.end.points.v[axis] + gross_slip;
             }
-            force[k] = dot(&self.springs.stiffness[k], &springs.v[k]) + to.shells.edge_stiffness[k] * springs.edge[k];
+            force[axis] = dot(&self.springs.stiffness[axis], &springs.v[axis])
+                + to.shells.edge_stiffness[axis] * springs.edge[axis];
         }
         force
     }
 
     /// The trial state, in which nothing slips.
-    fn stick(&mut self, nodes: &Nodes, to: &LoadedContact, motion: &StepMotion) {
+    fn stick(&mut self, nodes: &Nodes, to: &LoadedContact, motion: &SpringMotion) {
         let limits = to.limits(nodes);
-        for k in 0..2 {
-            self.parts[k] = Lanes([1.0; N]);
-            let rise = to.now.shift[k] - motion.shift_before[k];
+        for axis in 0..2 {
+            self.parts[axis] = Lanes([1.0; SPRINGS]);
+            let rise = to.now.shift[axis] - motion.shift_before[axis];
             if !motion.constant_load && rise > 0.0 {
-                let parts = limits[k] * (1.0 / rise.max(LEAST));
-                self.parts[k] = parts.map(|part| part.min(1.0));
+                let parts = limits[axis] * (1.0 / rise.max(LEAST));
+                self.parts[axis] = parts.map(|part| part.min(1.0));
             }
-            self.trial[k] = to.used() * (self.old.v[k] + self.parts[k] * motion.displacement[k]);
+            self.trial[axis] = to.used() * (self.old.v[axis] + self.parts[axis] * motion.displacement[axis]);
         }
         let fall = motion.shift_before[0] - to.now.shift[0];
-        if motion.constant_load || fall <= (LARGEST_FALL - 1.0) * limits[0][to.shells.last.min(N - 1)] {
+        if motion.constant_load || fall <= (LARGEST_FALL - 1.0) * limits[0][to.shells.last.min(SPRINGS - 1)] {
             return;
         }
         for j in to.shells.range() {
             let kept = Released::new([limits[0][j], limits[1][j]], fall, [self.trial[0][j], self.trial[1][j]]);
-            for k in 0..2 {
-                self.trial[k][j] *= kept.scale;
+            for axis in 0..2 {
+                self.trial[axis][j] *= kept.scale;
             }
         }
     }
 
     /// Slip in the middle and at the end.
-    fn slip(&mut self, nodes: &Nodes, [from, to]: [&LoadedContact; 2], motion: &StepMotion, derivatives: bool) {
-        let half = both(|k| 0.5 * (self.old.v[k] + self.trial[k]));
+    fn slip(&mut self, nodes: &Nodes, [from, to]: [&LoadedContact; 2], motion: &SpringMotion, derivatives: bool) {
+        let half = by_axis(|axis| 0.5 * (self.old.v[axis] + self.trial[axis]));
         if motion.constant_load {
             self.middle.find(&mut self.metric, &self.springs, &half, to.now.load, derivatives);
         } else {
@@ -248,26 +258,26 @@ impl SlipStep {
             self.middle.find(&mut self.metric, &self.between, &half, f64::NAN, derivatives);
         }
         let used = to.used();
-        let beyond = both(|k| used * (2.0 * self.middle.points.v[k] - self.old.v[k]));
+        let beyond = by_axis(|axis| used * (2.0 * self.middle.points.v[axis] - self.old.v[axis]));
         self.end.find(&mut self.metric, &self.springs, &beyond, to.now.load, derivatives);
     }
 
     /// The spring at the edge is another one under another load: a rising load keeps that part of it which is still at the edge.
-    fn move_edge(&mut self, [from, to]: [&LoadedContact; 2], motion: &StepMotion, springs: &mut Displacements) {
+    fn move_edge(&mut self, [from, to]: [&LoadedContact; 2], motion: &SpringMotion, springs: &mut Displacements) {
         let [limit, before] = [to, from].map(|contact| contact.edge_limits().map(|limit| limit.max(LEAST)));
-        for k in 0..2 {
-            let rise = to.now.shift[k] - motion.shift_before[k];
-            self.edge.part[k] = limit[k] / rise.max(limit[k]);
-            self.edge.limit_before[k] = before[k];
-            self.edge.kept[k] = ((limit[k] - rise) / self.edge.limit_before[k]).clamp(0.0, 1.0);
-            let old = self.edge.kept[k] * self.old.edge[k];
-            self.edge.ratio[k] = (old + self.edge.part[k] * motion.displacement[k]) / limit[k];
+        for axis in 0..2 {
+            let rise = to.now.shift[axis] - motion.shift_before[axis];
+            self.edge.part[axis] = limit[axis] / rise.max(limit[axis]);
+            self.edge.limit_before[axis] = before[axis];
+            self.edge.kept[axis] = ((limit[axis] - rise) / self.edge.limit_before[axis]).clamp(0.0, 1.0);
+            let old = self.edge.kept[axis] * self.old.edge[axis];
+            self.edge.ratio[axis] = (old + self.edge.part[axis] * motion.displacement[axis]) / limit[axis];
         }
         self.edge.length = length(self.edge.ratio);
         self.edge.slips = self.edge.length > ROUNDING;
         let scale = (1.0 - self.far.part) / if self.edge.slips { self.edge.length } else { 1.0 };
-        for k in 0..2 {
-            springs.edge[k] = limit[k] * (scale * self.edge.ratio[k] + self.far.part * self.far.e[k]);
+        for axis in 0..2 {
+            springs.edge[axis] = limit[axis] * (scale * self.edge.ratio[axis] + self.far.part * self.far.e[axis]);
         }
     }
 }
@@ -276,7 +286,7 @@ impl SlipStep {
 pub(crate) const ROUNDING: f64 = 1.0 + 1e-12;
 
 /// A force within Coulomb's bound.
-pub(crate) fn bounded(force: Both<f64>, bound: f64) -> Both<f64> {
+pub(crate) fn within_friction_limit(force: PerAxis<f64>, bound: f64) -> PerAxis<f64> {
     let length = length(force);
     let scale = if length > bound { quotient(bound, length) } else { 1.0 };
     force.map(|force| force * scale)
@@ -291,8 +301,8 @@ pub(crate) fn bounded(force: Both<f64>, bound: f64) -> Both<f64> {
 pub(crate) fn dissipated(
     nodes: &Nodes,
     [from, to]: [&LoadedContact; 2],
-    motion: &StepMotion,
-    step: &SlipStep,
+    motion: &SpringMotion,
+    step: &StepWork,
     new: &Displacements,
 ) -> f64 {
     let mut energy = if to.now.shift[0] < from.now.shift[0] {
@@ -302,13 +312,13 @@ pub(crate) fn dissipated(
     };
     if step.middle.points.set != 0 || step.end.points.set != 0 || step.far.part > 0.0 {
         let limits = to.limits(nodes);
-        let follow = both(|k| step.old.v[k] + step.parts[k] * motion.displacement[k]);
+        let follow = by_axis(|axis| step.old.v[axis] + step.parts[axis] * motion.displacement[axis]);
         for j in to.shells.range() {
-            let per_limit = both(|k| 1.0 / limits[k][j].max(LEAST));
+            let per_limit = by_axis(|axis| 1.0 / limits[axis][j].max(LEAST));
             let ratio = (motion.shift_before[0] - nodes[SHIFT][j]).max(0.0) * per_limit[0];
-            let old = both(|k| step.old.v[k][j] * per_limit[k]);
-            let trial = both(|k| follow[k][j] * per_limit[k]);
-            let end = both(|k| new.v[k][j] * per_limit[k]);
+            let old = by_axis(|axis| step.old.v[axis][j] * per_limit[axis]);
+            let trial = by_axis(|axis| follow[axis][j] * per_limit[axis]);
+            let end = by_axis(|axis| new.v[axis][j] * per_limit[axis]);
             let (way, fall) = ([trial[0] - old[0], trial[1] - old[1]], ratio - 1.0);
             let m = end[0] * end[0] + end[1] * end[1];
             // |v|² = m² l² along the path: a quadratic equation.
@@ -317,11 +327,11 @@ pub(crate) fn dissipated(
                 old[0] * way[0] + old[1] * way[1] + m * ratio * fall,
                 old[0] * old[0] + old[1] * old[1] - m * ratio * ratio,
             );
-            for k in 0..2 {
-                let v = new.v[k][j];
-                let leaves = step.old.v[k][j] + part * (follow[k][j] - step.old.v[k][j]);
+            for axis in 0..2 {
+                let v = new.v[axis][j];
+                let leaves = step.old.v[axis][j] + part * (follow[axis][j] - step.old.v[axis][j]);
                 let leaves = leaves + step.far.part * ((ratio - fall * part) * v - leaves);
-                energy += 0.5 * step.springs.stiffness[k][j] * (leaves + v) * (follow[k][j] - v);
+                energy += 0.5 * step.springs.stiffness[axis][j] * (leaves + v) * (follow[axis][j] - v);
             }
         }
     }
@@ -334,25 +344,25 @@ pub(crate) fn separated(
     nodes: &Nodes,
     from: &LoadedContact,
     now: &Pressed,
-    displacement: Both<f64>,
+    displacement: PerAxis<f64>,
     old: &Displacements,
 ) -> f64 {
     let mut energy = 0.0;
-    let fall = both(|k| from.now.shift[k] - now.shift[k]);
+    let fall = by_axis(|axis| from.now.shift[axis] - now.shift[axis]);
     let limits = from.limits(nodes);
-    let stiffness = both(|k| from.shells.stiffness(k, &quotient(1.0, from.shells.shift_step[k])));
+    let stiffness = by_axis(|axis| from.shells.stiffness(axis, &quotient(1.0, from.shells.shift_step[axis])));
     for j in from.shells.range() {
         if now.load > 0.0 && nodes[SHIFT][j] < now.shift[0] {
             continue;
         }
-        let limit = both(|k| limits[k][j].max(LEAST));
-        let rate = both(|k| limit[k] / fall[k].max(limit[k]) * displacement[k]);
-        let v = both(|k| old.v[k][j]);
+        let limit = by_axis(|axis| limits[axis][j].max(LEAST));
+        let rate = by_axis(|axis| limit[axis] / fall[axis].max(limit[axis]) * displacement[axis]);
+        let v = by_axis(|axis| old.v[axis][j]);
         let (x, y, dx, dy) = (v[0] / limit[0], v[1] / limit[1], rate[0] / limit[0], rate[1] / limit[1]);
         let part = first_exceedance(dx * dx + dy * dy - 1.0, x * dx + y * dy + 1.0, x * x + y * y - 1.0);
-        for k in 0..2 {
-            let leaves = v[k] + part * rate[k];
-            energy += 0.5 * stiffness[k][j] * leaves * ((1.0 - part) * rate[k] + leaves);
+        for axis in 0..2 {
+            let leaves = v[axis] + part * rate[axis];
+            energy += 0.5 * stiffness[axis][j] * leaves * ((1.0 - part) * rate[axis] + leaves);
         }
     }
     energy.max(0.0)

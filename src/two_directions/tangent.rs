@@ -8,25 +8,25 @@
 //! ```
 
 use super::matrix::{dot, times_upper, times_upper_transposed};
-use super::nodes::{Both, FLAT_EDGE, Matrix, N, NEIGHBOUR, Nodes, Row, SHIFT, both, length};
+use super::nodes::{FLAT_EDGE, Matrix, NEIGHBOUR, Nodes, PerAxis, Row, SHIFT, SPRINGS, by_axis, length};
 use super::shells::{Pressed, Shells, Springs, falls};
 use super::slip::{Set, Slip, set_metric, within};
-use super::step::{LEAST, LoadedContact, Released, SlipStep, StepMotion};
+use super::step::{LEAST, LoadedContact, Released, SpringMotion, StepWork};
 use crate::numerics::guard::quotient;
 use crate::numerics::lanes::Lanes;
 
 /// Changes of each spring.
-pub(crate) type Changes<const L: usize> = [Lanes<L>; N];
+pub(crate) type Changes<const L: usize> = [Lanes<L>; SPRINGS];
 
 /// Changes of the springs, and of the spring at the edge.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct SpringChanges<const L: usize> {
-    pub v: Both<Changes<L>>,
-    pub edge: Both<Lanes<L>>,
+    pub v: PerAxis<Changes<L>>,
+    pub edge: PerAxis<Lanes<L>>,
 }
 
 impl<const L: usize> SpringChanges<L> {
-    pub const ZERO: Self = SpringChanges { v: [[Lanes::ZERO; N]; 2], edge: [Lanes::ZERO; 2] };
+    pub const ZERO: Self = SpringChanges { v: [[Lanes::ZERO; SPRINGS]; 2], edge: [Lanes::ZERO; 2] };
 }
 
 /// Parameters of a contact: the normal component over its scale at the end and at the start of the step, and the logarithm of
@@ -40,10 +40,10 @@ pub(crate) const PARAMETERS: usize = 3;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ContactSlopes {
     pub shells: Shells,
-    pub shift: Both<f64>,
+    pub shift: PerAxis<f64>,
     pub load: f64,
     /// The limit of the spring at the edge.
-    pub edge_limit: Both<f64>,
+    pub edge_limit: PerAxis<f64>,
 }
 
 impl ContactSlopes {
@@ -55,7 +55,7 @@ impl ContactSlopes {
         let slopes = &contact.slopes;
         let mut slopes_of_contact = ContactSlopes { shift: slopes.shift, load: slopes.load, ..ContactSlopes::NONE };
         if contact.now.load > 0.0 {
-            slopes_of_contact.edge_limit = both(|k| slopes.shift[k] - slopes.inside_shift[k]);
+            slopes_of_contact.edge_limit = by_axis(|axis| slopes.shift[axis] - slopes.inside_shift[axis]);
             (slopes_of_contact.shells.first, slopes_of_contact.shells.last) =
                 (contact.shells.first, contact.shells.last);
             slopes_of_contact.shells.set_last_slopes(nodes, &contact.shells, &contact.now, slopes, None);
@@ -92,23 +92,23 @@ pub(crate) fn slopes_of_nodes([larger, smaller]: [&Nodes; 2]) -> Nodes {
 /// What the derivative by one parameter of a contact adds to the changes of its springs.
 pub(crate) struct ParameterTerms {
     /// S at the start and at the end, S of the nodes, N; stiffnesses at the end, and the limit of the spring at the edge.
-    shift_before: Both<f64>,
-    shift: Both<f64>,
-    nodes: Both<Row>,
+    shift_before: PerAxis<f64>,
+    shift: PerAxis<f64>,
+    nodes: PerAxis<Row>,
     load: f64,
-    stiffness: Both<Row>,
-    edge_stiffness: Both<f64>,
-    edge_limit: Both<f64>,
-    edge_limit_before: Both<f64>,
+    stiffness: PerAxis<Row>,
+    edge_stiffness: PerAxis<f64>,
+    edge_limit: PerAxis<f64>,
+    edge_limit_before: PerAxis<f64>,
     middle: SlipTerms,
     end: SlipTerms,
 }
 
 /// Terms of a slip: dC v; dk (v* - v) - dC' r, in which the pressures are constant; and r dp/p, which is what their changes add to the slip.
 struct SlipTerms {
-    tractions: Both<Row>,
-    forces: Both<Row>,
-    slip: Both<Row>,
+    tractions: PerAxis<Row>,
+    forces: PerAxis<Row>,
+    slip: PerAxis<Row>,
 }
 
 impl SlipTerms {
@@ -122,7 +122,7 @@ impl SlipTerms {
         &mut self,
         springs: &Springs,
         (ends, nodes, from): ([&Shells; 2], Option<&Nodes>, usize),
-        trial: &Both<Row>,
+        trial: &PerAxis<Row>,
         slip: &Slip,
     ) {
         let (shells, slip) = (&springs.shells, &slip.points);
@@ -131,25 +131,26 @@ impl SlipTerms {
         }
         let (shell_slopes, mut by_pressure) = (Shells::middle(ends), Row::ZERO);
         let (mut tractions, mut sums) = ([Row::ZERO; 2], [Row::ZERO; 2]);
-        let falls = both(|k| falls(&slip.v[k]) * springs.per_shift[k]);
-        let slipped = both(|k| slip.r[k] * springs.per_pressure);
+        let falls = by_axis(|axis| falls(&slip.v[axis]) * springs.per_shift[axis]);
+        let slipped = by_axis(|axis| slip.r[axis] * springs.per_pressure);
         for j in from.max(shells.range().start)..shells.range().end {
             let pressure = Shells::middle_pressure(ends, nodes, j);
             if j >= FLAT_EDGE {
                 by_pressure += pressure;
             }
-            for k in 0..2 {
-                let per_shift = springs.per_shift[k][j];
-                let row = pressure - shell_slopes.shift_step[k][j] * per_shift * springs.pressure[j];
-                tractions[k] += falls[k][j] * row;
-                sums[k][j] = per_shift * dot(&slipped[k], &row);
+            for axis in 0..2 {
+                let per_shift = springs.per_shift[axis][j];
+                let row = pressure - shell_slopes.shift_step[axis][j] * per_shift * springs.pressure[j];
+                tractions[axis] += falls[axis][j] * row;
+                sums[axis][j] = per_shift * dot(&slipped[axis], &row);
             }
         }
         by_pressure = springs.per_pressure * by_pressure;
-        for k in 0..2 {
-            self.forces[k] = stiffness_slopes(springs, k, &shell_slopes) * (trial[k] - slip.v[k]) - rises(&sums[k]);
-            self.tractions[k] = springs.per_pressure * tractions[k] - slip.q[k] * by_pressure;
-            self.slip[k] = slip.r[k] * by_pressure;
+        for axis in 0..2 {
+            self.forces[axis] =
+                stiffness_slopes(springs, axis, &shell_slopes) * (trial[axis] - slip.v[axis]) - rises(&sums[axis]);
+            self.tractions[axis] = springs.per_pressure * tractions[axis] - slip.q[axis] * by_pressure;
+            self.slip[axis] = slip.r[axis] * by_pressure;
         }
     }
 }
@@ -157,16 +158,17 @@ impl SlipTerms {
 /// x_j - x_{j-1}.
 fn rises(x: &Row) -> Row {
     let mut rises = *x;
-    for j in 1..N {
+    for j in 1..SPRINGS {
         rises[j] -= x[j - 1];
     }
     rises
 }
 
 /// Derivatives of k_j.
-fn stiffness_slopes(springs: &Springs, k: usize, slopes: &Shells) -> Row {
-    let secants = (slopes.load_step[k] - springs.shells.load_step[k] * springs.per_shift[k] * slopes.shift_step[k])
-        * springs.per_shift[k];
+fn stiffness_slopes(springs: &Springs, axis: usize, slopes: &Shells) -> Row {
+    let secants = (slopes.load_step[axis]
+        - springs.shells.load_step[axis] * springs.per_shift[axis] * slopes.shift_step[axis])
+        * springs.per_shift[axis];
     rises(&secants)
 }
 
@@ -192,24 +194,24 @@ impl ParameterTerms {
     pub fn set(
         &mut self,
         contact: &LoadedContact,
-        (step, constant_load): (&SlipStep, bool),
+        (step, constant_load): (&StepWork, bool),
         [from, to]: [Option<&ContactSlopes>; 2],
         nodes: Option<&Nodes>,
     ) {
         let none = ContactSlopes::NONE;
         // By the load, only the last shells have derivatives.
-        let lasts = [from, to].map(|slopes| slopes.map_or(N, |slopes| slopes.shells.last));
+        let lasts = [from, to].map(|slopes| slopes.map_or(SPRINGS, |slopes| slopes.shells.last));
         let first = if nodes.is_some() { 0 } else { lasts[0].min(lasts[1]) };
         let [from, to] = [from, to].map(|slopes| slopes.unwrap_or(&none));
         let ends = [&from.shells, &to.shells];
         let between = if constant_load { &step.springs } else { &step.between };
-        let half = both(|k| 0.5 * (step.old.v[k] + step.trial[k]));
+        let half = by_axis(|axis| 0.5 * (step.old.v[axis] + step.trial[axis]));
         self.middle.set(between, (ends, nodes, first), &half, &step.middle);
         let used = contact.used();
-        let beyond = both(|k| used * (2.0 * step.middle.points.v[k] - step.old.v[k]));
+        let beyond = by_axis(|axis| used * (2.0 * step.middle.points.v[axis] - step.old.v[axis]));
         self.end.set(&step.springs, ([ends[1]; 2], nodes, first), &beyond, &step.end);
-        self.stiffness = both(|k| stiffness_slopes(&step.springs, k, ends[1]));
-        self.nodes = both(|k| nodes.map_or(Row::ZERO, |nodes| Lanes(nodes[SHIFT + k])));
+        self.stiffness = by_axis(|axis| stiffness_slopes(&step.springs, axis, ends[1]));
+        self.nodes = by_axis(|axis| nodes.map_or(Row::ZERO, |nodes| Lanes(nodes[SHIFT + axis])));
         (self.shift_before, self.shift, self.load) = (from.shift, to.shift, to.load);
         (self.edge_limit_before, self.edge_limit, self.edge_stiffness) =
             (from.edge_limit, to.edge_limit, to.shells.edge_stiffness);
@@ -231,8 +233,8 @@ impl ParameterChanges<'_> {
     }
 
     /// Changes of the limit of a spring.
-    fn limit(&self, k: usize, j: usize) -> Lanes<4> {
-        self.sum(|terms| terms.shift[k] - terms.nodes[k][j])
+    fn limit(&self, axis: usize, j: usize) -> Lanes<4> {
+        self.sum(|terms| terms.shift[axis] - terms.nodes[axis][j])
     }
 }
 
@@ -241,23 +243,23 @@ impl ParameterChanges<'_> {
 pub(crate) fn propagate<const L: usize>(
     contact: &LoadedContact,
     nodes: &Nodes,
-    (motion, displacement): (&StepMotion, &Both<Lanes<L>>),
-    (step, new): (&SlipStep, &super::step::Displacements),
+    (motion, displacement): (&SpringMotion, &PerAxis<Lanes<L>>),
+    (step, new): (&StepWork, &super::step::Displacements),
     springs: &mut SpringChanges<L>,
     parameters: &ParameterChanges,
-) -> Both<Lanes<L>> {
+) -> PerAxis<Lanes<L>> {
     let used = contact.used();
     let SpringChanges { v, edge } = springs;
     let old = *v;
-    for k in 0..2 {
-        let rise = contact.now.shift[k] - motion.shift_before[k];
-        for j in 0..N {
-            v[k][j] = used[j] * (v[k][j] + step.parts[k][j] * displacement[k]);
-            if step.parts[k][j] < 1.0 {
+    for axis in 0..2 {
+        let rise = contact.now.shift[axis] - motion.shift_before[axis];
+        for j in 0..SPRINGS {
+            v[axis][j] = used[j] * (v[axis][j] + step.parts[axis][j] * displacement[axis]);
+            if step.parts[axis][j] < 1.0 {
                 // The part of springs that are engaged in the step is their limit over the rise.
-                let rises = parameters.sum(|terms| terms.shift[k] - terms.shift_before[k]);
-                let part = used[j] * parameters.limit(k, j) - step.parts[k][j] * rises;
-                v[k][j].add_first((motion.displacement[k] / rise.max(LEAST)) * part);
+                let rises = parameters.sum(|terms| terms.shift[axis] - terms.shift_before[axis]);
+                let part = used[j] * parameters.limit(axis, j) - step.parts[axis][j] * rises;
+                v[axis][j].add_first((motion.displacement[axis] / rise.max(LEAST)) * part);
             }
         }
     }
@@ -265,43 +267,45 @@ pub(crate) fn propagate<const L: usize>(
     let far = &step.far;
     if far.part < 1.0 {
         let between = if motion.constant_load { &step.springs } else { &step.between };
-        for k in 0..2 {
-            for j in 0..N {
-                v[k][j] = 0.5 * (v[k][j] + old[k][j]);
+        for axis in 0..2 {
+            for j in 0..SPRINGS {
+                v[axis][j] = 0.5 * (v[axis][j] + old[axis][j]);
             }
         }
         step.middle.differentiate(between, v, parameters, |terms| &terms.middle);
-        for k in 0..2 {
-            for j in 0..N {
-                v[k][j] = used[j] * (2.0 * v[k][j] - old[k][j]);
+        for axis in 0..2 {
+            for j in 0..SPRINGS {
+                v[axis][j] = used[j] * (2.0 * v[axis][j] - old[axis][j]);
             }
         }
         step.end.differentiate(&step.springs, v, parameters, |terms| &terms.end);
     }
     *edge = move_edge(contact, (motion, displacement), step, edge, parameters);
     if far.part > 0.0 {
-        let changes = FarChanges::new(contact, (motion, displacement), step, &old, parameters);
+        let changes = GrossSlipBlendChanges::new(contact, (motion, displacement), step, &old, parameters);
         let (limits, edge_limits) = (contact.limits(nodes), contact.edge_limits());
-        for k in 0..2 {
-            for j in 0..N {
-                let (value, by_limit) = (step.end.points.v[k][j], used[j] * parameters.limit(k, j));
-                let limit = (limits[k][j], by_limit);
-                v[k][j] = changes.blend((far.part, far.e[k], changes.e[k]), (v[k][j], value), limit);
+        for axis in 0..2 {
+            for j in 0..SPRINGS {
+                let (value, by_limit) = (step.end.points.v[axis][j], used[j] * parameters.limit(axis, j));
+                let limit = (limits[axis][j], by_limit);
+                v[axis][j] = changes.blend((far.part, far.e[axis], changes.e[axis]), (v[axis][j], value), limit);
             }
-            let by_limit = parameters.sum(|terms| terms.edge_limit[k]);
-            let (limit, end) = (edge_limits[k], &step.edge);
-            let value = limit * end.ratio[k] / if end.slips { end.length.max(1.0) } else { 1.0 };
-            edge[k] = changes.blend((far.part, far.e[k], changes.e[k]), (edge[k], value), (limit, by_limit));
+            let by_limit = parameters.sum(|terms| terms.edge_limit[axis]);
+            let (limit, end) = (edge_limits[axis], &step.edge);
+            let value = limit * end.ratio[axis] / if end.slips { end.length.max(1.0) } else { 1.0 };
+            edge[axis] =
+                changes.blend((far.part, far.e[axis], changes.e[axis]), (edge[axis], value), (limit, by_limit));
         }
     }
     let mut force = [Lanes::ZERO; 2];
-    for k in 0..2 {
-        for j in 0..N {
-            force[k] += step.springs.stiffness[k][j] * v[k][j];
+    for axis in 0..2 {
+        for j in 0..SPRINGS {
+            force[axis] += step.springs.stiffness[axis][j] * v[axis][j];
         }
-        force[k] += contact.shells.edge_stiffness[k] * edge[k];
-        force[k].add_first(
-            parameters.sum(|terms| dot(&new.v[k], &terms.stiffness[k]) + new.edge[k] * terms.edge_stiffness[k]),
+        force[axis] += contact.shells.edge_stiffness[axis] * edge[axis];
+        force[axis].add_first(
+            parameters
+                .sum(|terms| dot(&new.v[axis], &terms.stiffness[axis]) + new.edge[axis] * terms.edge_stiffness[axis]),
         );
     }
     force
@@ -311,9 +315,9 @@ pub(crate) fn propagate<const L: usize>(
 fn release<const L: usize>(
     contact: &LoadedContact,
     nodes: &Nodes,
-    motion: &StepMotion,
-    step: &SlipStep,
-    v: &mut Both<Changes<L>>,
+    motion: &SpringMotion,
+    step: &StepWork,
+    v: &mut PerAxis<Changes<L>>,
     parameters: &ParameterChanges,
 ) {
     let fall = motion.shift_before[0] - contact.now.shift[0];
@@ -331,53 +335,53 @@ fn release<const L: usize>(
         // Four divisors, not three: the compiler would divide by what is beside them in the vector register.
         let divisors = Lanes([limit[0], limit[1], released.length.max(1.0), limit[0] + fall]);
         let [per_x, per_y, per_length, per_before] = *(1.0 / divisors);
-        let by_limit = both(|k| parameters.limit(k, j));
+        let by_limit = by_axis(|axis| parameters.limit(axis, j));
         let by_before = parameters.sum(|terms| terms.shift_before[0] - terms.nodes[0][j]);
         let by_part = released.part * (per_x * by_limit[0] - per_before * by_before);
         let mut ratio = [v[0][j], v[1][j]];
-        for k in 0..2 {
-            ratio[k].add_first(-released.ratio[k] * by_limit[k]);
-            ratio[k] = [per_x, per_y][k] * ratio[k];
+        for axis in 0..2 {
+            ratio[axis].add_first(-released.ratio[axis] * by_limit[axis]);
+            ratio[axis] = [per_x, per_y][axis] * ratio[axis];
         }
         let length = per_length * (released.ratio[0] * ratio[0] + released.ratio[1] * ratio[1]);
         let mut scale = per_length * (released.part - released.scale) * length;
         scale.add_first((per_length * (released.length - 1.0)) * by_part);
-        for k in 0..2 {
-            v[k][j] = limit[k] * (released.scale * ratio[k] + released.ratio[k] * scale);
-            v[k][j].add_first((released.ratio[k] * released.scale) * by_limit[k]);
+        for axis in 0..2 {
+            v[axis][j] = limit[axis] * (released.scale * ratio[axis] + released.ratio[axis] * scale);
+            v[axis][j].add_first((released.ratio[axis] * released.scale) * by_limit[axis]);
         }
     }
 }
 
 /// Changes of a displacement that is far: of its part, and of its direction.
-struct FarChanges<const L: usize> {
+struct GrossSlipBlendChanges<const L: usize> {
     part: Lanes<L>,
-    e: Both<Lanes<L>>,
+    e: PerAxis<Lanes<L>>,
 }
 
-impl<const L: usize> FarChanges<L> {
+impl<const L: usize> GrossSlipBlendChanges<L> {
     fn new(
         contact: &LoadedContact,
-        (motion, displacement): (&StepMotion, &Both<Lanes<L>>),
-        step: &SlipStep,
-        old: &Both<Changes<L>>,
+        (motion, displacement): (&SpringMotion, &PerAxis<Lanes<L>>),
+        step: &StepWork,
+        old: &PerAxis<Changes<L>>,
         parameters: &ParameterChanges,
     ) -> Self {
         let (far, first) = (&step.far, contact.shells.first.min(FLAT_EDGE));
         let (mut way, mut distance) = (*displacement, Lanes::ZERO);
-        for k in 0..2 {
-            let (limit, before) = (contact.now.shift[k].max(LEAST), motion.shift_before[k].max(LEAST));
-            way[k] += far.cut[k] * old[k][first];
+        for axis in 0..2 {
+            let (limit, before) = (contact.now.shift[axis].max(LEAST), motion.shift_before[axis].max(LEAST));
+            way[axis] += far.cut[axis] * old[axis][first];
             // A constant load is the limit of falling ones.
-            if contact.now.shift[k] <= motion.shift_before[k] {
-                let cut = parameters.sum(|terms| (limit / before) * terms.shift_before[k] - terms.shift[k]);
-                way[k].add_first((step.old.v[k][first] / before) * cut);
+            if contact.now.shift[axis] <= motion.shift_before[axis] {
+                let cut = parameters.sum(|terms| (limit / before) * terms.shift_before[axis] - terms.shift[axis]);
+                way[axis].add_first((step.old.v[axis][first] / before) * cut);
             }
-            let mut ratio = way[k];
-            ratio.add_first(-far.ratio[k] * parameters.sum(|terms| terms.shift[k]));
-            distance += (quotient(far.ratio[k], far.distance) / limit) * ratio;
+            let mut ratio = way[axis];
+            ratio.add_first(-far.ratio[axis] * parameters.sum(|terms| terms.shift[axis]));
+            distance += (quotient(far.ratio[axis], far.distance) / limit) * ratio;
         }
-        FarChanges { part: far.slope * distance, e: across(far.e, far.per_length, way) }
+        GrossSlipBlendChanges { part: far.slope * distance, e: across(far.e, far.per_length, way) }
     }
 
     /// Changes of a spring with a limit that ends in gross slip to a part, `v = (1 - part) v + part l e`.
@@ -394,7 +398,7 @@ impl<const L: usize> FarChanges<L> {
 }
 
 /// The part of changes across a direction, times a factor.
-fn across<const L: usize>(e: Both<f64>, factor: f64, [x, y]: Both<Lanes<L>>) -> Both<Lanes<L>> {
+fn across<const L: usize>(e: PerAxis<f64>, factor: f64, [x, y]: PerAxis<Lanes<L>>) -> PerAxis<Lanes<L>> {
     let turn = factor * (e[0] * y - e[1] * x);
     [-e[1] * turn, e[0] * turn]
 }
@@ -402,28 +406,29 @@ fn across<const L: usize>(e: Both<f64>, factor: f64, [x, y]: Both<Lanes<L>>) -> 
 /// Changes of the spring at the edge.
 fn move_edge<const L: usize>(
     contact: &LoadedContact,
-    (motion, displacement): (&StepMotion, &Both<Lanes<L>>),
-    step: &SlipStep,
-    old: &Both<Lanes<L>>,
+    (motion, displacement): (&SpringMotion, &PerAxis<Lanes<L>>),
+    step: &StepWork,
+    old: &PerAxis<Lanes<L>>,
     parameters: &ParameterChanges,
-) -> Both<Lanes<L>> {
+) -> PerAxis<Lanes<L>> {
     let (mut ratio, edge) = ([Lanes::ZERO; 2], &step.edge);
     let limit = contact.edge_limits().map(|limit| limit.max(LEAST));
-    for k in 0..2 {
-        ratio[k] = edge.part[k] * displacement[k] + edge.kept[k] * old[k];
-        let rise = (contact.now.shift[k] - motion.shift_before[k]).max(limit[k]);
-        let [per_rise, per_before] = [motion.displacement[k] / rise, step.old.edge[k] / edge.limit_before[k]];
-        ratio[k].add_first(parameters.sum(|terms| {
-            let (rise, mut sum) = (terms.shift[k] - terms.shift_before[k], -edge.ratio[k] * terms.edge_limit[k]);
-            if edge.part[k] < 1.0 {
-                sum += per_rise * (terms.edge_limit[k] - edge.part[k] * rise);
+    for axis in 0..2 {
+        ratio[axis] = edge.part[axis] * displacement[axis] + edge.kept[axis] * old[axis];
+        let rise = (contact.now.shift[axis] - motion.shift_before[axis]).max(limit[axis]);
+        let [per_rise, per_before] = [motion.displacement[axis] / rise, step.old.edge[axis] / edge.limit_before[axis]];
+        ratio[axis].add_first(parameters.sum(|terms| {
+            let (rise, mut sum) =
+                (terms.shift[axis] - terms.shift_before[axis], -edge.ratio[axis] * terms.edge_limit[axis]);
+            if edge.part[axis] < 1.0 {
+                sum += per_rise * (terms.edge_limit[axis] - edge.part[axis] * rise);
             }
-            if edge.kept[k] < 1.0 && edge.kept[k] > 0.0 {
-                sum += per_before * (terms.edge_limit[k] - rise - edge.kept[k] * terms.edge_limit_before[k]);
+            if edge.kept[axis] < 1.0 && edge.kept[axis] > 0.0 {
+                sum += per_before * (terms.edge_limit[axis] - rise - edge.kept[axis] * terms.edge_limit_before[axis]);
             }
             sum
         }));
-        ratio[k] = (1.0 / limit[k]) * ratio[k];
+        ratio[axis] = (1.0 / limit[axis]) * ratio[axis];
     }
     let (mut end, mut e) = (ratio, edge.ratio);
     if edge.slips {
@@ -431,20 +436,20 @@ fn move_edge<const L: usize>(
         e = edge.ratio.map(|ratio| per * ratio);
         end = across(e, per, ratio);
     }
-    for k in 0..2 {
-        end[k] = limit[k] * end[k];
-        end[k].add_first(e[k] * parameters.sum(|terms| terms.edge_limit[k]));
+    for axis in 0..2 {
+        end[axis] = limit[axis] * end[axis];
+        end[axis].add_first(e[axis] * parameters.sum(|terms| terms.edge_limit[axis]));
     }
     end
 }
 
 /// Changes of a force that Coulomb's law bounds.
-pub(crate) fn bounded<const L: usize>(
-    force: Both<f64>,
+pub(crate) fn within_friction_limit<const L: usize>(
+    force: PerAxis<f64>,
     bound: f64,
-    [x, y]: Both<Lanes<L>>,
+    [x, y]: PerAxis<Lanes<L>>,
     parameters: &ParameterChanges,
-) -> Both<Lanes<L>> {
+) -> PerAxis<Lanes<L>> {
     let length = length(force);
     if length <= super::step::ROUNDING * bound {
         return [x, y];
@@ -453,8 +458,8 @@ pub(crate) fn bounded<const L: usize>(
     let e = force.map(|force| force * per);
     let by_bound = parameters.sum(|terms| terms.load);
     let mut slopes = across(e, bound * per, [x, y]);
-    for k in 0..2 {
-        slopes[k].add_first(e[k] * by_bound);
+    for axis in 0..2 {
+        slopes[axis].add_first(e[axis] * by_bound);
     }
     slopes
 }
@@ -464,55 +469,55 @@ impl Slip {
     fn differentiate<const L: usize>(
         &self,
         springs: &Springs,
-        v: &mut Both<Changes<L>>,
+        v: &mut PerAxis<Changes<L>>,
         parameters: &ParameterChanges,
         slip_of: impl Fn(&ParameterTerms) -> &SlipTerms,
     ) {
         if self.points.set == 0 {
             return;
         }
-        let (first, end) = (self.points.first.min(N), springs.shells.range().end.min(N));
+        let (first, end) = (self.points.first.min(SPRINGS), springs.shells.range().end.min(SPRINGS));
         let range = [first, end];
         // The springs at the present tractions, and the slip at them.
-        let mut own = [[Lanes::<4>::ZERO; N]; 2];
-        for k in 0..2 {
+        let mut own = [[Lanes::<4>::ZERO; SPRINGS]; 2];
+        for axis in 0..2 {
             for j in first..end {
-                own[k][j] = -parameters.sum(|terms| slip_of(terms).tractions[k][j]);
+                own[axis][j] = -parameters.sum(|terms| slip_of(terms).tractions[axis][j]);
             }
-            times_upper(&springs.inverse[k], range, &mut own[k]);
+            times_upper(&springs.inverse[axis], range, &mut own[axis]);
             for j in first..end {
-                v[k][j].add_first(-own[k][j]);
-                v[k][j] = springs.stiffness[k][j] * v[k][j];
-                v[k][j].add_first(parameters.sum(|terms| slip_of(terms).forces[k][j]));
+                v[axis][j].add_first(-own[axis][j]);
+                v[axis][j] = springs.stiffness[axis][j] * v[axis][j];
+                v[axis][j].add_first(parameters.sum(|terms| slip_of(terms).forces[axis][j]));
             }
-            times_upper_transposed(&springs.inverse[k], range, &mut v[k]);
+            times_upper_transposed(&springs.inverse[axis], range, &mut v[axis]);
             for i in first..end {
-                v[k][i].add_first(parameters.sum(|terms| slip_of(terms).slip[k][i]));
+                v[axis][i].add_first(parameters.sum(|terms| slip_of(terms).slip[axis][i]));
             }
         }
         self.turn(springs, v, range);
-        for k in 0..2 {
-            times_upper(&springs.inverse[k], range, &mut v[k]);
+        for axis in 0..2 {
+            times_upper(&springs.inverse[axis], range, &mut v[axis]);
             for j in first..end {
-                v[k][j].add_first(own[k][j]);
+                v[axis][j].add_first(own[axis][j]);
             }
         }
     }
 
     /// Changes of the tractions, in place of those of slip at the present tractions.
-    fn turn<const L: usize>(&self, springs: &Springs, slip: &mut Both<Changes<L>>, [first, end]: [usize; 2]) {
+    fn turn<const L: usize>(&self, springs: &Springs, slip: &mut PerAxis<Changes<L>>, [first, end]: [usize; 2]) {
         let Slip { points, solution, .. } = self;
-        let (first, end) = (first.min(N), end.min(N));
+        let (first, end) = (first.min(SPRINGS), end.min(SPRINGS));
         let sticks = !points.set & within([first, end]);
         let metric = (sticks != 0).then(|| {
-            let mut metric = [[Row::ZERO; N]; 2];
+            let mut metric = [[Row::ZERO; SPRINGS]; 2];
             set_metric(&mut metric, springs, [first, end], points.set);
             metric
         });
         if let Some(metric) = &metric {
             eliminate(metric, slip, [first, end], (points.set, sticks));
         }
-        let mut across = [Lanes::ZERO; N];
+        let mut across = [Lanes::ZERO; SPRINGS];
         for m in first..end {
             if points.set >> m & 1 == 1 {
                 across[m] = points.e[0][m] * slip[1][m] - points.e[1][m] * slip[0][m];
@@ -526,12 +531,12 @@ impl Slip {
         }
         if let Some(metric) = &metric {
             // What these take from the tractions of others.
-            for k in 0..2 {
+            for axis in 0..2 {
                 for i in first..end {
                     for m in first..end {
                         if sticks >> i & points.set >> m & 1 == 1 {
-                            let taken = metric[k][m][i] * slip[k][m];
-                            slip[k][i] -= taken;
+                            let taken = metric[axis][m][i] * slip[axis][m];
+                            slip[axis][i] -= taken;
                         }
                     }
                 }
@@ -544,21 +549,21 @@ impl Slip {
 /// from the change of slip of the others by their share.
 #[inline(never)]
 fn eliminate<const L: usize>(
-    metric: &Both<Matrix>,
-    slip: &mut Both<Changes<L>>,
+    metric: &PerAxis<Matrix>,
+    slip: &mut PerAxis<Changes<L>>,
     [first, end]: [usize; 2],
     (set, sticks): (Set, Set),
 ) {
-    for k in 0..2 {
-        let own = slip[k];
-        for i in first..end.min(N) {
+    for axis in 0..2 {
+        let own = slip[axis];
+        for i in first..end.min(SPRINGS) {
             let mut sum = if set >> i & 1 == 1 { own[i] } else { Lanes::ZERO };
-            for m in first..end.min(N) {
+            for m in first..end.min(SPRINGS) {
                 if sticks >> m & 1 == 1 {
-                    sum -= metric[k][m][i] * own[m];
+                    sum -= metric[axis][m][i] * own[m];
                 }
             }
-            slip[k][i] = sum;
+            slip[axis][i] = sum;
         }
     }
 }
