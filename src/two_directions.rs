@@ -8,13 +8,15 @@
 //! - `shells`: the shells of a contact under a load, its springs and their map to tractions;
 //! - `matrix`: small matrices;
 //! - `slip`: Coulomb's law at the points;
-//! - `step`: a step of a contact, and its energy;
+//! - `step`: a step of a contact, and the bounds of Coulomb's law beside the points: spring at the edge, gross slip, the whole force;
+//! - `energy`: the energy that a step dissipates;
 //! - `tangent`: derivatives of a step;
 //! - `path`, `state`: a step between contacts that may be open, and the state in the caller's memory;
 //! - [`harmonic_force`]: Fourier coefficients of the forces of a periodic motion.
 
 pub mod harmonic_force;
 
+mod energy;
 mod matrix;
 mod nodes;
 mod path;

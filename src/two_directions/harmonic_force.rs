@@ -19,7 +19,7 @@ use super::path::ContactPath;
 use super::shells::Pressed;
 use super::step::{Displacements, LoadedContact, SpringMotion, StepWork, within_friction_limit};
 use super::tangent::{
-    self, ContactSlopes, END, PARAMETERS, ParameterChanges, ParameterTerms, REFERENCE, START, SpringChanges, propagate,
+    ContactSlopes, END, PARAMETERS, ParameterChanges, ParameterTerms, Propagation, REFERENCE, START, SpringChanges,
     slopes_of_nodes,
 };
 use crate::element::{Element, Normal};
@@ -350,12 +350,11 @@ fn differentiate(
     };
     let by_end = &*second.get_or_insert_with(|| derive(contact));
     let by_start = if motion.constant_load { by_end } else { &*first.get_or_insert_with(|| derive(from)) };
-    let values = (&**step, motion.constant_load);
+    let values = (&**step, motion);
     terms[END].set(contact, values, [None, Some(&by_end[0])], None);
     terms[START].set(contact, values, [Some(&by_start[0]), None], None);
     terms[REFERENCE].set(contact, values, [Some(&by_start[1]), Some(&by_end[1])], Some(nodes));
     let (contact, terms) = (&*contact, &**terms);
-    let values = (&**step, &*springs);
     let (forces_x, forces_y) = workspace.forces.split_at_mut(workspace.forces.len() / 2);
     let blocks = workspace.changes.blocks_mut::<COLUMNS>().blocks_mut::<CHANGES>();
     let [forces_x, forces_y] = [forces_x, forces_y].map(Total::blocks_mut::<COLUMNS>);
@@ -379,8 +378,9 @@ fn differentiate(
             v: by_axis(|axis| core::array::from_fn(|j| Lanes(columns[axis * SPRINGS + j]))),
             edge: by_axis(|axis| Lanes(columns[2 * SPRINGS + axis])),
         };
-        let forces = propagate(contact, own_nodes, (motion, &displacement), values, &mut changes, &parameters);
-        let forces = tangent::within_friction_limit(*unbounded, contact.now.load, forces, &parameters);
+        let propagation = Propagation { contact, nodes: own_nodes, motion, step, new: springs, parameters };
+        let forces = propagation.propagate(&displacement, &mut changes);
+        let forces = propagation.within_friction_limit(*unbounded, forces);
         for axis in 0..2 {
             for j in 0..SPRINGS {
                 columns[axis * SPRINGS + j] = changes.v[axis][j].0;

@@ -204,7 +204,12 @@ impl Shells {
 
     /// The shells, and springs, from the first to the last one.
     pub fn range(&self) -> Range<usize> {
-        self.first.min(FLAT_EDGE)..(self.last + 1).min(SPRINGS)
+        self.innermost()..(self.last + 1).min(SPRINGS)
+    }
+
+    /// The innermost spring: the first one, bounded for the compiler.
+    pub fn innermost(&self) -> usize {
+        self.first.min(FLAT_EDGE)
     }
 
     /// k_j in a direction, given 1/ΔS_j.

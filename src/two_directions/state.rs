@@ -13,6 +13,7 @@
 //! in gross slip of one direction: there all springs are at their limits, which any nodes represent.
 
 use super::TwoDirections;
+use super::energy::{dissipated, separated};
 use super::harmonic_force::{HarmonicOutput, TwoDirectionsWorkspace, harmonic_force};
 use super::nodes::{
     FLAT_EDGE, LEG_SQUARED, NEIGHBOUR, Nodes, POINT_SQUARED, PRESSURE, PerAxis, ROWS, SHIFT, SPRINGS, Units, by_axis,
@@ -20,11 +21,9 @@ use super::nodes::{
 };
 use super::path::{ContactPath, LONGEST};
 use super::shells::{Pressed, VALUES};
-use super::step::{
-    Displacements, LEAST, LoadedContact, SpringMotion, StepWork, dissipated, separated, within_friction_limit,
-};
+use super::step::{Displacements, LEAST, LoadedContact, SpringMotion, StepWork, within_friction_limit};
 use super::tangent::{
-    self, ContactSlopes, END, PARAMETERS, ParameterChanges, ParameterTerms, REFERENCE, SpringChanges, propagate,
+    ContactSlopes, END, PARAMETERS, ParameterChanges, ParameterTerms, Propagation, REFERENCE, SpringChanges,
     slopes_of_nodes,
 };
 use crate::element::{Directions, Element, Normal};
@@ -331,7 +330,7 @@ impl ContactState {
         if aligned <= 0.0 {
             return largest;
         }
-        let first = contact.shells.first.min(FLAT_EDGE);
+        let first = contact.shells.innermost();
         let slip =
             by_axis(|axis| (step.trial[axis][first] - springs.v[axis][first]) / contact.now.shift[axis].max(LEAST));
         load + (largest - load) / (1.0 + aligned.min(1.0) * length(slip))
@@ -355,7 +354,7 @@ fn tangent(
         (displacement[axis][END], displacement[axis][ALONG[axis]]) = (path.per_input[axis][1], 1.0);
     }
     let slopes = ContactSlopes::by_load(nodes, contact);
-    terms[END].set(contact, (step, motion.constant_load), [None, Some(&slopes)], None);
+    terms[END].set(contact, (step, motion), [None, Some(&slopes)], None);
     if let Some((old_nodes, element, units)) = old_nodes {
         let mut neighbours = [[[0.0; SPRINGS]; ROWS]; 2];
         let springs = [1.0 + NEIGHBOUR, 1.0 - NEIGHBOUR].map(|size| {
@@ -371,19 +370,12 @@ fn tangent(
         let [larger, smaller] = &neighbours;
         let by_nodes = slopes_of_nodes([larger, smaller]);
         let slopes = [from, contact].map(|contact| ContactSlopes::by_reference(nodes, &by_nodes, contact));
-        terms[REFERENCE].set(
-            contact,
-            (step, motion.constant_load),
-            [Some(&slopes[0]), Some(&slopes[1])],
-            Some(&by_nodes),
-        );
+        terms[REFERENCE].set(contact, (step, motion), [Some(&slopes[0]), Some(&slopes[1])], Some(&by_nodes));
     }
-    let slopes = {
-        let (motion, values) = ((motion, &displacement), (step, springs));
-        let parameters = ParameterChanges { terms: &terms, changes: by_parameters };
-        let force_slopes = propagate(contact, nodes, motion, values, &mut changes, &parameters);
-        tangent::within_friction_limit(force, contact.now.load, force_slopes, &parameters)
-    };
+    let parameters = ParameterChanges { terms: &terms, changes: by_parameters };
+    let propagation = Propagation { contact, nodes, motion, step, new: springs, parameters };
+    let by_force = propagation.propagate(&displacement, &mut changes);
+    let slopes = propagation.within_friction_limit(force, by_force);
     // The size is the reference size.
     slopes.map(|slopes| {
         [slopes[END] + 0.5 * contact.slopes.leg_squared * slopes[REFERENCE], slopes[ALONG[0]], slopes[ALONG[1]]]
@@ -401,7 +393,7 @@ struct OldNodes {
 impl OldNodes {
     /// The springs at new nodes, in their units: their displacements are polygons over S, with the old nodes as corners.
     fn moved_to(&self, nodes: &Nodes, now: &Pressed, units: &Units) -> Displacements {
-        let (ratio, first) = (self.units.shift / units.shift, self.contact.shells.first.min(FLAT_EDGE));
+        let (ratio, first) = (self.units.shift / units.shift, self.contact.shells.innermost());
         let last = last_node(nodes, now.inside_shift[0]);
         let mut new = Displacements { edge: self.springs.edge.map(|edge| ratio * edge), ..Displacements::NONE };
         let limits = self.contact.limits(&self.nodes);

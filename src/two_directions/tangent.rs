@@ -11,7 +11,7 @@ use super::matrix::{dot, times_upper, times_upper_transposed};
 use super::nodes::{FLAT_EDGE, Matrix, NEIGHBOUR, Nodes, PerAxis, Row, SHIFT, SPRINGS, by_axis, length};
 use super::shells::{Pressed, Shells, Springs, falls};
 use super::slip::{Set, Slip, set_metric, within};
-use super::step::{LEAST, LoadedContact, Released, SpringMotion, StepWork};
+use super::step::{Displacements, LEAST, LoadedContact, Released, SLIP_TOLERANCE, SpringMotion, StepWork};
 use crate::numerics::guard::quotient;
 use crate::numerics::lanes::Lanes;
 
@@ -194,7 +194,7 @@ impl ParameterTerms {
     pub fn set(
         &mut self,
         contact: &LoadedContact,
-        (step, constant_load): (&StepWork, bool),
+        (step, motion): (&StepWork, &SpringMotion),
         [from, to]: [Option<&ContactSlopes>; 2],
         nodes: Option<&Nodes>,
     ) {
@@ -204,12 +204,8 @@ impl ParameterTerms {
         let first = if nodes.is_some() { 0 } else { lasts[0].min(lasts[1]) };
         let [from, to] = [from, to].map(|slopes| slopes.unwrap_or(&none));
         let ends = [&from.shells, &to.shells];
-        let between = if constant_load { &step.springs } else { &step.between };
-        let half = by_axis(|axis| 0.5 * (step.old.v[axis] + step.trial[axis]));
-        self.middle.set(between, (ends, nodes, first), &half, &step.middle);
-        let used = contact.used();
-        let beyond = by_axis(|axis| used * (2.0 * step.middle.points.v[axis] - step.old.v[axis]));
-        self.end.set(&step.springs, ([ends[1]; 2], nodes, first), &beyond, &step.end);
+        self.middle.set(step.middle_springs(motion), (ends, nodes, first), &step.middle_trial(), &step.middle);
+        self.end.set(&step.springs, ([ends[1]; 2], nodes, first), &step.end_trial(contact), &step.end);
         self.stiffness = by_axis(|axis| stiffness_slopes(&step.springs, axis, ends[1]));
         self.nodes = by_axis(|axis| nodes.map_or(Row::ZERO, |nodes| Lanes(nodes[SHIFT + axis])));
         (self.shift_before, self.shift, self.load) = (from.shift, to.shift, to.load);
@@ -238,162 +234,211 @@ impl ParameterChanges<'_> {
     }
 }
 
-/// Propagates changes of the springs and of the displacement through a step: those of the springs after it, in place, and of the force, which is
-/// not yet bounded.
-pub(crate) fn propagate<const L: usize>(
-    contact: &LoadedContact,
-    nodes: &Nodes,
-    (motion, displacement): (&SpringMotion, &PerAxis<Lanes<L>>),
-    (step, new): (&StepWork, &super::step::Displacements),
-    springs: &mut SpringChanges<L>,
-    parameters: &ParameterChanges,
-) -> PerAxis<Lanes<L>> {
-    let used = contact.used();
-    let SpringChanges { v, edge } = springs;
-    let old = *v;
-    for axis in 0..2 {
-        let rise = contact.now.shift[axis] - motion.shift_before[axis];
-        for j in 0..SPRINGS {
-            v[axis][j] = used[j] * (v[axis][j] + step.parts[axis][j] * displacement[axis]);
-            if step.parts[axis][j] < 1.0 {
-                // The part of springs that are engaged in the step is their limit over the rise.
-                let rises = parameters.sum(|terms| terms.shift[axis] - terms.shift_before[axis]);
-                let part = used[j] * parameters.limit(axis, j) - step.parts[axis][j] * rises;
-                v[axis][j].add_first((motion.displacement[axis] / rise.max(LEAST)) * part);
-            }
-        }
-    }
-    release(contact, nodes, motion, step, v, parameters);
-    let far = &step.far;
-    if far.part < 1.0 {
-        let between = if motion.constant_load { &step.springs } else { &step.between };
-        for axis in 0..2 {
-            for j in 0..SPRINGS {
-                v[axis][j] = 0.5 * (v[axis][j] + old[axis][j]);
-            }
-        }
-        step.middle.differentiate(between, v, parameters, |terms| &terms.middle);
-        for axis in 0..2 {
-            for j in 0..SPRINGS {
-                v[axis][j] = used[j] * (2.0 * v[axis][j] - old[axis][j]);
-            }
-        }
-        step.end.differentiate(&step.springs, v, parameters, |terms| &terms.end);
-    }
-    *edge = move_edge(contact, (motion, displacement), step, edge, parameters);
-    if far.part > 0.0 {
-        let changes = GrossSlipBlendChanges::new(contact, (motion, displacement), step, &old, parameters);
-        let (limits, edge_limits) = (contact.limits(nodes), contact.edge_limits());
-        for axis in 0..2 {
-            for j in 0..SPRINGS {
-                let (value, by_limit) = (step.end.points.v[axis][j], used[j] * parameters.limit(axis, j));
-                let limit = (limits[axis][j], by_limit);
-                v[axis][j] = changes.blend((far.part, far.e[axis], changes.e[axis]), (v[axis][j], value), limit);
-            }
-            let by_limit = parameters.sum(|terms| terms.edge_limit[axis]);
-            let (limit, end) = (edge_limits[axis], &step.edge);
-            let value = limit * end.ratio[axis] / if end.slips { end.length.max(1.0) } else { 1.0 };
-            edge[axis] =
-                changes.blend((far.part, far.e[axis], changes.e[axis]), (edge[axis], value), (limit, by_limit));
-        }
-    }
-    let mut force = [Lanes::ZERO; 2];
-    for axis in 0..2 {
-        for j in 0..SPRINGS {
-            force[axis] += step.springs.stiffness[axis][j] * v[axis][j];
-        }
-        force[axis] += contact.shells.edge_stiffness[axis] * edge[axis];
-        force[axis].add_first(
-            parameters
-                .sum(|terms| dot(&new.v[axis], &terms.stiffness[axis]) + new.edge[axis] * terms.edge_stiffness[axis]),
-        );
-    }
-    force
+/// A step through which changes are propagated: the contact at its end, the springs after it, and what the parameters add.
+pub(crate) struct Propagation<'a> {
+    pub contact: &'a LoadedContact,
+    pub nodes: &'a Nodes,
+    pub motion: &'a SpringMotion,
+    pub step: &'a StepWork,
+    pub new: &'a Displacements,
+    pub parameters: ParameterChanges<'a>,
 }
 
-/// Changes of the trial state of springs that are released.
-fn release<const L: usize>(
-    contact: &LoadedContact,
-    nodes: &Nodes,
-    motion: &SpringMotion,
-    step: &StepWork,
-    v: &mut PerAxis<Changes<L>>,
-    parameters: &ParameterChanges,
-) {
-    let fall = motion.shift_before[0] - contact.now.shift[0];
-    if motion.constant_load || fall <= 0.0 {
-        return;
-    }
-    let limits = contact.limits(nodes);
-    for j in contact.shells.range() {
-        let limit = [limits[0][j].max(LEAST), limits[1][j].max(LEAST)];
-        let trial = [step.old.v[0][j] + motion.displacement[0], step.old.v[1][j] + motion.displacement[1]];
-        let released = Released::new(limit, fall, trial);
-        if released.scale >= 1.0 {
-            continue;
-        }
-        // Four divisors, not three: the compiler would divide by what is beside them in the vector register.
-        let divisors = Lanes([limit[0], limit[1], released.length.max(1.0), limit[0] + fall]);
-        let [per_x, per_y, per_length, per_before] = *(1.0 / divisors);
-        let by_limit = by_axis(|axis| parameters.limit(axis, j));
-        let by_before = parameters.sum(|terms| terms.shift_before[0] - terms.nodes[0][j]);
-        let by_part = released.part * (per_x * by_limit[0] - per_before * by_before);
-        let mut ratio = [v[0][j], v[1][j]];
+impl Propagation<'_> {
+    /// Propagates changes of the springs and of the displacement: those of the springs after the step, in place, and of the force, which is
+    /// not yet bounded.
+    pub fn propagate<const L: usize>(
+        &self,
+        displacement: &PerAxis<Lanes<L>>,
+        springs: &mut SpringChanges<L>,
+    ) -> PerAxis<Lanes<L>> {
+        let Propagation { contact, motion, step, new, parameters, .. } = self;
+        let used = contact.used();
+        let old = springs.v;
+        let v = &mut springs.v;
         for axis in 0..2 {
-            ratio[axis].add_first(-released.ratio[axis] * by_limit[axis]);
-            ratio[axis] = [per_x, per_y][axis] * ratio[axis];
+            let rise = contact.now.shift[axis] - motion.shift_before[axis];
+            for j in 0..SPRINGS {
+                v[axis][j] = used[j] * (v[axis][j] + step.parts[axis][j] * displacement[axis]);
+                if step.parts[axis][j] < 1.0 {
+                    // The part of springs that are engaged in the step is their limit over the rise.
+                    let rises = parameters.sum(|terms| terms.shift[axis] - terms.shift_before[axis]);
+                    let part = used[j] * parameters.limit(axis, j) - step.parts[axis][j] * rises;
+                    v[axis][j].add_first((motion.displacement[axis] / rise.max(LEAST)) * part);
+                }
+            }
         }
-        let length = per_length * (released.ratio[0] * ratio[0] + released.ratio[1] * ratio[1]);
-        let mut scale = per_length * (released.part - released.scale) * length;
-        scale.add_first((per_length * (released.length - 1.0)) * by_part);
+        self.release(v);
+        if step.blend.part < 1.0 {
+            for axis in 0..2 {
+                for j in 0..SPRINGS {
+                    v[axis][j] = 0.5 * (v[axis][j] + old[axis][j]);
+                }
+            }
+            step.middle.differentiate(step.middle_springs(motion), v, parameters, |terms| &terms.middle);
+            for axis in 0..2 {
+                for j in 0..SPRINGS {
+                    v[axis][j] = used[j] * (2.0 * v[axis][j] - old[axis][j]);
+                }
+            }
+            step.end.differentiate(&step.springs, v, parameters, |terms| &terms.end);
+        }
+        springs.edge = self.move_edge(displacement, &springs.edge);
+        if step.blend.part > 0.0 {
+            self.blend(displacement, &old, springs);
+        }
+        let mut force = [Lanes::ZERO; 2];
         for axis in 0..2 {
-            v[axis][j] = limit[axis] * (released.scale * ratio[axis] + released.ratio[axis] * scale);
-            v[axis][j].add_first((released.ratio[axis] * released.scale) * by_limit[axis]);
+            for j in 0..SPRINGS {
+                force[axis] += step.springs.stiffness[axis][j] * springs.v[axis][j];
+            }
+            force[axis] += contact.shells.edge_stiffness[axis] * springs.edge[axis];
+            force[axis].add_first(
+                parameters.sum(|terms| {
+                    dot(&new.v[axis], &terms.stiffness[axis]) + new.edge[axis] * terms.edge_stiffness[axis]
+                }),
+            );
+        }
+        force
+    }
+
+    /// Changes of the trial state of springs that are released.
+    fn release<const L: usize>(&self, v: &mut PerAxis<Changes<L>>) {
+        let Propagation { contact, nodes, motion, step, parameters, .. } = self;
+        let fall = motion.shift_before[0] - contact.now.shift[0];
+        if motion.constant_load || fall <= 0.0 {
+            return;
+        }
+        let limits = contact.limits(nodes);
+        for j in contact.shells.range() {
+            let limit = [limits[0][j].max(LEAST), limits[1][j].max(LEAST)];
+            let trial = [step.old.v[0][j] + motion.displacement[0], step.old.v[1][j] + motion.displacement[1]];
+            let released = Released::new(limit, fall, trial);
+            if released.scale >= 1.0 {
+                continue;
+            }
+            // Four divisors, not three: the compiler would divide by what is beside them in the vector register.
+            let divisors = Lanes([limit[0], limit[1], released.length.max(1.0), limit[0] + fall]);
+            let [per_x, per_y, per_length, per_before] = *(1.0 / divisors);
+            let by_limit = by_axis(|axis| parameters.limit(axis, j));
+            let by_before = parameters.sum(|terms| terms.shift_before[0] - terms.nodes[0][j]);
+            let by_part = released.part * (per_x * by_limit[0] - per_before * by_before);
+            let mut ratio = [v[0][j], v[1][j]];
+            for axis in 0..2 {
+                ratio[axis].add_first(-released.ratio[axis] * by_limit[axis]);
+                ratio[axis] = [per_x, per_y][axis] * ratio[axis];
+            }
+            let length = per_length * (released.ratio[0] * ratio[0] + released.ratio[1] * ratio[1]);
+            let mut scale = per_length * (released.part - released.scale) * length;
+            scale.add_first((per_length * (released.length - 1.0)) * by_part);
+            for axis in 0..2 {
+                v[axis][j] = limit[axis] * (released.scale * ratio[axis] + released.ratio[axis] * scale);
+                v[axis][j].add_first((released.ratio[axis] * released.scale) * by_limit[axis]);
+            }
         }
     }
-}
 
-/// Changes of a displacement that is far: of its part, and of its direction.
-struct GrossSlipBlendChanges<const L: usize> {
-    part: Lanes<L>,
-    e: PerAxis<Lanes<L>>,
-}
+    /// Changes of the spring at the edge, from those of its old displacement.
+    fn move_edge<const L: usize>(
+        &self,
+        displacement: &PerAxis<Lanes<L>>,
+        old: &PerAxis<Lanes<L>>,
+    ) -> PerAxis<Lanes<L>> {
+        let Propagation { contact, motion, step, parameters, .. } = self;
+        let (mut ratio, edge) = ([Lanes::ZERO; 2], &step.edge);
+        let limit = contact.edge_limits().map(|limit| limit.max(LEAST));
+        for axis in 0..2 {
+            ratio[axis] = edge.part[axis] * displacement[axis] + edge.kept[axis] * old[axis];
+            let rise = (contact.now.shift[axis] - motion.shift_before[axis]).max(limit[axis]);
+            let [per_rise, per_before] =
+                [motion.displacement[axis] / rise, step.old.edge[axis] / edge.limit_before[axis]];
+            ratio[axis].add_first(parameters.sum(|terms| {
+                let (rise, mut sum) =
+                    (terms.shift[axis] - terms.shift_before[axis], -edge.ratio[axis] * terms.edge_limit[axis]);
+                if edge.part[axis] < 1.0 {
+                    sum += per_rise * (terms.edge_limit[axis] - edge.part[axis] * rise);
+                }
+                if edge.kept[axis] < 1.0 && edge.kept[axis] > 0.0 {
+                    sum +=
+                        per_before * (terms.edge_limit[axis] - rise - edge.kept[axis] * terms.edge_limit_before[axis]);
+                }
+                sum
+            }));
+            ratio[axis] = (1.0 / limit[axis]) * ratio[axis];
+        }
+        let (mut end, mut e) = (ratio, edge.ratio);
+        if edge.slips {
+            let per = quotient(1.0, edge.length);
+            e = edge.ratio.map(|ratio| per * ratio);
+            end = across(e, per, ratio);
+        }
+        for axis in 0..2 {
+            end[axis] = limit[axis] * end[axis];
+            end[axis].add_first(e[axis] * parameters.sum(|terms| terms.edge_limit[axis]));
+        }
+        end
+    }
 
-impl<const L: usize> GrossSlipBlendChanges<L> {
-    fn new(
-        contact: &LoadedContact,
-        (motion, displacement): (&SpringMotion, &PerAxis<Lanes<L>>),
-        step: &StepWork,
+    /// Changes of the springs that end in gross slip to a part, `v = (1 - part) v + part l e`, from those of the springs before the step.
+    fn blend<const L: usize>(
+        &self,
+        displacement: &PerAxis<Lanes<L>>,
         old: &PerAxis<Changes<L>>,
-        parameters: &ParameterChanges,
-    ) -> Self {
-        let (far, first) = (&step.far, contact.shells.first.min(FLAT_EDGE));
+        springs: &mut SpringChanges<L>,
+    ) {
+        let Propagation { contact, nodes, motion, step, parameters, .. } = self;
+        let (blend, first) = (&step.blend, contact.shells.innermost());
         let (mut way, mut distance) = (*displacement, Lanes::ZERO);
         for axis in 0..2 {
             let (limit, before) = (contact.now.shift[axis].max(LEAST), motion.shift_before[axis].max(LEAST));
-            way[axis] += far.cut[axis] * old[axis][first];
+            way[axis] += blend.cut[axis] * old[axis][first];
             // A constant load is the limit of falling ones.
             if contact.now.shift[axis] <= motion.shift_before[axis] {
                 let cut = parameters.sum(|terms| (limit / before) * terms.shift_before[axis] - terms.shift[axis]);
                 way[axis].add_first((step.old.v[axis][first] / before) * cut);
             }
             let mut ratio = way[axis];
-            ratio.add_first(-far.ratio[axis] * parameters.sum(|terms| terms.shift[axis]));
-            distance += (quotient(far.ratio[axis], far.distance) / limit) * ratio;
+            ratio.add_first(-blend.ratio[axis] * parameters.sum(|terms| terms.shift[axis]));
+            distance += (quotient(blend.ratio[axis], blend.distance) / limit) * ratio;
         }
-        GrossSlipBlendChanges { part: far.slope * distance, e: across(far.e, far.per_length, way) }
+        let (by_part, by_e) = (blend.part_slope * distance, across(blend.e, blend.per_length, way));
+        let blended = |axis: usize, value: f64, changes: Lanes<L>, limit: f64, by_limit: Lanes<4>| {
+            let (part, e) = (blend.part, blend.e[axis]);
+            let mut changes = (1.0 - part) * changes + (limit * e - value) * by_part + (part * limit) * by_e[axis];
+            changes.add_first((part * e) * by_limit);
+            changes
+        };
+        let (used, limits, edge_limits) = (contact.used(), contact.limits(nodes), contact.edge_limits());
+        for axis in 0..2 {
+            for (j, changes) in springs.v[axis].iter_mut().enumerate() {
+                let (value, by_limit) = (step.end.points.v[axis][j], used[j] * parameters.limit(axis, j));
+                *changes = blended(axis, value, *changes, limits[axis][j], by_limit);
+            }
+            let by_limit = parameters.sum(|terms| terms.edge_limit[axis]);
+            let (limit, end) = (edge_limits[axis], &step.edge);
+            let value = limit * end.ratio[axis] / if end.slips { end.length.max(1.0) } else { 1.0 };
+            springs.edge[axis] = blended(axis, value, springs.edge[axis], limit, by_limit);
+        }
     }
 
-    /// Changes of a spring with a limit that ends in gross slip to a part, `v = (1 - part) v + part l e`.
-    fn blend(
+    /// Changes of a force that Coulomb's law bounds.
+    pub fn within_friction_limit<const L: usize>(
         &self,
-        (part, e, by_e): (f64, f64, Lanes<L>),
-        (v, value): (Lanes<L>, f64),
-        (limit, by_limit): (f64, Lanes<4>),
-    ) -> Lanes<L> {
-        let mut v = (1.0 - part) * v + (limit * e - value) * self.part + (part * limit) * by_e;
-        v.add_first((part * e) * by_limit);
-        v
+        force: PerAxis<f64>,
+        [x, y]: PerAxis<Lanes<L>>,
+    ) -> PerAxis<Lanes<L>> {
+        let (length, bound) = (length(force), self.contact.now.load);
+        if length <= SLIP_TOLERANCE * bound {
+            return [x, y];
+        }
+        let per = quotient(1.0, length);
+        let e = force.map(|force| force * per);
+        let by_bound = self.parameters.sum(|terms| terms.load);
+        let mut slopes = across(e, bound * per, [x, y]);
+        for axis in 0..2 {
+            slopes[axis].add_first(e[axis] * by_bound);
+        }
+        slopes
     }
 }
 
@@ -401,67 +446,6 @@ impl<const L: usize> GrossSlipBlendChanges<L> {
 fn across<const L: usize>(e: PerAxis<f64>, factor: f64, [x, y]: PerAxis<Lanes<L>>) -> PerAxis<Lanes<L>> {
     let turn = factor * (e[0] * y - e[1] * x);
     [-e[1] * turn, e[0] * turn]
-}
-
-/// Changes of the spring at the edge.
-fn move_edge<const L: usize>(
-    contact: &LoadedContact,
-    (motion, displacement): (&SpringMotion, &PerAxis<Lanes<L>>),
-    step: &StepWork,
-    old: &PerAxis<Lanes<L>>,
-    parameters: &ParameterChanges,
-) -> PerAxis<Lanes<L>> {
-    let (mut ratio, edge) = ([Lanes::ZERO; 2], &step.edge);
-    let limit = contact.edge_limits().map(|limit| limit.max(LEAST));
-    for axis in 0..2 {
-        ratio[axis] = edge.part[axis] * displacement[axis] + edge.kept[axis] * old[axis];
-        let rise = (contact.now.shift[axis] - motion.shift_before[axis]).max(limit[axis]);
-        let [per_rise, per_before] = [motion.displacement[axis] / rise, step.old.edge[axis] / edge.limit_before[axis]];
-        ratio[axis].add_first(parameters.sum(|terms| {
-            let (rise, mut sum) =
-                (terms.shift[axis] - terms.shift_before[axis], -edge.ratio[axis] * terms.edge_limit[axis]);
-            if edge.part[axis] < 1.0 {
-                sum += per_rise * (terms.edge_limit[axis] - edge.part[axis] * rise);
-            }
-            if edge.kept[axis] < 1.0 && edge.kept[axis] > 0.0 {
-                sum += per_before * (terms.edge_limit[axis] - rise - edge.kept[axis] * terms.edge_limit_before[axis]);
-            }
-            sum
-        }));
-        ratio[axis] = (1.0 / limit[axis]) * ratio[axis];
-    }
-    let (mut end, mut e) = (ratio, edge.ratio);
-    if edge.slips {
-        let per = quotient(1.0, edge.length);
-        e = edge.ratio.map(|ratio| per * ratio);
-        end = across(e, per, ratio);
-    }
-    for axis in 0..2 {
-        end[axis] = limit[axis] * end[axis];
-        end[axis].add_first(e[axis] * parameters.sum(|terms| terms.edge_limit[axis]));
-    }
-    end
-}
-
-/// Changes of a force that Coulomb's law bounds.
-pub(crate) fn within_friction_limit<const L: usize>(
-    force: PerAxis<f64>,
-    bound: f64,
-    [x, y]: PerAxis<Lanes<L>>,
-    parameters: &ParameterChanges,
-) -> PerAxis<Lanes<L>> {
-    let length = length(force);
-    if length <= super::step::ROUNDING * bound {
-        return [x, y];
-    }
-    let per = quotient(1.0, length);
-    let e = force.map(|force| force * per);
-    let by_bound = parameters.sum(|terms| terms.load);
-    let mut slopes = across(e, bound * per, [x, y]);
-    for axis in 0..2 {
-        slopes[axis].add_first(e[axis] * by_bound);
-    }
-    slopes
 }
 
 impl Slip {
