@@ -11,6 +11,7 @@
 //! - `step`: a step of a contact, and the bounds of Coulomb's law beside the points: spring at the edge, gross slip, the whole force;
 //! - `energy`: the energy that a step dissipates;
 //! - `tangent`: derivatives of a step;
+//! - `moving_nodes`: the contact between two steps, and its nodes, which move with the load;
 //! - `path`, `state`: a step between contacts that may be open, and the state in the caller's memory;
 //! - [`harmonic_force`]: Fourier coefficients of the forces of a periodic motion.
 
@@ -18,6 +19,7 @@ pub mod harmonic_force;
 
 mod energy;
 mod matrix;
+mod moving_nodes;
 mod nodes;
 mod path;
 mod shells;

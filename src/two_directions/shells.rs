@@ -21,7 +21,7 @@ use crate::numerics::lanes::Lanes;
 use core::ops::Range;
 
 /// The normal state in the units of the springs: N, S of both directions, leg²; N and S of a slightly smaller size, inside the edge.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct Pressed {
     pub load: f64,
     pub shift: PerAxis<f64>,

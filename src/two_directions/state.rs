@@ -7,17 +7,13 @@
 //! ```
 //!
 //! in rows of as many doubles as springs. A contact that opens has the state of a new one.
-//!
-//! The nodes are those of the largest load since the contact closed. A step to a larger one first moves them to its load, by as little as the
-//! load exceeds theirs: so the force is continuous in the load. Moved springs are the polygon of the springs over S. An overload is forgotten
-//! in gross slip of one direction: there all springs are at their limits, which any nodes represent.
 
 use super::TwoDirections;
 use super::energy::{dissipated, separated};
 use super::harmonic_force::{HarmonicOutput, TwoDirectionsWorkspace, harmonic_force};
+use super::moving_nodes::{ContactState, OldNodes};
 use super::nodes::{
-    FLAT_EDGE, LEG_SQUARED, NEIGHBOUR, Nodes, POINT_SQUARED, PRESSURE, PerAxis, ROWS, SHIFT, SPRINGS, Units, by_axis,
-    fill, first_shell, last_node, length,
+    FLAT_EDGE, LEG_SQUARED, NEIGHBOUR, Nodes, POINT_SQUARED, PRESSURE, PerAxis, ROWS, SHIFT, SPRINGS, Units, fill,
 };
 use super::path::{ContactPath, LONGEST};
 use super::shells::{Pressed, VALUES};
@@ -31,28 +27,23 @@ use crate::error::Error;
 use crate::law::{Law, PathOutput, Requested, StepOf, StepResult};
 use crate::limits::check_displacement;
 use crate::numerics::fp_class::is_finite;
-use crate::numerics::guard::quotient;
 use crate::numerics::lanes::Lanes;
 use crate::numerics::total::Total;
 use crate::tag::Kind;
 
-/// The largest load of the nodes over the present one that gross slip does not forget: nodes of such a load are accurate enough.
-const REMEMBERED: f64 = 3.0;
-/// The distance of the force from Coulomb's bound, over it, up to which all points slip in one direction, and from twice which on they do not:
-/// then springs at other nodes carry the same force, but for rounding.
-const SAME_DIRECTION: f64 = 1e-13;
-/// Changes of the load of the nodes that are worth new ones.
-const LEAST_CHANGE: f64 = 1e-3;
 /// Lanes of both displacements in a tangent, beside those of the normal component and of the nodes.
 const ALONG: [usize; 2] = [1, 3];
 /// The rounding error of the load of nodes.
-const ROUNDING: f64 = 1e-12;
+const LOAD_TOLERANCE: f64 = 1e-12;
 
 /// Decimal text of 16 significant digits or fewer changes this double, which is halfway between two numbers of 16 digits: the state of a
 /// closed contact is rejected then. Its springs at the edge are so stiff that rounding errors of their limits would be amplified.
 const ALL_DIGITS: f64 = 1_000.000_000_000_000_5;
 
 const HEADER_ROWS: usize = 2;
+/// Places in the header.
+const KEY: usize = 6;
+const ALL_DIGITS_AT: usize = 12;
 const STATE_ROWS: usize = HEADER_ROWS + 4 + ROWS;
 pub(super) const LENGTH: usize = SPRINGS * STATE_ROWS;
 
@@ -97,7 +88,7 @@ impl Law for TwoDirections {
         if !state.iter().take(LENGTH).all(|value| is_finite(*value)) {
             return Err(Error::BadState);
         }
-        let (at, springs, nodes) = (memory.place(), memory.springs(), &*memory.nodes);
+        let (at, nodes) = (memory.read(), &*memory.nodes);
         if at.normal_force == 0.0 {
             return Ok(());
         }
@@ -116,10 +107,10 @@ impl Law for TwoDirections {
         let contact = LoadedContact::new(nodes, &at.pressed);
         let within = (0..2).all(|axis| {
             let (limits, rounding) = (contact.limits(nodes)[axis], 1e-9 * now.shift[axis] + 1e-30);
-            springs.v[axis].iter().zip(limits.iter()).all(|(v, limit)| v.abs() <= limit + rounding)
-                && springs.edge[axis].abs() <= contact.edge_limits()[axis] + rounding
+            at.springs.v[axis].iter().zip(limits.iter()).all(|(v, limit)| v.abs() <= limit + rounding)
+                && at.springs.edge[axis].abs() <= contact.edge_limits()[axis] + rounding
         });
-        let [.., all_digits, _, _, _, _, _, _, _] = memory.header[0];
+        let all_digits = memory.header[0][ALL_DIGITS_AT];
         let positive = positive.iter().all(|value| *value > 0.0);
         if all_digits == ALL_DIGITS && positive && small && ordered && tables && turned && within {
             Ok(())
@@ -146,18 +137,6 @@ impl Law for TwoDirections {
     }
 }
 
-/// Where a contact is; open if the normal force is 0.
-#[derive(Debug, Clone, Copy, Default)]
-struct ContactState {
-    displacement: [f64; 3],
-    normal_force: f64,
-    load_slope: f64,
-    /// Of the element whose nodes these are.
-    key: f64,
-    units: Units,
-    pressed: [Pressed; 2],
-}
-
 /// The parts of a state.
 struct State<'a> {
     header: &'a mut [[f64; SPRINGS]; HEADER_ROWS],
@@ -174,26 +153,23 @@ impl State<'_> {
         Some(State { header, v, turned, nodes: rest.first_chunk_mut()? })
     }
 
-    fn place(&self) -> ContactState {
-        let [first, [now @ .., _, _, _, _, _, _, a, b, c, d, e, f, g]] = *self.header;
-        let [_, normal_force, load_slope, v, u, input, key, load, shift, leg, ..] = first;
+    fn read(&self) -> ContactState {
+        let [first, second] = &*self.header;
+        let [_, normal_force, load_slope, v, u, input, key, load, shift, leg, edge_x, edge_y, ..] = *first;
+        let pressed = |from: usize| Pressed::from_values(core::array::from_fn(|i| second[from + i]));
         ContactState {
             displacement: [u, v, input],
             normal_force,
             load_slope,
             key,
             units: Units { load, shift, leg },
-            pressed: [Pressed::from_values(now), Pressed::from_values([a, b, c, d, e, f, g])],
+            pressed: [pressed(0), pressed(SPRINGS - VALUES)],
+            springs: Displacements { v: self.v.map(Lanes), edge: [edge_x, edge_y] },
         }
     }
 
-    fn springs(&self) -> Displacements {
-        let ([x, y], [.., edge_x, edge_y, _, _, _, _, _, _, _, _]) = (*self.v, self.header[0]);
-        Displacements { v: [Lanes(x), Lanes(y)], edge: [edge_x, edge_y] }
-    }
-
-    fn write(&mut self, at: &ContactState, springs: &Displacements) {
-        let ContactState { displacement: [u, v, input], normal_force, load_slope, key, units, pressed } = *at;
+    fn write(&mut self, at: &ContactState) {
+        let ContactState { displacement: [u, v, input], normal_force, load_slope, key, units, pressed, springs } = *at;
         let Units { load, shift, leg } = units;
         let ([x, y], tag) = (springs.edge, Kind::TwoDirectionsState.tag());
         let all_digits = if normal_force > 0.0 { ALL_DIGITS } else { 0.0 };
@@ -207,133 +183,113 @@ impl State<'_> {
 
     /// A step.
     fn advance(&mut self, element: &Element, to: [f64; 3], requested: Requested) -> StepOf<TwoDirections> {
-        let closes = element.is_closed(to[2]);
-        let (mut at, mut springs, mut result) = (self.place(), self.springs(), StepResult::NONE);
+        let (closes, mut at) = (element.is_closed(to[2]), self.read());
         if element.friction_coefficient == 0.0 || !(closes || at.normal_force > 0.0) {
             // Without friction, or open before and after, only the position changes.
-            if closes {
-                let normal = element.normal(to[2]);
-                (result.force[2], result.tangent[8]) = (normal.load, normal.load_slope);
-            }
+            let normal = if closes { element.normal(to[2]) } else { Normal::OPEN };
+            let mut result = StepResult::NONE;
+            (result.force[2], result.tangent[8]) = (normal.load, normal.load_slope);
             self.open(to);
             return result;
         }
         if at.key != element.key {
             // The springs of another element relax where they are.
-            springs = Displacements::NONE;
-            at = ContactState { displacement: at.displacement, key: element.key, ..ContactState::default() };
-            if element.is_closed(at.displacement[2]) && self.header[0][1] > 0.0 {
+            let was_closed = at.normal_force > 0.0 && element.is_closed(at.displacement[2]);
+            at = ContactState { key: element.key, ..ContactState::open_at(at.displacement) };
+            if was_closed {
                 at.set_nodes(element, self.nodes, element.normal(at.displacement[2]).load);
             }
         }
+        if closes { self.step(element, at, to, requested) } else { self.separate(element, &at, to, requested) }
+    }
+
+    /// A step of a contact that is closed at its end.
+    fn step(
+        &mut self,
+        element: &Element,
+        mut at: ContactState,
+        to: [f64; 3],
+        requested: Requested,
+    ) -> StepOf<TwoDirections> {
         let was_closed = at.normal_force > 0.0;
-        let same = closes && was_closed && to[2].to_bits() == at.displacement[2].to_bits();
-        let normal = match (closes, same) {
-            (true, false) => element.normal(to[2]),
-            _ => Normal { load: at.normal_force, load_slope: at.load_slope, ..Normal::OPEN },
+        let same = was_closed && to[2].to_bits() == at.displacement[2].to_bits();
+        let normal = if same {
+            Normal { load: at.normal_force, load_slope: at.load_slope, ..Normal::OPEN }
+        } else {
+            element.normal(to[2])
         };
         let (mut from, mut old_nodes) = (LoadedContact::OPEN, None);
         if was_closed {
             from = LoadedContact::new(self.nodes, &at.pressed);
+            if normal.load > at.units.load * (1.0 + LOAD_TOLERANCE) {
+                old_nodes = Some(at.move_nodes(element, self.nodes, &from, normal.load));
+                from = LoadedContact::new(self.nodes, &at.pressed);
+            }
         } else {
             // Springs that close in a step all carry the same part of it, at any nodes.
             at.units = Units::at_load(element, normal.load);
             fill(self.nodes, element, &at.units, 1.0);
         }
-        if was_closed && normal.load > at.units.load * (1.0 + ROUNDING) {
-            let old = OldNodes { units: at.units, springs, nodes: *self.nodes, contact: from };
-            at.set_nodes(element, self.nodes, normal.load);
-            springs = old.moved_to(self.nodes, &at.pressed[0], &at.units);
-            from = LoadedContact::new(self.nodes, &at.pressed);
-            old_nodes = Some(old);
-        }
-        let path = ContactPath::new(element, &at.units, [at.displacement, to], [was_closed, closes]);
+        let path = ContactPath::new(element, &at.units, [at.displacement, to], [was_closed, true]);
         let unit = element.friction_coefficient * at.units.load;
-        let energy_unit = unit * element.friction_coefficient * at.units.shift * path.scale;
-        if !closes {
-            if requested.energy {
-                let energy = separated(self.nodes, &from, &Pressed::default(), path.displacement, &springs);
-                result.dissipated = energy_unit * energy;
-            }
-            self.open(to);
-            return result;
-        }
-        let mut pressed = None;
+        let mut contact = from;
         if !same {
             at.pressed = Pressed::new(element, &at.units, to[2], &normal);
-            pressed = Some(LoadedContact::new(self.nodes, &at.pressed));
+            contact = LoadedContact::new(self.nodes, &at.pressed);
         }
-        let contact = pressed.as_ref().unwrap_or(&from);
         let motion =
             SpringMotion { shift_before: from.now.shift, displacement: path.displacement, constant_load: same };
         let mut step = StepWork::NONE;
         (step.middle.turned, step.end.turned) = (Lanes(self.turned[0]), Lanes(self.turned[1]));
-        let contacts = [&from, contact];
-        let force = step.advance(self.nodes, contacts, &motion, &mut springs, requested.tangent);
+        let contacts = [&from, &contact];
+        let force = step.advance(self.nodes, contacts, &motion, &mut at.springs, requested.tangent);
         let [x, y] = within_friction_limit(force, contact.now.load);
-        result.force = [unit * x, unit * y, normal.load];
+        let mut result = StepResult { force: [unit * x, unit * y, normal.load], ..StepResult::NONE };
         if requested.tangent {
             let units = [unit * path.per_distance, unit / element.input_scale()];
             let old_nodes = old_nodes.as_ref().map(|old_nodes| (old_nodes, element, &at.units));
-            let slopes = tangent(self.nodes, contacts, (&path, &motion), (&step, &springs, force), old_nodes);
+            let slopes = tangent(self.nodes, contacts, (&path, &motion), (&step, &at.springs, force), old_nodes);
             result.tangent = tangent_of(slopes, units, normal.load_slope);
         }
         if requested.energy {
-            result.dissipated = energy_unit * dissipated(self.nodes, contacts, &motion, &step, &springs);
+            let unit = unit * element.friction_coefficient * at.units.shift * path.scale;
+            result.dissipated = unit * dissipated(self.nodes, contacts, &motion, &step, &at.springs);
         }
         *self.turned = [step.middle.turned.0, step.end.turned.0];
         (at.displacement, at.normal_force, at.load_slope) = (to, normal.load, normal.load_slope);
-        let load = at.remembered_load(contact, &step, &springs, [x, y]);
-        if load < at.units.load * (1.0 - LEAST_CHANGE) {
-            let old = OldNodes { units: at.units, springs, nodes: *self.nodes, contact: *contact };
-            at.set_nodes(element, self.nodes, load);
-            springs = old.moved_to(self.nodes, &at.pressed[0], &at.units);
+        if let Some(load) = at.remembered_load(&contact, &step, [x, y]) {
+            at.move_nodes(element, self.nodes, &contact, load);
         }
-        self.write(&at, &springs);
+        self.write(&at);
         result
     }
 
-    /// The state of a new contact, at a place.
+    /// A step of a contact that is open at its end.
+    fn separate(
+        &mut self,
+        element: &Element,
+        at: &ContactState,
+        to: [f64; 3],
+        requested: Requested,
+    ) -> StepOf<TwoDirections> {
+        let mut result = StepResult::NONE;
+        if requested.energy && at.normal_force > 0.0 {
+            let from = LoadedContact::new(self.nodes, &at.pressed);
+            let path = ContactPath::new(element, &at.units, [at.displacement, to], [true, false]);
+            let unit = element.friction_coefficient * at.units.load;
+            let unit = unit * element.friction_coefficient * at.units.shift * path.scale;
+            result.dissipated = unit * separated(self.nodes, &from, &Pressed::NONE, path.displacement, &at.springs);
+        }
+        self.open(to);
+        result
+    }
+
+    /// The state of a new contact, at a displacement.
     fn open(&mut self, displacement: [f64; 3]) {
-        if self.header[0][6] != 0.0 {
+        if self.header[0][KEY] != 0.0 {
             (*self.turned, *self.nodes) = ([[0.0; SPRINGS]; 2], [[0.0; SPRINGS]; ROWS]);
         }
-        self.write(&ContactState { displacement, ..ContactState::default() }, &Displacements::NONE);
-    }
-}
-
-impl ContactState {
-    /// Nodes of a load.
-    #[inline(never)]
-    fn set_nodes(&mut self, element: &Element, nodes: &mut Nodes, load: f64) {
-        let input = self.displacement[2];
-        let normal = element.normal(input);
-        self.units = Units::at_load(element, load);
-        fill(nodes, element, &self.units, 1.0);
-        self.pressed = Pressed::new(element, &self.units, input, &normal);
-        (self.normal_force, self.load_slope) = (normal.load, normal.load_slope);
-    }
-
-    /// The load of the nodes after a step with this force. Gross slip in one direction forgets an overload, as the innermost spring slips.
-    fn remembered_load(
-        &self,
-        contact: &LoadedContact,
-        step: &StepWork,
-        springs: &Displacements,
-        force: PerAxis<f64>,
-    ) -> f64 {
-        let (load, largest) = (REMEMBERED * self.normal_force, self.units.load);
-        if largest <= load {
-            return largest;
-        }
-        let aligned = 2.0 - (1.0 - quotient(length(force), contact.now.load)) / SAME_DIRECTION;
-        if aligned <= 0.0 {
-            return largest;
-        }
-        let first = contact.shells.innermost();
-        let slip =
-            by_axis(|axis| (step.trial[axis][first] - springs.v[axis][first]) / contact.now.shift[axis].max(LEAST));
-        load + (largest - load) / (1.0 + aligned.min(1.0) * length(slip))
+        self.write(&ContactState::open_at(displacement));
     }
 }
 
@@ -380,48 +336,6 @@ fn tangent(
     slopes.map(|slopes| {
         [slopes[END] + 0.5 * contact.slopes.leg_squared * slopes[REFERENCE], slopes[ALONG[0]], slopes[ALONG[1]]]
     })
-}
-
-/// Springs at nodes of another load.
-struct OldNodes {
-    units: Units,
-    springs: Displacements,
-    nodes: Nodes,
-    contact: LoadedContact,
-}
-
-impl OldNodes {
-    /// The springs at new nodes, in their units: their displacements are polygons over S, with the old nodes as corners.
-    fn moved_to(&self, nodes: &Nodes, now: &Pressed, units: &Units) -> Displacements {
-        let (ratio, first) = (self.units.shift / units.shift, self.contact.shells.innermost());
-        let last = last_node(nodes, now.inside_shift[0]);
-        let mut new = Displacements { edge: self.springs.edge.map(|edge| ratio * edge), ..Displacements::NONE };
-        let limits = self.contact.limits(&self.nodes);
-        for axis in 0..2 {
-            let (limits, old) = (limits[axis], &self.springs.v[axis]);
-            // A flat that was too small for the old nodes moves with the innermost spring.
-            for j in first_shell(nodes)..FLAT_EDGE {
-                new.v[axis][j] = ratio * old[j.max(first)];
-            }
-            for (place, node) in new.v[axis].iter_mut().zip(&nodes[SHIFT + axis]).take(last + 1).skip(FLAT_EDGE) {
-                let corners = limits.iter().zip(old.iter()).take(self.contact.shells.range().end).skip(FLAT_EDGE).rev();
-                *place = ratio * polygon((now.shift[axis] - node) / ratio, corners.map(|(limit, v)| [*limit, *v]));
-            }
-        }
-        new
-    }
-}
-
-/// The value at an abscissa of a polygon that begins at (0, 0).
-fn polygon(at: f64, corners: impl Iterator<Item = [f64; 2]>) -> f64 {
-    let mut before = [0.0; 2];
-    for corner in corners {
-        if corner[0] >= at {
-            return before[1] + quotient(at - before[0], corner[0] - before[0]) * (corner[1] - before[1]);
-        }
-        before = corner;
-    }
-    before[1]
 }
 
 /// The tangent from the derivatives of both forces by the normal component, u and v, in the units of the springs.

@@ -72,7 +72,7 @@ impl ContactSlopes {
                 nodes,
                 &contact.shells,
                 &contact.now,
-                &Pressed::default(),
+                &Pressed::NONE,
                 Some(slopes),
             );
         }
