@@ -6,8 +6,8 @@
 //! displaced to that sample at constant normal force, and advanced along a number of periods and one more from there, which counts. The
 //! nodes are those of the largest normal force.
 //!
-//! Static shear is shaken out over many periods. Those before the last two are advanced by fewer samples, and after the second of them the
-//! springs are extrapolated; the drift estimates what is left.
+//! A vibration relaxes static shear over many periods. Those before the last two are advanced by fewer samples, and after the second of them the
+//! springs are extrapolated; the drift estimates the change that remains.
 //!
 //! The Jacobian is the exact derivative of all this: changes of the springs by all coefficients are propagated. What the
 //! parameters of the contact add, the load at both ends and the reference size of the nodes, is computed once a step; the changes are
@@ -24,7 +24,7 @@ use super::tangent::{
 };
 use crate::element::{Element, Normal};
 use crate::error::Error;
-use crate::fourier::workspace::{Layout, Parts, Size};
+use crate::fourier::workspace::{Layout, Parts, Size, record};
 use crate::fourier::{angle, work};
 use crate::limits::check_coefficients;
 use crate::numerics::guard::quotient;
@@ -62,8 +62,16 @@ type Columns = Lanes<COLUMNS>;
 /// Changes of springs as rows of columns in the workspace: both directions, and the spring at the edge.
 const CHANGES: usize = 2 * SPRINGS + 2;
 
-/// Doubles of a sample: the motion, the normal force and its derivative, and the tangential forces.
-const SAMPLE: usize = 8;
+record! {
+    /// A sample of the motion, and the forces at it.
+    struct Sample {
+        displacement: [f64; 3],
+        load: f64,
+        load_slope: f64,
+        /// Tangential forces.
+        force: [f64; 2],
+    }
+}
 
 /// An opened workspace.
 #[derive(Debug)]
@@ -71,7 +79,7 @@ pub struct TwoDirectionsWorkspace<'a> {
     size: Size,
     /// Values of `[1, cos t, sin t, ...]`, sample after sample.
     basis: &'a mut [f64],
-    samples: &'a mut [[f64; SAMPLE]],
+    samples: &'a mut [Sample],
     /// Changes of the springs, and those of both forces, block after block of columns.
     changes: &'a mut [f64],
     forces: &'a mut [f64],
@@ -82,7 +90,7 @@ pub struct TwoDirectionsWorkspace<'a> {
 
 impl<'a> Layout<'a> for TwoDirectionsWorkspace<'a> {
     const KIND: Kind = Kind::TwoDirectionsSampling;
-    /// Static shear is shaken out over many periods: the table of `periods` in the guide has the errors.
+    /// A vibration relaxes static shear over many periods: the table of `periods` in the guide has the errors.
     const PERIODS: usize = 3;
 
     fn max_rows(size: Size) -> usize {
@@ -95,7 +103,7 @@ impl<'a> Layout<'a> for TwoDirectionsWorkspace<'a> {
         Ok(TwoDirectionsWorkspace {
             size,
             basis: parts.take(size.coefficients() * size.samples)?,
-            samples: parts.take(SAMPLE * size.samples)?.blocks_mut(),
+            samples: parts.take_records(size.samples)?,
             changes: parts.take(CHANGES * columns)?,
             forces: parts.take(2 * columns)?,
             earlier: parts.take(CHANGES * columns)?,
@@ -147,24 +155,19 @@ impl<'a> TwoDirectionsWorkspace<'a> {
         let input = displacement.get(2 * n..).unwrap_or(&[]);
         let rounding = 8.0 * f64::EPSILON * input.iter().map(|value| value.abs()).sum::<f64>();
         for (sample, basis) in self.samples.iter_mut().zip(self.basis.chunks_exact(n)) {
-            *sample = [0.0; SAMPLE];
-            for (values, place) in displacement.chunks_exact(n).zip(sample.iter_mut()) {
-                *place = values.iter().zip(basis).map(|(value, basis)| value * basis).sum();
+            for (coefficients, slot) in displacement.chunks_exact(n).zip(&mut sample.displacement) {
+                *slot = coefficients.iter().zip(basis).map(|(value, basis)| value * basis).sum();
             }
+            let input = &mut sample.displacement[2];
             if !element.by_approach() {
-                if sample[2] < -rounding {
+                if *input < -rounding {
                     return Err(Error::BadNormalForce);
                 }
-                sample[2] = sample[2].max(0.0);
+                *input = input.max(0.0);
             }
-            element.check_normal(element.by_approach(), sample[2])?;
+            element.check_normal(element.by_approach(), *input)?;
         }
         Ok(())
-    }
-
-    /// The displacement and the normal component at a sample.
-    fn place(&self, index: usize) -> [f64; 3] {
-        self.samples.get(index).map_or([0.0; 3], |[u, v, input, ..]| [*u, *v, *input])
     }
 }
 
@@ -218,7 +221,8 @@ pub fn harmonic_force(
     let n = workspace.coefficients();
     output.check(3 * n, displacement)?;
     workspace.synthesise(element, displacement)?;
-    walk(element, workspace, displacement, output);
+    let steady = integrate_periods(element, workspace, output.jacobian.is_some());
+    write_outputs(workspace, displacement, output, &steady);
     Ok(())
 }
 
@@ -226,12 +230,13 @@ pub fn harmonic_force(
 fn first_of_largest_load(workspace: &TwoDirectionsWorkspace) -> (usize, f64) {
     let mut largest = (0, f64::MIN);
     for (index, sample) in workspace.samples.iter().enumerate() {
-        largest = if sample[2] > largest.1 { (index, sample[2]) } else { largest };
+        let [.., input] = sample.displacement;
+        largest = if input > largest.1 { (index, input) } else { largest };
     }
     largest
 }
 
-/// The walk along a motion that was synthesised.
+/// The integration along the samples of a motion.
 struct PeriodIntegration<'a> {
     element: &'a Element,
     units: Units,
@@ -265,7 +270,7 @@ impl<'a> PeriodIntegration<'a> {
         top: f64,
         (step, terms): (&'a mut StepWork, &'a mut [ParameterTerms; PARAMETERS]),
     ) -> PeriodIntegration<'a> {
-        let mut walk = PeriodIntegration {
+        let mut integration = PeriodIntegration {
             element,
             units,
             nodes,
@@ -278,8 +283,8 @@ impl<'a> PeriodIntegration<'a> {
             slopes: [None; 2],
             terms,
         };
-        walk.press(top);
-        walk
+        integration.press(top);
+        integration
     }
 
     /// Advances to a sample.
@@ -335,16 +340,16 @@ impl<'a> PeriodIntegration<'a> {
 /// largest normal component over its scale.
 fn differentiate(
     workspace: &mut TwoDirectionsWorkspace,
-    walk: &mut PeriodIntegration,
-    advanced: &StepForces,
+    integration: &mut PeriodIntegration,
+    forces: &StepForces,
     (nodes, by_top): (&Nodes, f64),
     samples: [Option<usize>; 3],
 ) {
     let n = workspace.coefficients();
     let [start, end, top] = samples.map(|index| index.map_or(&[][..], |index| row(workspace.basis, n, index)));
-    let (per_scale, own_nodes) = (1.0 / walk.element.input_scale(), walk.nodes);
-    let StepForces { motion, path, unbounded, .. } = advanced;
-    let PeriodIntegration { from, contact, step, springs, slopes: [first, second], terms, .. } = walk;
+    let (per_scale, own_nodes) = (1.0 / integration.element.input_scale(), integration.nodes);
+    let StepForces { motion, path, unbounded, .. } = forces;
+    let PeriodIntegration { from, contact, step, springs, slopes: [first, second], terms, .. } = integration;
     let derive = |contact: &LoadedContact| {
         [ContactSlopes::by_load(own_nodes, contact), ContactSlopes::by_reference(own_nodes, nodes, contact)]
     };
@@ -397,103 +402,113 @@ fn extrapolate(values: &mut [f64], before: &[f64]) {
 }
 
 /// Changes below are 0, after this number of steps: memory that fades would end in subnormal numbers, which are slow.
-const LEAST_CHANGE: f64 = 1e-200;
+const NEGLIGIBLE_CHANGE: f64 = 1e-200;
 const FADING: usize = 8;
 
 fn fade(changes: &mut [f64]) {
     for x in changes {
-        *x = if x.abs() > LEAST_CHANGE { *x } else { 0.0 };
+        *x = if x.abs() > NEGLIGIBLE_CHANGE { *x } else { 0.0 };
     }
 }
 
-/// The normal forces of a motion that was synthesised.
-fn without_friction(element: &Element, samples: &mut [[f64; SAMPLE]]) {
-    for sample in samples {
-        let normal = if element.is_closed(sample[2]) { element.normal(sample[2]) } else { Normal::OPEN };
-        [sample[3], sample[4], sample[5], sample[6]] = [normal.load, normal.load_slope, 0.0, 0.0];
-    }
+/// The steady state of a motion: the unit of the tangential forces, unless these are 0, and an estimate of the change that remains.
+struct SteadyState {
+    unit: Option<f64>,
+    drift: f64,
 }
 
-/// The periods of a motion that was synthesised. Not inlined: its frame is not that of a call with one direction.
+/// Integrates along the periods of a motion that was synthesised, up to the forces at the samples and the sums of their derivatives. Not
+/// inlined: its frame is not that of a call with one direction.
 #[inline(never)]
-fn walk(element: &Element, workspace: &mut TwoDirectionsWorkspace, displacement: &[f64], output: HarmonicOutput) {
+fn integrate_periods(element: &Element, workspace: &mut TwoDirectionsWorkspace, derivatives: bool) -> SteadyState {
     let Size { samples: count, harmonics, periods } = workspace.size;
-    let HarmonicOutput { force, jacobian, dissipated, drift } = output;
-    let derivatives = jacobian.is_some();
     let (largest, top) = first_of_largest_load(workspace);
-    let slides = element.friction_coefficient > 0.0 && element.is_closed(top);
-    let top_load = if slides { element.normal(top).load } else { element.normal_force };
-    let units = Units::at_load(element, top_load);
+    if !(element.friction_coefficient > 0.0 && element.is_closed(top)) {
+        for sample in &mut *workspace.samples {
+            let [.., input] = sample.displacement;
+            let normal = if element.is_closed(input) { element.normal(input) } else { Normal::OPEN };
+            (sample.load, sample.load_slope, sample.force) = (normal.load, normal.load_slope, [0.0; 2]);
+        }
+        return SteadyState { unit: None, drift: 0.0 };
+    }
+    let units = Units::at_load(element, element.normal(top).load);
     let unit = element.friction_coefficient * units.load;
-    // A contact that opens forgets: whatever was before, the second period is the steady state.
-    let opens = workspace.samples.iter().any(|sample| !element.is_closed(sample[2]));
+    // A contact that opens has no memory: whatever was before, the second period is the steady state.
+    let opens = workspace.samples.iter().any(|sample| !element.is_closed(sample.displacement[2]));
     let periods = if opens { 1 } else { periods };
     let stride = count.checked_div(TRANSIENT_SAMPLES * harmonics).unwrap_or(1).max(1);
-    let mut left = 0.0;
     let mut nodes = [[[0.0; SPRINGS]; ROWS]; 3];
-    if slides {
-        fill(&mut nodes[0], element, &units, 1.0);
-        if derivatives {
-            fill(&mut nodes[1], element, &units, 1.0 + NEIGHBOUR);
-            fill(&mut nodes[2], element, &units, 1.0 - NEIGHBOUR);
-            workspace.changes.fill(0.0);
-            workspace.sums.fill(0.0);
-        }
-        let (mut step, mut terms) = (StepWork::NONE, [ParameterTerms::NONE; PARAMETERS]);
-        let mut walk = PeriodIntegration::new(element, (units, &nodes[0]), top, (&mut step, &mut terms));
-        let slopes = slopes_of_nodes([&nodes[1], &nodes[2]]);
-        // The reference size is not that of the largest load if this is below the least reference load.
-        let by_top = if walk.normal.load >= units.load * 0.99 { 0.5 * walk.contact.slopes.leg_squared } else { 0.0 };
-        let mut before = None;
-        let (mut start, mut changes, mut extrapolated) = (walk.springs, [0.0; 2], 0.0);
-        for step in 0..=(periods + 1) * count {
-            let counts = step > periods * count;
-            let place = step.checked_rem(count).unwrap_or(0);
-            if step < (periods - 1) * count && !place.is_multiple_of(stride) {
-                continue;
-            }
-            let index = (largest + step).checked_rem(count).unwrap_or(0);
-            let advanced = walk.advance(workspace.place(index), derivatives);
-            if derivatives {
-                if advanced.closed != [true, true] {
-                    workspace.changes.fill(0.0);
-                } else if step % FADING == 0 {
-                    fade(workspace.changes);
-                }
-                if advanced.closed[1] {
-                    let samples = [before, Some(index), Some(largest)];
-                    differentiate(workspace, &mut walk, &advanced, (&slopes, by_top), samples);
-                } else {
-                    workspace.forces.fill(0.0);
-                }
-                if counts {
-                    let basis = row(workspace.basis, workspace.size.coefficients(), index);
-                    accumulate(workspace.sums, basis, workspace.forces);
-                }
-            }
-            before = Some(index);
-            if let Some(sample) = workspace.samples.get_mut(index) {
-                let [x, y] = advanced.force.map(|force| unit * force);
-                [sample[3], sample[4], sample[5], sample[6]] = [walk.normal.load, walk.normal.load_slope, x, y];
-            }
-            if count > 0 && step > 0 && step.is_multiple_of(count) {
-                changes = [changes[1], walk.change(&start)];
-                if step == count {
-                    workspace.earlier.copy_from(workspace.changes);
-                } else if step == 2 * count && periods > 2 {
-                    extrapolated = changes[1];
-                    walk.extrapolate(&start);
-                    extrapolate(workspace.changes, workspace.earlier);
-                }
-                start = walk.springs;
-            }
-        }
-        left = remaining(changes).max(extrapolated.min(LEAST_DRIFT_FACTOR * changes[1]));
-    } else {
-        without_friction(element, workspace.samples);
+    fill(&mut nodes[0], element, &units, 1.0);
+    if derivatives {
+        fill(&mut nodes[1], element, &units, 1.0 + NEIGHBOUR);
+        fill(&mut nodes[2], element, &units, 1.0 - NEIGHBOUR);
+        workspace.changes.fill(0.0);
+        workspace.sums.fill(0.0);
     }
+    let (mut step, mut terms) = (StepWork::NONE, [ParameterTerms::NONE; PARAMETERS]);
+    let mut integration = PeriodIntegration::new(element, (units, &nodes[0]), top, (&mut step, &mut terms));
+    let slopes = slopes_of_nodes([&nodes[1], &nodes[2]]);
+    // The reference size is not that of the largest load if this is below the least reference load.
+    let is_reference = integration.normal.load >= units.load * 0.99;
+    let by_top = if is_reference { 0.5 * integration.contact.slopes.leg_squared } else { 0.0 };
+    let mut before = None;
+    let (mut start, mut changes, mut extrapolated) = (integration.springs, [0.0; 2], 0.0);
+    for step in 0..=(periods + 1) * count {
+        let counts = step > periods * count;
+        let place = step.checked_rem(count).unwrap_or(0);
+        if step < (periods - 1) * count && !place.is_multiple_of(stride) {
+            continue;
+        }
+        let index = (largest + step).checked_rem(count).unwrap_or(0);
+        let to = workspace.samples.get(index).map_or([0.0; 3], |sample| sample.displacement);
+        let forces = integration.advance(to, derivatives);
+        if derivatives {
+            if forces.closed != [true, true] {
+                workspace.changes.fill(0.0);
+            } else if step % FADING == 0 {
+                fade(workspace.changes);
+            }
+            if forces.closed[1] {
+                let samples = [before, Some(index), Some(largest)];
+                differentiate(workspace, &mut integration, &forces, (&slopes, by_top), samples);
+            } else {
+                workspace.forces.fill(0.0);
+            }
+            if counts {
+                let basis = row(workspace.basis, workspace.size.coefficients(), index);
+                accumulate(workspace.sums, basis, workspace.forces);
+            }
+        }
+        before = Some(index);
+        if let Some(sample) = workspace.samples.get_mut(index) {
+            (sample.load, sample.load_slope) = (integration.normal.load, integration.normal.load_slope);
+            sample.force = forces.force.map(|force| unit * force);
+        }
+        if count > 0 && step > 0 && step.is_multiple_of(count) {
+            changes = [changes[1], integration.change(&start)];
+            if step == count {
+                workspace.earlier.copy_from(workspace.changes);
+            } else if step == 2 * count && periods > 2 {
+                extrapolated = changes[1];
+                integration.extrapolate(&start);
+                extrapolate(workspace.changes, workspace.earlier);
+            }
+            start = integration.springs;
+        }
+    }
+    let drift = remaining(changes).max(extrapolated.min(LEAST_DRIFT_FACTOR * changes[1]));
+    SteadyState { unit: Some(unit), drift: if opens { 0.0 } else { drift } }
+}
+
+fn write_outputs(
+    workspace: &mut TwoDirectionsWorkspace,
+    displacement: &[f64],
+    output: HarmonicOutput,
+    steady: &SteadyState,
+) {
+    let HarmonicOutput { force, jacobian, dissipated, drift } = output;
     if let Some(jacobian) = jacobian {
-        write_jacobian(workspace, slides.then_some(unit), jacobian);
+        write_jacobian(workspace, steady.unit, jacobian);
     }
     // The sums serve the Jacobian only, and have more than as many places as the force.
     let (sums, n) = (core::mem::take(&mut workspace.sums), workspace.coefficients());
@@ -505,7 +520,7 @@ fn walk(element: &Element, workspace: &mut TwoDirectionsWorkspace, displacement:
     }
     workspace.sums = sums;
     if let Some(drift) = drift {
-        *drift = if slides && !opens { left } else { 0.0 };
+        *drift = steady.drift;
     }
 }
 
@@ -524,8 +539,8 @@ fn write_force(workspace: &TwoDirectionsWorkspace, force: &mut [f64]) {
     let per_sample = 1.0 / workspace.size.samples as f64;
     force.fill(0.0);
     for (sample, basis) in workspace.samples.iter().zip(workspace.basis.chunks_exact(n)) {
-        let [_, _, _, load, _, x, y, _] = *sample;
-        for (places, value) in force.chunks_exact_mut(n).zip([x, y, load]) {
+        let [x, y] = sample.force;
+        for (places, value) in force.chunks_exact_mut(n).zip([x, y, sample.load]) {
             for (c, (place, basis)) in places.iter_mut().zip(basis).enumerate() {
                 *place += if c == 0 { per_sample } else { 2.0 * per_sample } * basis * value;
             }
@@ -550,7 +565,7 @@ fn write_jacobian(workspace: &TwoDirectionsWorkspace, unit: Option<f64>, jacobia
         column.iter_mut().skip(2 * n).for_each(|place| *place = 0.0);
     }
     for (sample, basis) in workspace.samples.iter().zip(workspace.basis.chunks_exact(n)) {
-        let slope = sample[4];
+        let slope = sample.load_slope;
         for (column, basis_j) in jacobian.chunks_exact_mut(3 * n).skip(2 * n).zip(basis) {
             for ((c, place), basis_c) in column.iter_mut().skip(2 * n).enumerate().zip(basis) {
                 *place += weight(c) * slope * basis_j * basis_c;
