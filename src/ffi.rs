@@ -1,7 +1,7 @@
 //! The C interface: converts pointers to slices, calls the other modules, and writes the requested outputs.
 //!
 //! All functions check every input before they write: a rejected call leaves all outputs unchanged. Unsafe code
-//! is here, for the pointers of the caller, and once in `simd`.
+//! is here, for the pointers of the caller, and in `fourier/workspace`.
 //!
 //! # Safety
 //! All functions have one contract, the conventions `Memory` and `Aliasing` of the header: each pointer is NULL or valid for what it

@@ -44,7 +44,7 @@ const BEFORE: Matrix = {
 pub(crate) struct Factors {
     /// -F, a row for each point.
     rows: Matrix,
-    /// The same, a row for each column.
+    /// -F, a row for each column.
     columns: Matrix,
     /// 1/D.
     per_pivot: Row,

@@ -24,7 +24,7 @@ pub(super) struct ContactState {
     pub displacement: [f64; 3],
     pub normal_force: f64,
     pub load_slope: f64,
-    /// Of the element whose nodes these are.
+    /// The key of the element whose nodes these are.
     pub key: f64,
     pub units: Units,
     /// The normal state in these units, and its derivatives.

@@ -12,14 +12,14 @@ pub(super) const LONGEST: f64 = 1e9;
 pub(super) struct ContactPath {
     pub displacement: PerAxis<f64>,
     pub per_distance: f64,
-    /// By the normal component over its scale at the start and at the end, in each direction.
+    /// Derivatives by the normal component over its scale at the start and at the end, in each direction.
     pub per_input: PerAxis<[f64; 2]>,
     /// The factor by which the motion was shortened.
     pub scale: f64,
 }
 
 impl ContactPath {
-    /// From and to displacements and normal components, of contacts that are closed or not.
+    /// The path between two displacements and normal components, of contacts that are closed or not.
     pub fn new(element: &Element, units: &Units, [from, to]: [[f64; 3]; 2], closed: [bool; 2]) -> ContactPath {
         let (start, end) = (from[2], to[2]);
         let (part, slopes) = match closed {

@@ -61,7 +61,7 @@ impl Pressed {
             .map(|values| Pressed::from_values(core::array::from_fn(|i| values[i] * per[i])))
     }
 
-    /// From all its values, in order.
+    /// A normal state from all its values, in order.
     pub fn from_values([load, x, y, leg_squared, inside, inside_x, inside_y]: [f64; VALUES]) -> Pressed {
         Pressed { load, shift: [x, y], leg_squared, inside, inside_shift: [inside_x, inside_y] }
     }

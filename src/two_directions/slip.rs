@@ -348,7 +348,7 @@ fn sweep(springs: &Springs, trial: &PerAxis<Row>, q: &mut PerAxis<Row>) -> (PerA
     (directions(q), set)
 }
 
-/// The largest size.
+/// The largest absolute value.
 fn largest(x: &Row) -> f64 {
     let larger = |a: f64, b: f64| if a > b { a } else { b };
     let mut largest = Lanes::<4>::ZERO;

@@ -81,7 +81,7 @@ const BLEND_RANGE: [f64; 2] = [2.5, 5.0];
 pub(crate) struct GrossSlipBlend {
     /// The part of the springs that ends in gross slip, 0 to 1.
     pub part: f64,
-    /// Its derivative by the distance.
+    /// The derivative of this part by the distance.
     pub part_slope: f64,
     /// The part of the innermost spring that is cut off.
     pub cut: PerAxis<f64>,
@@ -160,7 +160,7 @@ pub(crate) struct StepWork {
 pub(crate) struct EdgeSpring {
     pub part: PerAxis<f64>,
     pub kept: PerAxis<f64>,
-    /// Its limit at the start.
+    /// The limit of the spring at the edge at the start.
     pub limit_before: PerAxis<f64>,
     pub ratio: PerAxis<f64>,
     pub length: f64,

@@ -50,7 +50,7 @@ impl ContactSlopes {
     const NONE: ContactSlopes =
         ContactSlopes { shells: Shells::NONE, shift: [0.0; 2], load: 0.0, edge_limit: [0.0; 2] };
 
-    /// By the normal component: of the last shell only.
+    /// Derivatives by the normal component: those of the last shell only.
     pub fn by_load(nodes: &Nodes, contact: &LoadedContact) -> ContactSlopes {
         let slopes = &contact.slopes;
         let mut slopes_of_contact = ContactSlopes { shift: slopes.shift, load: slopes.load, ..ContactSlopes::NONE };
@@ -63,7 +63,7 @@ impl ContactSlopes {
         slopes_of_contact
     }
 
-    /// By the reference size of the nodes, from derivatives of these.
+    /// Derivatives by the reference size of the nodes, from those of the nodes.
     pub fn by_reference(nodes: &Nodes, slopes: &Nodes, contact: &LoadedContact) -> ContactSlopes {
         let mut slopes_of_contact = ContactSlopes::NONE;
         if contact.now.load > 0.0 {
@@ -91,11 +91,12 @@ pub(crate) fn slopes_of_nodes([larger, smaller]: [&Nodes; 2]) -> Nodes {
 
 /// What the derivative by one parameter of a contact adds to the changes of its springs.
 pub(crate) struct ParameterTerms {
-    /// S at the start and at the end, S of the nodes, N; stiffnesses at the end, and the limit of the spring at the edge.
+    /// Derivatives of S at the start and at the end, of S of the nodes and of N.
     shift_before: PerAxis<f64>,
     shift: PerAxis<f64>,
     nodes: PerAxis<Row>,
     load: f64,
+    /// Derivatives of the stiffnesses at the end, and of the limit of the spring at the edge at the end and at the start.
     stiffness: PerAxis<Row>,
     edge_stiffness: PerAxis<f64>,
     edge_limit: PerAxis<f64>,
@@ -117,7 +118,7 @@ impl SlipTerms {
         SlipTerms { tractions: zero, forces: zero, slip: zero }
     };
 
-    /// Of a parameter by which the shells from one on, and the nodes, have derivatives.
+    /// Sets the terms of a parameter by which the shells from one on, and the nodes, have derivatives.
     fn set(
         &mut self,
         springs: &Springs,
@@ -189,7 +190,7 @@ impl ParameterTerms {
         }
     };
 
-    /// Of a parameter by which the contact at the start, that at the end, or both have derivatives, and the nodes.
+    /// Sets the terms of a parameter by which the contact at the start, that at the end, or both have derivatives, and the nodes.
     #[inline(never)]
     pub fn set(
         &mut self,
