@@ -275,8 +275,8 @@ impl<'a> PeriodIntegration<'a> {
             units,
             nodes,
             at: [0.0, 0.0, top],
-            from: LoadedContact::OPEN,
-            contact: LoadedContact::OPEN,
+            from: LoadedContact::default(),
+            contact: LoadedContact::default(),
             normal: Normal::OPEN,
             springs: Displacements::NONE,
             step,
@@ -305,7 +305,7 @@ impl<'a> PeriodIntegration<'a> {
             unbounded = self.step.advance(self.nodes, contacts, &motion, &mut self.springs, derivatives);
             force = within_friction_limit(unbounded, self.contact.now.load);
         } else {
-            (self.contact, self.springs, self.normal) = (LoadedContact::OPEN, Displacements::NONE, Normal::OPEN);
+            (self.contact, self.springs, self.normal) = (LoadedContact::default(), Displacements::NONE, Normal::OPEN);
             self.slopes = [None; 2];
         }
         StepForces { force, unbounded, motion, path, closed }

@@ -41,7 +41,7 @@ impl ContactState {
             load_slope: 0.0,
             key: 0.0,
             units: Units::default(),
-            pressed: [Pressed::NONE; 2],
+            pressed: [Pressed::default(); 2],
             springs: Displacements::NONE,
         }
     }

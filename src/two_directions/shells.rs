@@ -21,7 +21,7 @@ use crate::numerics::lanes::Lanes;
 use core::ops::Range;
 
 /// The normal state in the units of the springs: N, S of both directions, leg²; N and S of a slightly smaller size, inside the edge.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Pressed {
     pub load: f64,
     pub shift: PerAxis<f64>,
@@ -42,9 +42,6 @@ const THINNEST: f64 = 1e-9;
 const LEAST_STIFFNESS: f64 = 1e-12;
 
 impl Pressed {
-    pub const NONE: Pressed =
-        Pressed { load: 0.0, shift: [0.0; 2], leg_squared: 0.0, inside: 0.0, inside_shift: [0.0; 2] };
-
     /// The state of a contact that is closed, and its derivatives by the normal component over its scale.
     pub fn new(element: &Element, units: &Units, input: f64, normal: &Normal) -> [Pressed; 2] {
         // Products only: the compiler may divide by what is beside a number in its vector register.
@@ -73,7 +70,7 @@ impl Pressed {
 }
 
 /// The shells of a contact, from one to the last one; those beyond are 0. F_ij of those before the last one are in the tables of the nodes.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 #[repr(align(32))]
 pub(crate) struct Shells {
     pub first: usize,

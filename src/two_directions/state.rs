@@ -218,7 +218,7 @@ impl State<'_> {
         } else {
             element.normal(to[2])
         };
-        let (mut from, mut old_nodes) = (LoadedContact::OPEN, None);
+        let (mut from, mut old_nodes) = (LoadedContact::default(), None);
         if was_closed {
             from = LoadedContact::new(self.nodes, &at.pressed);
             if normal.load > at.units.load * (1.0 + LOAD_TOLERANCE) {
@@ -278,7 +278,8 @@ impl State<'_> {
             let path = ContactPath::new(element, &at.units, [at.displacement, to], [true, false]);
             let unit = element.friction_coefficient * at.units.load;
             let unit = unit * element.friction_coefficient * at.units.shift * path.scale;
-            result.dissipated = unit * separated(self.nodes, &from, &Pressed::NONE, path.displacement, &at.springs);
+            result.dissipated =
+                unit * separated(self.nodes, &from, &Pressed::default(), path.displacement, &at.springs);
         }
         self.open(to);
         result

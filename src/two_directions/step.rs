@@ -18,8 +18,8 @@ use super::slip::{Metric, Slip, lanes_of, within};
 use crate::numerics::guard::quotient;
 use crate::numerics::lanes::Lanes;
 
-/// A contact under a load: its normal state, with derivatives by the normal component over its scale, and its shells.
-#[derive(Debug, Clone, Copy)]
+/// A contact under a load, by default open: its normal state, with derivatives by the normal component over its scale, and its shells.
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct LoadedContact {
     pub now: Pressed,
     pub slopes: Pressed,
@@ -27,9 +27,6 @@ pub(crate) struct LoadedContact {
 }
 
 impl LoadedContact {
-    /// A contact that is open.
-    pub const OPEN: LoadedContact = LoadedContact { now: Pressed::NONE, slopes: Pressed::NONE, shells: Shells::NONE };
-
     pub fn new(nodes: &Nodes, [now, slopes]: &[Pressed; 2]) -> LoadedContact {
         LoadedContact { now: *now, slopes: *slopes, shells: Shells::new(nodes, now) }
     }

@@ -37,7 +37,7 @@ pub(crate) const REFERENCE: usize = 2;
 pub(crate) const PARAMETERS: usize = 3;
 
 /// A contact's derivatives by one of its parameters.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct ContactSlopes {
     pub shells: Shells,
     pub shift: PerAxis<f64>,
@@ -47,13 +47,11 @@ pub(crate) struct ContactSlopes {
 }
 
 impl ContactSlopes {
-    const NONE: ContactSlopes =
-        ContactSlopes { shells: Shells::NONE, shift: [0.0; 2], load: 0.0, edge_limit: [0.0; 2] };
-
     /// Derivatives by the normal component: those of the last shell only.
     pub fn by_load(nodes: &Nodes, contact: &LoadedContact) -> ContactSlopes {
         let slopes = &contact.slopes;
-        let mut slopes_of_contact = ContactSlopes { shift: slopes.shift, load: slopes.load, ..ContactSlopes::NONE };
+        let mut slopes_of_contact =
+            ContactSlopes { shift: slopes.shift, load: slopes.load, ..ContactSlopes::default() };
         if contact.now.load > 0.0 {
             slopes_of_contact.edge_limit = by_axis(|axis| slopes.shift[axis] - slopes.inside_shift[axis]);
             (slopes_of_contact.shells.first, slopes_of_contact.shells.last) =
@@ -65,14 +63,14 @@ impl ContactSlopes {
 
     /// Derivatives by the reference size of the nodes, from those of the nodes.
     pub fn by_reference(nodes: &Nodes, slopes: &Nodes, contact: &LoadedContact) -> ContactSlopes {
-        let mut slopes_of_contact = ContactSlopes::NONE;
+        let mut slopes_of_contact = ContactSlopes::default();
         if contact.now.load > 0.0 {
             slopes_of_contact.shells = Shells::before(slopes, contact.shells.first, contact.shells.last);
             slopes_of_contact.shells.set_last_slopes(
                 nodes,
                 &contact.shells,
                 &contact.now,
-                &Pressed::NONE,
+                &Pressed::default(),
                 Some(slopes),
             );
         }
@@ -199,7 +197,7 @@ impl ParameterTerms {
         [from, to]: [Option<&ContactSlopes>; 2],
         nodes: Option<&Nodes>,
     ) {
-        let none = ContactSlopes::NONE;
+        let none = ContactSlopes::default();
         // By the load, only the last shells have derivatives.
         let lasts = [from, to].map(|slopes| slopes.map_or(SPRINGS, |slopes| slopes.shells.last));
         let first = if nodes.is_some() { 0 } else { lasts[0].min(lasts[1]) };
