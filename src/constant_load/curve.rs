@@ -6,7 +6,6 @@ use crate::constant_load::contact::Contact;
 use crate::constant_load::evaluator::{Response, sign_of};
 use crate::error::Error;
 use crate::limits::{check_displacement, check_force};
-use crate::numerics::fp_class::le;
 use crate::shape::Complement;
 use crate::shape::stick_zone::StickZone;
 
@@ -65,25 +64,11 @@ impl Contact {
         self.stick_zones().at_load(Complement { consumed: force / unit, remaining: remaining / unit })
     }
 
-    /// The stick zone at a displacement from 0 to that at the onset of gross slip.
-    pub(crate) fn stick_zone_at_displacement(&self, displacement: f64) -> StickZone {
-        // A minimum may be evaluated for a point that is known by something else, and raise an exception.
-        let displacement = if le(displacement, self.slip_displacement) { displacement } else { self.slip_displacement };
-        self.stick_zone_before_slip(self.before_slip(displacement))
-    }
-
+    /// The stick zone at a displacement up to that of gross slip.
     pub(crate) fn stick_zone_before_slip(&self, displacement: Complement) -> StickZone {
         let unit = self.displacement_scale.max(f64::MIN_POSITIVE);
         let Complement { consumed, remaining } = displacement;
         self.stick_zones().at_shift(Complement { consumed: consumed / unit, remaining: remaining / unit })
-    }
-
-    /// The same: that of the load which the interpolant gives, if there is one.
-    fn stick_zone_of_curve(&self, displacement: f64) -> StickZone {
-        match self.load_at(self.before_slip(displacement)) {
-            Some((load, _)) => self.stick_zones().at_load(load),
-            None => self.stick_zone_at_displacement(displacement),
-        }
     }
 
     /// Force \[N\] of a stick zone.
@@ -106,7 +91,10 @@ impl CurvePoint<'_> {
     pub(crate) fn stick_zone(&self) -> Option<StickZone> {
         match self.known_by {
             KnownBy::StickZone(zone) => Some(zone),
-            KnownBy::Displacement(displacement) => Some(self.contact.stick_zone_of_curve(displacement)),
+            KnownBy::Displacement(displacement) => {
+                let (load, _) = self.contact.load_at(self.contact.before_slip(displacement));
+                Some(self.contact.stick_zones().at_load(load))
+            }
             KnownBy::GrossSlip => None,
         }
     }

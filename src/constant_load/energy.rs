@@ -32,22 +32,9 @@ impl Contact {
     /// amplitude \[N\].
     pub(crate) fn cycle_energy(&self, amplitude: Complement) -> (f64, f64) {
         let zones = self.stick_zones();
-        let (load, stiffness) = self.load_at(amplitude).unwrap_or_else(|| {
-            let zone = self.stick_zone_before_slip(amplitude);
-            (zone.load, self.stiffness_of(&zone))
-        });
-        let compliance = self.stiffness_scale / stiffness.max(f64::MIN_POSITIVE);
-        let (dissipation, slope) = zones.dissipation(load, compliance - zones.small_load.compliance);
-        (self.energy_scale() * dissipation, self.displacement_scale * slope * stiffness)
-    }
-
-    /// Energy \[J\] dissipated per cycle from the interpolant, in the range of its first polynomial.
-    pub(crate) fn inner_cycle_energy(&self, amplitude: f64) -> Option<f64> {
-        let y = amplitude * self.inner_scale;
-        if y > 1.0 {
-            return None;
-        }
-        Some(self.initial_stiffness * amplitude * amplitude * self.interpolant().cycle_energy(y)?)
+        let (load, increase) = self.load_at(amplitude);
+        let (dissipation, slope) = zones.dissipation(load, increase);
+        (self.energy_scale() * dissipation, self.slip_force * slope / (zones.small_load.compliance + increase))
     }
 }
 
@@ -82,8 +69,7 @@ impl<'a> Dissipation<'a> {
         } else if amplitude >= self.contact.slip_displacement {
             self.contact.slip_energy
         } else {
-            let interpolated = self.contact.inner_cycle_energy(amplitude);
-            interpolated.unwrap_or_else(|| self.contact.cycle_energy(self.contact.before_slip(amplitude)).0)
+            self.contact.cycle_energy(self.contact.before_slip(amplitude)).0
         }
     }
 

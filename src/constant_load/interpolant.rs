@@ -16,10 +16,9 @@
 //! scale with the curvature of the curve and not with the stiffness.
 
 use crate::numerics::chebyshev::{Interpolant, Polynomial, SeriesPoint, TERMS, powers};
-use crate::numerics::const_math::tabulate;
-use crate::numerics::guard::{TINY, root};
+use crate::numerics::guard::TINY;
 use crate::numerics::lanes::Lanes;
-use crate::numerics::polynomial::{rows, sum, value_and_slope, values_and_slopes};
+use crate::numerics::polynomial::{rows, value_and_slope, values_and_slopes};
 use crate::shape::stick_zone::{LoadPoint, StickZones};
 
 /// Fraction of x_s that the first polynomial covers.
@@ -29,10 +28,10 @@ pub(crate) const INNER_FRACTION: f64 = 0.4;
 pub(crate) const KNEE_FRACTION: f64 = 0.55;
 
 /// Number of dyadic intervals of √ρ and of its fourth root.
-const PIECES: usize = 5;
+pub(crate) const PIECES: u64 = 5;
 const LAST_PIECES: usize = 6;
 /// The smallest ρ of the first ones.
-pub(crate) const END_OF_PIECES: f64 = 1.0 / (1 << (2 * PIECES)) as f64;
+const END_OF_PIECES: f64 = 1.0 / (1 << (2 * PIECES)) as f64;
 
 /// `(n+1) 8/π ∫ t^(n+1/2) (1-t)^(1/2) dt`: K' of the power n of the secant stiffness.
 static CYCLE_WEIGHTS: Polynomial = {
@@ -47,27 +46,13 @@ static CYCLE_WEIGHTS: Polynomial = {
     rows(&weights)
 };
 
-/// `-4n/(n+2)`: the energy of a cycle, eight times the work of the initial loading less four times force times displacement, of the power
-/// n of the secant stiffness.
-static ENERGY_WEIGHTS: Polynomial = rows(&tabulate!(TERMS, |n| -4.0 * n as f64 / (n as f64 + 2.0)));
-
-/// A polynomial with weights on its powers.
-fn weighted(polynomial: &Polynomial, weights: &Polynomial) -> Polynomial {
-    let mut powers = *polynomial;
-    for (row, weights) in powers.iter_mut().zip(weights) {
-        row.iter_mut().zip(weights).for_each(|(power, weight)| *power *= weight);
-    }
-    powers
-}
-
 /// The interpolant of one curve.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct ForceInterpolant {
-    /// Λ τ/x over y = x/(2/5 x_s), or of the other fraction: the secant stiffness over the initial one.
-    inner: Polynomial,
-    /// 1 - τ over 2ʲ⁺² √ρ - 3, from -1 to 1.
-    pieces: [Polynomial; PIECES],
+    /// Λ τ/x over y = x/(2/5 x_s), or of the other fraction: the secant stiffness over the initial one. Then 1 - τ over 2ʲ⁺² √ρ - 3, from
+    /// -1 to 1.
+    pieces: [Polynomial; 1 + PIECES as usize],
     /// (1 - τ)/ρ over 2ʲ⁺² z - 3.
     last: [Polynomial; LAST_PIECES],
     /// 1 if all polynomials are accurate to rounding; 0 if the curvature is too strong, for Λ near 0 or with a layer.
@@ -93,13 +78,11 @@ impl ForceInterpolant {
         let decrease = Interpolant::<TERMS>::osculating(&tangents);
         let accuracy = 1e-15;
         let mut converged = decrease.is_converged(accuracy);
-        let mut inner = rows(&decrease.mean_from_end().map(|coefficient| -coefficient));
-        if let Some([first, ..]) = inner.first_mut() {
-            *first = 1.0;
-        }
-        let mut pieces = [[[0.0; 4]; _]; PIECES];
+        let mut pieces = [[[0.0; 4]; _]; 1 + PIECES as usize];
+        pieces[0] = rows(&decrease.mean_from_end().map(|coefficient| -coefficient));
+        pieces[0][0][0] = 1.0;
         let mut scale = 0.25;
-        for piece in &mut pieces {
+        for piece in pieces.iter_mut().skip(1) {
             let mut at = |z: f64| {
                 let root = scale * (3.0 + z);
                 at_remaining(remaining * root * root)
@@ -113,46 +96,48 @@ impl ForceInterpolant {
             scale *= 0.5;
         }
         let last = last_pieces(compliance, remaining, at_remaining);
-        ForceInterpolant { inner, pieces, last, converged: converged as u64 }
+        ForceInterpolant { pieces, last, converged: converged as u64 }
     }
 
     pub fn is_converged(&self) -> bool {
         self.converged != 0
     }
 
-    /// The secant stiffness over the initial one at places y = x/(2/5 x_s), at most 1, if converged.
-    pub fn secant(&self) -> &Polynomial {
-        &self.inner
-    }
-
     /// K' over the initial stiffness and its derivative with respect to y, for cycles up to y = 1: `8/π ∫ sqrt(t (1-t)) tⁿ dt` of each
     /// power of the tangent stiffness.
     pub fn cycle_stiffness(&self, y: f64) -> Option<(f64, f64)> {
-        self.is_converged().then_some(value_and_slope(&weighted(&self.inner, &CYCLE_WEIGHTS), y))
+        let mut powers = self.pieces[0];
+        for (row, weights) in powers.iter_mut().zip(&CYCLE_WEIGHTS) {
+            *row = (Lanes(*row) * Lanes(*weights)).0;
+        }
+        self.is_converged().then_some(value_and_slope(&powers, y))
     }
 
-    /// Energy of a cycle up to y = 1 over the initial stiffness and the square of the amplitude; `None` if not converged.
-    pub fn cycle_energy(&self, y: f64) -> Option<f64> {
-        self.is_converged().then(|| sum(weighted(&self.inner, &ENERGY_WEIGHTS).into_iter(), y))
+    /// The secant stiffness over the initial one at places y = x/(2/5 x_s), at most 1, if converged.
+    pub fn secant(&self) -> &Polynomial {
+        &self.pieces[0]
     }
 
-    /// 1 - τ and, if requested, its derivative with respect to ρ at roots √ρ of one interval, if converged; any value at other
-    /// roots and intervals.
+    /// 1 - τ and, if requested, its derivative with respect to ρ at roots √ρ of a piece, if converged; any value at other roots.
+    #[inline(always)]
     pub fn complements_and_slopes<const L: usize, const SLOPES: bool>(
         &self,
-        Interval(exponent): Interval,
+        piece: u64,
         root: Lanes<L>,
     ) -> (Lanes<L>, Lanes<L>) {
-        let scale = power_of(exponent);
-        let piece = self.pieces.get((1022 - exponent) as usize).unwrap_or(&self.inner);
-        let (remaining, slope) = values_and_slopes::<_, L, SLOPES>(piece, 4.0 * (scale * root) - 3.0);
-        (remaining, if SLOPES { 2.0 * scale * slope / root } else { slope })
+        let (power, piece) = (power_of_2(piece), self.pieces.get(piece as usize).unwrap_or(self.secant()));
+        let (remaining, slope) = values_and_slopes::<_, L, SLOPES>(piece, 2.0 * (power * root) - 3.0);
+        (remaining, if SLOPES { power * slope / root } else { slope })
     }
 
-    /// The derivatives of 1 - τ with respect to ρ at places z of one interval, by [`last_root_of`], if converged; any value at others.
-    pub fn last_slopes(&self, Interval(exponent): Interval, z: Lanes<4>) -> Lanes<4> {
-        let argument = 4.0 * (power_of(exponent) * z) - 3.0;
-        let piece = self.last.get((1022 - exponent) as usize).unwrap_or(&self.inner);
+    /// The derivatives of 1 - τ with respect to ρ at roots √ρ of a piece of [`piece_in_integral`] beyond those of the force, if converged; any value
+    /// elsewhere.
+    #[inline(never)]
+    pub fn last_slopes(&self, piece: u64, roots: Lanes<4>) -> Lanes<4> {
+        let j = (piece - 1 - PIECES) / 4;
+        let z = (roots * (1 << PIECES) as f64).sqrt().sqrt().max(1.0 / (1 << LAST_PIECES) as f64);
+        let argument = 4.0 * (power_of_2(j) * z) - 3.0;
+        let piece = self.last.get(j as usize).unwrap_or(self.secant());
         let (value, slope) = values_and_slopes::<_, 4, true>(piece, argument);
         // With f = (1 - τ)/ρ and ρ ~ z⁸, d(ρ f)/dρ = f + z/8 df/dz.
         value + (0.125 * (3.0 + argument)) * slope
@@ -164,31 +149,23 @@ pub(crate) fn root_of(rho: f64) -> f64 {
     rho.max(TINY).sqrt()
 }
 
-/// z of a ρ beyond the intervals of √ρ, at least at the end of the last interval.
-pub(crate) fn last_root_of(rho: f64) -> f64 {
-    const END: f64 = 1.0 / (1 << LAST_PIECES) as f64;
-    root(rho * (1.0 / END_OF_PIECES)).sqrt().sqrt().max(END)
+/// The piece of the first polynomial; those of the dyadic intervals of √ρ follow, up to number `PIECES`.
+pub(crate) const INNER: u64 = 0;
+
+/// The piece of a root √ρ, by its exponent: on each of them it falls by 2.
+pub(crate) fn piece_of(root: f64) -> u64 {
+    1023u64.wrapping_sub(root.to_bits() >> 52)
 }
 
-/// A dyadic interval of √ρ, or of z, by its exponent.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) struct Interval(u64);
-
-impl Interval {
-    /// 2⁻ʲ is the next power of 2 above the root; 1 belongs to the first interval.
-    pub fn new(root: f64) -> Interval {
-        Interval((root.to_bits() >> 52).min(1022))
-    }
-
-    /// Whether it has a polynomial.
-    pub fn is_covered(self) -> bool {
-        1022 - self.0 < PIECES as u64
-    }
+/// The same; beyond the pieces of the force the first of four on which ρ falls by 256, at most the last one.
+pub(crate) fn piece_in_integral(root: f64) -> u64 {
+    let piece = piece_of(root);
+    if piece > PIECES { PIECES + 1 + ((piece - 1 - PIECES).min(4 * LAST_PIECES as u64 - 1) & !3) } else { piece }
 }
 
-/// 2ʲ for the exponent of an interval.
-fn power_of(exponent: u64) -> f64 {
-    f64::from_bits((2047 - 2 - exponent) << 52)
+/// 2ʲ.
+pub(crate) fn power_of_2(j: u64) -> f64 {
+    f64::from_bits((1023 + j) << 52)
 }
 
 /// (1 - τ)/ρ beyond the dyadic intervals of √ρ.

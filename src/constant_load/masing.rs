@@ -5,14 +5,16 @@
 use crate::constant_load::ConstantLoad;
 use crate::constant_load::contact::Contact;
 use crate::constant_load::energy::Dissipation;
-use crate::constant_load::evaluator::{BEYOND, Response};
+use crate::constant_load::evaluator::Response;
 use crate::constant_load::harmonic_force::{HarmonicOutput, Workspace, harmonic_force};
+use crate::constant_load::interpolant::piece_of;
 use crate::constant_load::memory::{Branch, InitialCurve, Memory, Merge, Point, Transition, force_error};
 use crate::constant_load::state::{self, HEADER, PER_REVERSAL};
 use crate::error::Error;
 use crate::law::{Law, PathOutput, Requested, StepOf, StepResult};
 use crate::limits::{check_coefficients, check_displacement};
 use crate::numerics::fp_class::is_finite;
+use crate::numerics::lanes::Lanes;
 use crate::numerics::total::Total;
 use crate::tag::{Kind, is_count};
 
@@ -22,54 +24,56 @@ impl Branch {
         if self.gross_slip {
             return Response { force: self.direction * contact.slip_force, stiffness: 0.0 };
         }
-        self.on_branch(contact, contact.response(self.distance(contact.slip_displacement, displacement)))
+        let distance = self.distance(contact.slip_displacement, displacement);
+        let Response { force, stiffness } = contact.response(distance);
+        let force = self.start.force + self.direction * self.scale * force;
+        Response { force: within(contact.slip_force, force), stiffness }
     }
 
-    /// The response on the branch, from that of the monotonic curve.
-    fn on_branch(&self, contact: &Contact, Response { force, stiffness }: Response) -> Response {
-        let (force, limit) = (self.start.force + self.direction * self.scale * force, contact.slip_force);
-        let force = if force > limit { limit } else { force };
-        Response { force: if force < -limit { -limit } else { force }, stiffness }
-    }
-
-    /// Forces, and stiffnesses if requested, at `count` displacements in the order of the branch, which is not gross slip, with the
-    /// same bits. All arrays, of which the first two are scratch memory, have at least [`BEYOND`] more values; those of the outputs are
-    /// overwritten.
+    /// Forces, and stiffnesses if requested, at `count` displacements in the order of the branch, which is not gross slip. Blocks of four
+    /// are read and written from any of them on; the first two arrays are scratch memory.
+    #[inline(never)]
     pub fn along<const STIFFNESS: bool>(
         &self,
         contact: &Contact,
         count: usize,
         displacement: &[f64],
         [distances, roots]: [&mut [f64]; 2],
-        forces: &mut [f64],
-        stiffnesses: &mut [f64],
+        [forces, stiffnesses]: [&mut [f64]; 2],
     ) {
-        let (branch, limit) = (*self, contact.slip_force);
-        let factor = branch.direction * branch.scale;
-        let blocks = distances.blocks_mut::<4>().iter_mut().zip(displacement.blocks::<4>());
-        for (block, &x) in blocks.take(count.div_ceil(4)) {
-            // Stored together: otherwise they could overlap the next displacement.
-            let mut distances = [0.0; 4];
-            for k in 0..4 {
-                distances[k] = branch.distance(contact.slip_displacement, x[k]);
-            }
-            *block = distances;
+        let (slip, limit, factor) = (contact.slip_displacement, contact.slip_force, self.direction * self.scale);
+        // What is behind the last one, gross slip perhaps, is replaced by it.
+        let last = self.distance(slip, displacement.or_zero(count.saturating_sub(1)));
+        let blocks = distances.blocks_mut().iter_mut().zip(roots.blocks_mut()).zip(displacement.blocks::<4>());
+        for ((distances, roots), x) in blocks.take(count.div_ceil(4) + 1) {
+            *distances = *Lanes(*x).map(|x| self.distance(last, x));
+            *roots = *contact.roots(slip - Lanes(*distances));
         }
-        let last = count.checked_sub(1).and_then(|last| distances.get(last)).copied().unwrap_or(0.0);
-        if let Some(beyond) = distances.get_mut(count..count + BEYOND).and_then(|beyond| beyond.first_chunk_mut()) {
-            *beyond = [last; BEYOND];
-        }
-        contact.along::<STIFFNESS>(count, distances, roots, forces, stiffnesses);
-        for force in forces.blocks_mut::<4>().iter_mut().take(count.div_ceil(4)) {
-            let mut sums = *force;
-            for sum in &mut sums {
-                *sum = branch.start.force + factor * *sum;
-                *sum = if *sum > limit { limit } else { *sum };
-                *sum = if *sum < -limit { -limit } else { *sum };
+        let mut next = 0;
+        while next < count
+            && let (Some(&distances), Some(&roots)) =
+                (distances.part(next..).first_chunk(), roots.part(next..).first_chunk())
+            && let (Some(force), Some(stiffness)) =
+                (forces.part_mut(next..).first_chunk_mut(), stiffnesses.part_mut(next..).first_chunk_mut())
+        {
+            let [piece, second, third, fourth] = roots.map(piece_of);
+            let (distances, roots) = (Lanes(distances), Lanes(roots));
+            let [on_curve, _, slopes] = contact.on_piece::<4, STIFFNESS>(piece, roots, distances, slip - distances);
+            *force = *(self.start.force + factor * on_curve).map(|force| within(limit, force));
+            if STIFFNESS {
+                *stiffness = *slopes;
             }
-            *force = sums;
+            // Seldom fewer than all. What is behind the last one may be on any piece.
+            let same = [second, third].into_iter().take_while(|other| *other == piece).count();
+            next += if fourth == piece && next + 4 <= count { 4 } else { 1 + same };
         }
     }
+}
+
+/// A force within ± a limit.
+fn within(limit: f64, force: f64) -> f64 {
+    let force = if force > limit { limit } else { force };
+    if force < -limit { -limit } else { force }
 }
 
 /// A step that does not continue its branch, before anything is written.
@@ -86,12 +90,10 @@ struct StepRecord {
     stiffness: f64,
 }
 
-/// Force and stiffness after a step that only advances the present point: it continues the branch, does not reach its end, and needs
-/// no iteration. `None` for every other step. State and displacement are checked.
+/// Force and stiffness after a step that only advances the present point: it continues the branch and does not reach its end. `None` for every other step. State and displacement are checked.
 pub(crate) fn continued(contact: &Contact, state: &[f64], displacement: f64) -> Option<Response> {
     let branch = state::memory(state).branch_ahead(contact, displacement)?;
-    let response = contact.interpolated(branch.distance(contact.slip_displacement, displacement))?;
-    Some(branch.on_branch(contact, response))
+    Some(branch.response(contact, displacement))
 }
 
 /// Relative change of a displacement by decimal text of 15 digits, at most.
@@ -111,8 +113,7 @@ fn step(contact: &Contact, state: &[f64], displacement: f64) -> StepRecord {
     let (mut start, mut end, mut merge) = (memory.now, Point { displacement, force }, None);
     if reversed && is_full {
         let pair = Merge::new(contact, initial.offset, memory.reversals, start.displacement);
-        let limit = contact.slip_force;
-        [start.force, end.force] = [start.force, force].map(|force| (force + pair.shift).min(limit).max(-limit));
+        [start.force, end.force] = [start.force, force].map(|force| within(contact.slip_force, force + pair.shift));
         merge = Some(pair);
     }
     StepRecord { depth: branch.depth, reversed, merge, initial, start, end, stiffness }

@@ -28,7 +28,6 @@ use crate::constant_load::evaluator::sign_of;
 use crate::error::Error;
 use crate::limits::check_displacement;
 use crate::parameters::{PARAMETERS, Sensitivity, times};
-use crate::shape::Complement;
 
 impl Contact {
     /// Derivatives of the force of the monotonic curve at a fixed displacement \[m\]; beyond `slip_displacement` those of mu N. Without
@@ -59,7 +58,7 @@ impl Contact {
     /// compliance of both, but for the displacement of the layer.
     fn shares(&self, displacement: f64) -> Sensitivity {
         let (zones, layer) = (self.stick_zones(), &self.stick_zones().layer);
-        let (load, increase) = self.load_and_increase(displacement);
+        let (load, increase) = self.load_at(self.before_slip(displacement));
         let moments = zones.moments(load, increase);
         let (tau, full_stick) = (load.consumed, zones.contact.compliance);
         let [by_load, by_flat] = zones.size_slopes();
@@ -89,18 +88,6 @@ impl Contact {
         }
         shares[PARAMETERS - 1] = layer.share_of_compliance(load, of_contact);
         shares
-    }
-
-    /// Load and λ at a displacement >= 0 up to that of gross slip.
-    fn load_and_increase(&self, displacement: f64) -> (Complement, f64) {
-        let full_stick = self.stick_zones().small_load.compliance;
-        match self.load_at(self.before_slip(displacement)) {
-            Some((load, stiffness)) => (load, self.stiffness_scale / stiffness - full_stick),
-            None => {
-                let zone = self.stick_zone_at_displacement(displacement);
-                (zone.load, zone.compliance_increase)
-            }
-        }
     }
 }
 

@@ -225,12 +225,14 @@ pub unsafe extern "C" fn mslip_monotonic_force(
     stick_half_width: *mut f64,
 ) -> i32 {
     call(|| {
-        let (contact, displacement, [force, stiffness, stick_half_width]) =
+        let (contact, displacement, outputs) =
             (pointers::contact(contact)?, input(displacement, n)?, outputs([force, stiffness, stick_half_width], n)?);
         displacement.iter().try_for_each(|&displacement| check_displacement(displacement))?;
-        contact.responses(displacement, force, stiffness);
-        for (&displacement, [stick_half_width]) in each(displacement, [stick_half_width]) {
+        for (&displacement, [force, stiffness, stick_half_width]) in each(displacement, outputs) {
             let point = contact.curve_at_displacement(displacement)?;
+            let values = point.force_and_stiffness();
+            set(force, || values.0);
+            set(stiffness, || values.1);
             set(stick_half_width, || point.stick_half_width());
         }
         Ok(())
@@ -260,7 +262,10 @@ pub unsafe extern "C" fn mslip_monotonic_sensitivity(
         let sensitivity = output(sensitivity, n.saturating_mul(PARAMETERS))?;
         let (contact, displacement, force) = (pointers::contact(contact)?, input(displacement, n)?, output(force, n)?);
         displacement.iter().try_for_each(|&displacement| check_displacement(displacement))?;
-        contact.responses(displacement, force, None);
+        for (&displacement, [force]) in each(displacement, [force]) {
+            let point = contact.curve_at_displacement(displacement)?;
+            set(force, || point.force());
+        }
         let columns = sensitivity.map(Total::blocks_mut).into_iter().flatten();
         for (column, &displacement) in columns.zip(displacement) {
             *column = contact.monotonic_sensitivity(displacement)?;

@@ -8,7 +8,6 @@ use super::reversal_terms::{self, ReversalTerms};
 use super::sensitivity::ReversalSensitivities;
 use super::{HarmonicOutput, RequestedOfCurve};
 use crate::constant_load::contact::Contact;
-use crate::constant_load::evaluator::BEYOND;
 use crate::constant_load::memory::{Branch, Point, Reversal};
 use crate::constant_load::steady_state::SteadyState;
 use crate::error::Error;
@@ -49,9 +48,9 @@ impl<'a> Layout<'a> for UniformWorkspace<'a> {
         let capacity = count + 1;
         let fourier = FoldedFourier::take(parts, count, 2 * harmonics)?;
         let rows = Rows::take(parts, harmonics, count)?;
-        let mut array = |length: usize| parts.take(length + 1 + BEYOND);
-        let [displacement, force, stiffness] = [array(2 * count)?, array(2 * count)?, array(2 * count)?];
-        let scratch = [array(count)?, array(count)?];
+        // Whole blocks of four from any sample on.
+        let [displacement, force, stiffness] = parts.take_arrays(2 * count + 7)?;
+        let scratch = parts.take_arrays(count + 7)?;
         let branches = parts.take_records(capacity)?;
         let reversals = parts.take(3 * capacity)?.blocks_mut();
         let entries = parts.take_records(capacity)?;
@@ -161,7 +160,7 @@ struct SampledPath<'a> {
     displacement: &'a mut [f64],
     force: &'a mut [f64],
     stiffness: &'a mut [f64],
-    /// Scratch memory of evaluators.
+    /// Scratch memory of branches.
     scratch: [&'a mut [f64]; 2],
     branches: &'a mut [reversal_terms::BranchSamples],
 }
@@ -188,14 +187,14 @@ impl SampledPath<'_> {
             law.account_for(entered, from.displacement);
             if requested.force {
                 let (force, stiffness) = (force.part_mut(next..), stiffness.part_mut(next..));
-                let [one, two] = scratch;
+                let scratch = scratch.each_mut().map(|array| &mut **array);
                 if branch.gross_slip {
                     force.part_mut(..count).fill(branch.response(law.contact, 0.0).force);
                     stiffness.part_mut(..count).fill(0.0);
                 } else if requested.stiffness {
-                    branch.along::<true>(law.contact, count, rest, [one, two], force, stiffness);
+                    branch.along::<true>(law.contact, count, rest, scratch, [force, stiffness]);
                 } else {
-                    branch.along::<false>(law.contact, count, rest, [one, two], force, stiffness);
+                    branch.along::<false>(law.contact, count, rest, scratch, [force, stiffness]);
                 }
                 from.force = force.or_zero(count - 1);
             }
