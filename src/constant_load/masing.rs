@@ -8,7 +8,7 @@ use crate::constant_load::energy::Dissipation;
 use crate::constant_load::evaluator::Response;
 use crate::constant_load::harmonic_force::{HarmonicOutput, Workspace, harmonic_force};
 use crate::constant_load::interpolant::piece_of;
-use crate::constant_load::memory::{Branch, InitialCurve, Memory, Merge, Point, Transition, force_error};
+use crate::constant_load::memory::{Branch, InitialCurve, Memory, Merge, Point, Transition, force_error, push, within};
 use crate::constant_load::state::{self, HEADER, PER_REVERSAL};
 use crate::error::Error;
 use crate::law::{Law, PathOutput, Requested, StepOf, StepResult};
@@ -70,27 +70,8 @@ impl Branch {
     }
 }
 
-/// A force within ± a limit.
-fn within(limit: f64, force: f64) -> f64 {
-    let force = if force > limit { limit } else { force };
-    if force < -limit { -limit } else { force }
-}
-
-/// A step that does not continue its branch, before anything is written.
-struct StepRecord {
-    /// Number of reversals on the stack after it.
-    depth: usize,
-    /// Whether the newest of them is the point at which it starts.
-    reversed: bool,
-    /// Makes room for that point in a full state.
-    merge: Option<Merge>,
-    initial: InitialCurve,
-    start: Point,
-    end: Point,
-    stiffness: f64,
-}
-
-/// Force and stiffness after a step that only advances the present point: it continues the branch and does not reach its end. `None` for every other step. State and displacement are checked.
+/// Force and stiffness after a step that only advances the present point: it continues the branch and does not reach its end. `None` for
+/// every other step. State and displacement are checked.
 pub(crate) fn continued(contact: &Contact, state: &[f64], displacement: f64) -> Option<Response> {
     let branch = state::memory(state).branch_ahead(contact, displacement)?;
     Some(branch.response(contact, displacement))
@@ -99,24 +80,22 @@ pub(crate) fn continued(contact: &Contact, state: &[f64], displacement: f64) -> 
 /// Relative change of a displacement by decimal text of 15 digits, at most.
 const TEXT: f64 = 1e-14;
 
-/// Finds the step of a contact from a state to a displacement \[m\], both checked.
-fn step(contact: &Contact, state: &[f64], displacement: f64) -> StepRecord {
+/// Where a step from a state to a displacement \[m\] leads, both checked, and the response there.
+fn step(contact: &Contact, state: &[f64], displacement: f64) -> (Transition, Response) {
     let memory = state::memory(state);
-    let Transition { mut branch, mut reversed } = memory.locate(contact, displacement, |_| {});
-    let is_full = reversed && state::is_full(state);
+    let mut transition = memory.locate(contact, displacement, |_| {});
+    let mut is_full = transition.reversed && state::is_full(state);
     if is_full && (displacement - memory.now.displacement).abs() <= TEXT * displacement.abs() {
         // A step of no length but for rounding: it continues the present branch, so that no reversals are removed.
-        (branch, reversed) = (memory.branch(contact, memory.depth(), -branch.direction), false);
+        let branch = memory.branch(contact, memory.depth(), -transition.branch.direction);
+        (transition, is_full) = (Transition { branch, reversed: false }, false);
     }
-    let Response { force, stiffness } = branch.response(contact, displacement);
-    let initial = memory.initial.after(contact, &branch, displacement);
-    let (mut start, mut end, mut merge) = (memory.now, Point { displacement, force }, None);
-    if reversed && is_full {
-        let pair = Merge::new(contact, initial.offset, memory.reversals, start.displacement);
-        [start.force, end.force] = [start.force, force].map(|force| within(contact.slip_force, force + pair.shift));
-        merge = Some(pair);
+    let mut response = transition.branch.response(contact, displacement);
+    if is_full {
+        let Merge { shift, .. } = Merge::new(contact, memory.initial.offset, memory.reversals, memory.now.displacement);
+        response.force = within(contact.slip_force, response.force + shift);
     }
-    StepRecord { depth: branch.depth, reversed, merge, initial, start, end, stiffness }
+    (transition, response)
 }
 
 /// The energy \[J\] that a step dissipates.
@@ -129,25 +108,6 @@ fn dissipated(contact: &Contact, state: &[f64], displacement: f64) -> f64 {
     let mut energy = Dissipation::new(contact);
     memory.locate(contact, displacement, |segment| energy.add(segment));
     energy.total()
-}
-
-impl StepRecord {
-    fn result(&self, dissipated: f64) -> StepOf<ConstantLoad> {
-        StepResult { force: self.end.force, tangent: self.stiffness, dissipated }
-    }
-
-    /// Writes the step into the state from which it was found, or into a copy of that.
-    fn write(&self, state: &mut [f64]) {
-        let mut depth = self.depth;
-        if self.reversed {
-            let reversals = state::reversals_mut(state);
-            if let Some(merge) = self.merge {
-                depth = merge.apply(self.initial.offset, reversals) + 1;
-            }
-            reversals.set(depth - 1, [self.start.displacement, self.start.force, 0.0]);
-        }
-        state::write_header(state, depth, self.initial, self.end);
-    }
 }
 
 impl Law for ConstantLoad {
@@ -216,10 +176,8 @@ impl Law for ConstantLoad {
 
     fn trial(contact: &Contact, state: &[f64], displacement: f64, requested: Requested) -> StepOf<ConstantLoad> {
         let energy = energy_if(requested, contact, state, displacement);
-        match continued(contact, state, displacement) {
-            Some(Response { force, stiffness }) => StepResult { force, tangent: stiffness, dissipated: energy },
-            None => step(contact, state, displacement).result(energy),
-        }
+        let (_, Response { force, stiffness }) = step(contact, state, displacement);
+        StepResult { force, tangent: stiffness, dissipated: energy }
     }
 
     fn advance(contact: &Contact, state: &mut [f64], displacement: f64, requested: Requested) -> StepOf<ConstantLoad> {
@@ -228,9 +186,14 @@ impl Law for ConstantLoad {
             state::set_point(state, Point { displacement, force });
             return StepResult { force, tangent: stiffness, dissipated: energy };
         }
-        let step = step(contact, state, displacement);
-        step.write(state);
-        step.result(energy)
+        let Memory { initial, now, .. } = state::memory(state);
+        let (Transition { branch, reversed }, Response { force, stiffness }) = step(contact, state, displacement);
+        let mut depth = branch.depth;
+        if reversed {
+            (depth, _) = push(contact, initial.offset, state::reversals_mut(state), depth - 1, now);
+        }
+        state::write_header(state, depth, initial.after(contact, &branch, displacement), Point { displacement, force });
+        StepResult { force, tangent: stiffness, dissipated: energy }
     }
 
     /// The copy holds at most `REVERSALS_OF_COPY` reversals.

@@ -246,6 +246,12 @@ impl Branch {
     }
 }
 
+/// A force within ± a limit.
+pub(crate) fn within(limit: f64, force: f64) -> f64 {
+    let force = if force > limit { limit } else { force };
+    if force < -limit { -limit } else { force }
+}
+
 /// Pushes a reversal on a stack of `depth`, whose length is its capacity, 2 at least. A full stack is merged first. Returns the depth
 /// after it, and by how much the merge has shifted the force.
 pub(crate) fn push(
@@ -261,7 +267,7 @@ pub(crate) fn push(
         depth = merge.apply(offset, reversals);
         shift = merge.shift;
     }
-    reversals.set(depth, [newest.displacement, newest.force + shift, 0.0]);
+    reversals.set(depth, [newest.displacement, within(contact.slip_force, newest.force + shift), 0.0]);
     (depth + 1, shift)
 }
 

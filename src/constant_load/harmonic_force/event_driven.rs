@@ -3,7 +3,7 @@
 //! The force of a periodic displacement is smooth except at events: reversals, closures of loops, the onset of gross slip. Uniform
 //! samples miss them, with an error of O(samples⁻²). Here the events are located, as roots of the rate and as crossings of the ends of
 //! branches, and each segment between two of them has its own rule: the error decreases exponentially with the number of nodes.
-//! Segments of gross slip are integrated in closed form, and the energy is that between reversals: it is exact.
+//! The energy is that between reversals: it is exact.
 //!
 //! The Jacobian is the same rule applied to the exact derivative of the integrals,
 //!
@@ -187,12 +187,6 @@ impl Buffers<'_> {
     fn instant(&self, index: usize) -> Instant {
         self.instants.or_zero(index)
     }
-
-    /// Evaluates ∫ φ between two instants.
-    fn integrate_phi(&mut self, from: f64, to: f64) {
-        let coefficients = self.coefficients();
-        fill_integrals(self.phi_integrals.as_flattened_mut().part_mut(..coefficients), from, to);
-    }
 }
 
 /// Integration over a period, event by event.
@@ -313,22 +307,6 @@ impl Period<'_, '_, '_> {
         }
         let branch = self.law.branch();
         let coefficients = buffers.coefficients();
-        if branch.gross_slip {
-            buffers.integrate_phi(from.t, to.t);
-            if force {
-                add_scaled(
-                    buffers.force,
-                    branch.response(self.law.contact, to.displacement).force,
-                    buffers.phi_integrals,
-                );
-            }
-            if let Some(sums) = &mut self.sensitivity {
-                let stack = ReversalSensitivities::new(buffers.gradients.as_flattened_mut());
-                let columns = sums.chunks_exact_mut(coefficients).zip(stack.sensitivity(&self.law, 0.0));
-                columns.for_each(|(column, derivative)| add_scaled(column, derivative, buffers.phi_integrals));
-            }
-            return;
-        }
         let segment = Segment { from: from.t, to: to.t, to_slip, has_knee: self.law.contact.has_knee() };
         if let Some(sums) = &mut self.sensitivity {
             let stack = ReversalSensitivities::new(buffers.gradients.as_flattened_mut());
@@ -349,8 +327,8 @@ impl Period<'_, '_, '_> {
         nodes.integrate(&self.motion, segment, orders, values, requested);
         if stiffness {
             assembly.sums.iter_mut().zip(sums).for_each(|(sum, segment)| *sum += *segment);
-            buffers.integrate_phi(from.t, to.t);
             let Buffers { gradients, phi_integrals, segment_stiffness, assembly, .. } = buffers;
+            fill_integrals(phi_integrals.as_flattened_mut().part_mut(..coefficients), from.t, to.t);
             let row = phi_integrals.len().max(1);
             let rows = gradients.chunks_exact((2 * row).max(1)).nth(branch.depth.wrapping_sub(1));
             if let Some((phi, gradient)) = rows.and_then(|rows| rows.split_at_checked(row)) {

@@ -5,6 +5,8 @@ use crate::fourier::workspace::record;
 use crate::numerics::roots::bracketed_newton;
 use crate::numerics::total::Total;
 use core::f64::consts::PI;
+use core::iter::successors;
+use core::ops::{Add, Mul, Sub};
 
 record! {
     /// An instant and its displacement.
@@ -42,17 +44,13 @@ impl<'a> Motion<'a> {
 
     /// Displacement and its first three derivatives.
     pub fn derivatives(&self, t: f64) -> [f64; 4] {
-        let (sine, cosine) = t.sin_cos();
-        let (mut c, mut s, mut k) = (cosine, sine, 1.0);
         let [mut u, mut rate, mut second, mut third] = [self.mean, 0.0, 0.0, 0.0];
-        for [a, b] in self.pairs {
+        for ((k, [c, s]), [a, b]) in (1..).map(f64::from).zip(harmonics(t.cos(), t.sin())).zip(self.pairs) {
             let (value, slope) = (a * c + b * s, k * (b * c - a * s));
             u += value;
             rate += slope;
             second -= k * k * value;
             third -= k * k * slope;
-            (c, s) = (c * cosine - s * sine, s * cosine + c * sine);
-            k += 1.0;
         }
         [u, rate, second, third]
     }
@@ -155,28 +153,28 @@ impl ReversalSearch<'_> {
     }
 }
 
+/// Pairs cos kt, sin kt of the orders k from 1 on.
+pub(super) fn harmonics<T: Copy + Add<Output = T> + Sub<Output = T> + Mul<Output = T>>(
+    cosine: T,
+    sine: T,
+) -> impl Iterator<Item = [T; 2]> {
+    successors(Some([cosine, sine]), move |&[c, s]| Some([c * cosine - s * sine, s * cosine + c * sine]))
+}
+
 /// φ at an instant: the row 1, cos t, sin t, cos 2t, ...
 pub(super) fn fill_phi(row: &mut [f64], t: f64) {
-    let (sine, cosine) = t.sin_cos();
-    let (mut c, mut s) = (cosine, sine);
     let Some((constant, pairs)) = row.split_first_mut() else { return };
     *constant = 1.0;
-    for pair in pairs.blocks_mut::<2>() {
-        *pair = [c, s];
-        (c, s) = (c * cosine - s * sine, s * cosine + c * sine);
-    }
+    pairs.blocks_mut().iter_mut().zip(harmonics(t.cos(), t.sin())).for_each(|(pair, harmonic)| *pair = harmonic);
 }
 
 /// ∫ φ dt between two instants.
 pub(super) fn fill_integrals(row: &mut [f64], from: f64, to: f64) {
-    let ((sine0, cosine0), (sine1, cosine1)) = (from.sin_cos(), to.sin_cos());
-    let (mut c0, mut s0, mut c1, mut s1) = (cosine0, sine0, cosine1, sine1);
+    let harmonics = harmonics(from.cos(), from.sin()).zip(harmonics(to.cos(), to.sin()));
     let Some((constant, pairs)) = row.split_first_mut() else { return };
     *constant = to - from;
-    for (pair, k) in pairs.blocks_mut::<2>().iter_mut().zip((1..).map(f64::from)) {
+    for ((pair, ([c0, s0], [c1, s1])), k) in pairs.blocks_mut().iter_mut().zip(harmonics).zip((1..).map(f64::from)) {
         *pair = [(s1 - s0) / k, (c0 - c1) / k];
-        (c0, s0) = (c0 * cosine0 - s0 * sine0, s0 * cosine0 + c0 * sine0);
-        (c1, s1) = (c1 * cosine1 - s1 * sine1, s1 * cosine1 + c1 * sine1);
     }
 }
 

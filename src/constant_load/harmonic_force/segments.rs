@@ -3,7 +3,7 @@
 //! On a segment the force is analytic in time: after a reversal it depends on `u - u_r ~ (t - t_r)²` alone. A segment that ends at
 //! the onset of gross slip has a singularity there, a power of the cube root of the distance; its nodes are those of the cube root.
 
-use super::motion::Motion;
+use super::motion::{Motion, harmonics};
 use crate::error::Error;
 use crate::fourier::workspace::{Parts, Size};
 use crate::numerics::lanes::Lanes;
@@ -145,18 +145,16 @@ fn fill_rows(
     displacement: &mut PanelNodes,
 ) {
     for (block, (times, displacement)) in times.iter().zip(displacement.iter_mut()).enumerate() {
-        let (cosine, sine) = (Lanes(*times).map(f64::cos), Lanes(*times).map(f64::sin));
-        let (mut c, mut s) = (cosine, sine);
+        let harmonics = harmonics(Lanes(*times).map(f64::cos), Lanes(*times).map(f64::sin));
         let mut u = Lanes([motion.mean; 4]);
         let mut pairs = motion.pairs.iter();
-        for [cosines, sines] in rows.iter_mut().take(orders) {
+        for ([cosines, sines], [c, s]) in rows.iter_mut().take(orders).zip(harmonics) {
             if let (Some(cosines), Some(sines)) = (cosines.get_mut(block), sines.get_mut(block)) {
                 (*cosines, *sines) = (*c, *s);
             }
             if let Some(&[a, b]) = pairs.next() {
                 u += a * c + b * s;
             }
-            (c, s) = (c * cosine - s * sine, s * cosine + c * sine);
         }
         *displacement = *u;
     }
