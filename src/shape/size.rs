@@ -39,7 +39,7 @@ impl Size {
     /// The size that carries a load, by one Newton step if that is at most 1e-9 of leg: its square is below rounding.
     pub fn at_load_near(&self, load: f64) -> Size {
         let step = quotient(load - self.load(), 4.0 * self.leg * self.psi);
-        if step.abs() > 1e-9 * self.leg { self.at_load(self.flat, load) } else { self.moved(step, self.rates()).0 }
+        if step.abs() > 1e-9 * self.leg { self.at_load(self.flat, load) } else { self.resized(self.leg + step) }
     }
 
     /// Derivative of g with respect to ln leg.
@@ -53,24 +53,6 @@ impl Size {
         let (reach, order) = self.kernel().reach(self.half_width);
         let decrease = quotient(share, reach);
         [decrease, decrease * (2.0 * (1.0 - share) - order * share)]
-    }
-
-    /// The size after a step of leg, given the rates, and the increase of g and of the compliance: fourth powers of `step/leg` are
-    /// below rounding, in the size third ones.
-    pub fn moved(&self, step: f64, [rate, change]: [f64; 2]) -> (Size, [f64; 2]) {
-        let (ratio, leg) = (quotient(step, self.leg), self.leg + step);
-        // Half of leg² d²ψ/d leg² over ψ.
-        let second = 0.5 * (rate * rate + change - rate);
-        let psi = self.psi + self.psi * (ratio * (rate + ratio * second));
-        let moved = Size { leg, half_width: (self.flat * self.flat + leg * leg).sqrt(), psi, ..*self };
-        let rise = ratio * (1.0 + ratio * (0.5 + 0.5 * rate + ratio * (rate + second) * (1.0 / 3.0)));
-        // Relative change of s², then ln s.
-        let growth = step * (leg + self.leg) / (self.half_width * self.half_width).max(TINY);
-        let growth = 0.5 * growth * (1.0 - growth * (0.5 - growth * (1.0 / 3.0)));
-        let (reach, order) = self.kernel().reach(self.half_width);
-        let power = order * growth;
-        let decrease = quotient(growth * (1.0 - power * (0.5 - power * (1.0 / 6.0))), reach);
-        (moved, [self.load_slope() * rise, -decrease])
     }
 
     /// The inverse close to this size of a quantity with a derivative proportional to leg ψ Λ, given its value, its power

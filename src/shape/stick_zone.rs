@@ -185,6 +185,13 @@ impl StickZones {
         zone
     }
 
+    /// The stick zone of a size that was found for a remaining shift.
+    fn at_size(&self, punch: &Size, remaining: f64) -> StickZone {
+        let load = punch.load();
+        let shift = Complement { consumed: self.slip_shift - remaining, remaining };
+        StickZone { shift, ..self.zone(punch, load, load / self.load) }
+    }
+
     /// A size close to that at a remaining shift. The shift of the contact alone is at most the sum, and at most the root of the load that
     /// the layer alone would have (a power of about 2/3); then with Λ + λ + β constant, first at its smallest value. It is at most the size
     /// of the contact: the compliance of larger ones may be negative.
@@ -210,10 +217,7 @@ impl StickZones {
     fn refine(&self, remaining: f64, start: Size) -> (StickZone, Size, InversePower) {
         if self.b.is_power_law() && !self.has_layer() {
             let punch = self.initial_guess(remaining);
-            let load = punch.load();
-            let zone = self.zone(&punch, load, load);
-            let shift = Complement { consumed: self.slip_shift - remaining, remaining };
-            return (StickZone { shift, ..zone }, punch, InversePower::default());
+            return (self.at_size(&punch, remaining), punch, InversePower::default());
         }
         let mut punch = start;
         let mut iterations_left = 8;
@@ -234,28 +238,11 @@ impl StickZones {
             let inverse = punch.inverse(now.shift.remaining, power, slope_of_psi, rates);
             let step = inverse.step(remaining);
             iterations_left -= 1;
-            if step.abs() <= 2e-5 * compliance.min(1.0) * leg || iterations_left == 0 {
-                let (zone, moved) = self.last_step(&now, &punch, slope_of_psi, step, remaining);
-                return (zone, moved, inverse);
-            }
             punch = self.b.resized((leg + step).max(0.0).min(self.b.leg));
+            if step.abs() <= 2e-5 * compliance.min(1.0) * leg || iterations_left == 0 {
+                return (self.at_size(&punch, remaining), punch, inverse);
+            }
         }
-    }
-
-    /// The stick zone at a remaining shift, a last step of the size away: an expansion in which fourth powers of 2e-5, over the
-    /// cube of the compliance if that is small, are below rounding.
-    fn last_step(&self, now: &StickZone, size: &Size, rates: [f64; 2], step: f64, remaining: f64) -> (StickZone, Size) {
-        let (moved, [rise, increase]) = size.moved(step, rates);
-        let load = Complement::of_remaining(now.load.remaining + rise / self.load.max(TINY));
-        let rise_of_layer =
-            if self.has_layer() { self.layer.increase(load) - self.layer.increase(now.load) } else { 0.0 };
-        let zone = StickZone {
-            load,
-            shift: Complement { consumed: self.slip_shift - remaining, remaining },
-            compliance_increase: now.compliance_increase + increase + rise_of_layer,
-            size_parameter: Some(moved.leg / self.b.leg),
-        };
-        (zone, moved)
     }
 
     /// Finds the points of the curve at a sequence of decreasing remaining shifts, the first of which is close to x_s. Each starts from
