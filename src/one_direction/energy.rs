@@ -131,27 +131,18 @@ fn mean_load(element: &Element, [from, to]: [f64; 2]) -> f64 {
         return element.load_under(from);
     }
     let (low, high) = (from.min(to), from.max(to));
-    if 16.0 * width.abs() < room(element, low, high) {
-        let [[nodes, weights]] = PATH_RULE;
-        let (loads, _) = element.loads_at::<false, 4>(&nodes.map(|node| from + node * width));
-        return dot(&weights, &loads);
-    }
-    if 16.0 * width.abs() < low {
-        return mean_load_near_the_largest_size(element, low, high);
-    }
-    (element.potential_at_shift(to.max(0.0)) - element.potential_at_shift(from.max(0.0))) / width
-}
-
-/// The same where the compliance of a short contact is about to vanish.
-#[cold]
-#[inline(never)]
-fn mean_load_near_the_largest_size(element: &Element, low: f64, high: f64) -> f64 {
-    let blocks = LONGEST_RULE.iter().map(|block| {
-        let [places, weights] = squared(*block);
+    let part = |[places, weights]: Block| {
         let (loads, _) = element.loads_at::<false, 4>(&places.map(|t| high - t * (high - low)));
         dot(&weights, &loads)
-    });
-    blocks.sum()
+    };
+    if 16.0 * width.abs() < room(element, low, high) {
+        return PATH_RULE.map(part)[0];
+    }
+    if 16.0 * width.abs() < low {
+        // Where the compliance of a short contact is about to vanish.
+        return LONGEST_RULE.iter().map(|block| part(squared(*block))).sum();
+    }
+    (element.potential_at_shift(to.max(0.0)) - element.potential_at_shift(from.max(0.0))) / width
 }
 
 impl SlipPiece {
@@ -174,7 +165,7 @@ impl SlipPiece {
             let mut rules: Option<[&[Block]; 2]> = None;
             if 1.5 * width < room {
                 let path_rule = gauss_rule(if 16.0 * swept.max(growth.abs()) < room { 1 } else { 2 });
-                rules = Some([path_rule, if 8.0 * width < room { &ZONE_RULE } else { &WIDE_ZONE_RULE }]);
+                rules = Some([path_rule, gauss_rule(if 16.0 * width < room { 1 } else { 2 })]);
             } else if 8.0 * width < widest {
                 // A wider zone loses few digits, because N'' is large there.
                 longest = rules_near_the_largest_size();
@@ -215,7 +206,7 @@ impl SlipPiece {
                 for (t, part) in places.iter().zip(parts) {
                     let curvatures = Lanes(element.four_curvatures(&(edges - *t * widths), &mut quarter));
                     // Rounding may make N'' of a nearly flat contact negative.
-                    remainders += *part * curvatures.max(0.0);
+                    remainders += (*t * *part) * curvatures.max(0.0);
                 }
             }
             sum += dot(&weights, &remainders);
@@ -230,7 +221,7 @@ impl SlipPiece {
 #[inline(never)]
 fn rules_near_the_largest_size() -> [[Block; MAX_GAUSS_BLOCKS]; 2] {
     let path_rule = LONGEST_RULE.map(|block| substituted(block, |z| [z * z * (3.0 - 2.0 * z), 6.0 * z * (1.0 - z)]));
-    [path_rule, LONGEST_RULE.map(squared).map(with_t)]
+    [path_rule, LONGEST_RULE.map(squared)]
 }
 
 /// Four nodes and their weights.
@@ -241,24 +232,6 @@ static LONGEST_RULE: [Block; MAX_GAUSS_BLOCKS] = gauss_legendre();
 
 /// Gauss's rule with four nodes.
 const PATH_RULE: [Block; 1] = gauss_legendre();
-
-/// The same for `∫ t f(t) dt`.
-const ZONE_RULE: [Block; 1] = [[
-    [0.13975986434378055, 0.41640956763108317, 0.7231569863618762, 0.9428958038854823],
-    [0.03118097095000808, 0.12984754760823244, 0.20346456801027136, 0.13550691343148812],
-]];
-
-/// The rule of eight nodes for the same.
-const WIDE_ZONE_RULE: [Block; 2] = {
-    let [one, two] = gauss_legendre();
-    [with_t(one), with_t(two)]
-};
-
-const fn with_t([nodes, weights]: Block) -> Block {
-    let [a, b, c, d] = nodes;
-    let [e, f, g, h] = weights;
-    [nodes, [a * e, b * f, c * g, d * h]]
-}
 
 /// The rule for `∫ f(t) dt` from one for z, by t and dt/dz.
 fn substituted([nodes, weights]: Block, of: impl Fn(f64) -> [f64; 2]) -> Block {
