@@ -26,6 +26,7 @@ use crate::fourier::sampled_jacobian::Assembly;
 use crate::fourier::workspace::{Layout, Parts, Size};
 use crate::fourier::{largest_of, normalise, work};
 use crate::limits::check_coefficients;
+use crate::numerics::total::{Stack, Total};
 use crate::tag::Kind;
 use forces::Forces;
 use jacobian::{Context, JacobianMemory};
@@ -90,7 +91,8 @@ impl<'a> Layout<'a> for OneDirectionWorkspace<'a> {
         let forces =
             Forces { force, cut_load, cut_stiffness, slope, last_cut: parts.take_records(sample_length(count))? };
         let (knots, runs) = (parts.take_records(capacity)?, parts.take_records(capacity)?);
-        let path = PeriodicPath { knots, depth: 0, runs, run_count: 0, cut_shift, cut_count: 0 };
+        let (knots, runs) = (Stack { values: knots, depth: 0 }, Stack { values: runs, depth: 0 });
+        let path = PeriodicPath { knots, runs, cut_shift, cut_count: 0 };
         let pieces = parts.take_records(capacity)?;
         let stored = parts.take_blocks(2 * row_blocks(harmonics) * capacity)?;
         let outer = OuterProducts::take(parts, harmonics, count, 2)?;
@@ -103,8 +105,6 @@ impl<'a> Layout<'a> for OneDirectionWorkspace<'a> {
 /// Properties of a motion.
 #[derive(Debug, Clone, Copy)]
 struct MotionKind {
-    /// The normal component is constant.
-    constant: bool,
     /// u has only odd orders, the normal component only even ones, and the number of samples is even: after half a period ξ and -η
     /// have changed places, and the tangential force its sign.
     half_wave: bool,
@@ -248,7 +248,6 @@ impl OneDirectionWorkspace<'_> {
         };
         let amplitude: f64 = harmonics.iter().map(|value| value.abs()).sum();
         let mut motion = MotionKind {
-            constant: amplitude == 0.0,
             half_wave: samples.count.is_multiple_of(2) && !has(tangential, 0) && !has(input, 1),
             open: false,
             least_input: mean,
@@ -262,12 +261,10 @@ impl OneDirectionWorkspace<'_> {
         if motion.open {
             return Ok(motion);
         }
-        let (mut least, mut largest) = (mean, mean);
-        if !motion.constant {
-            fourier.synthesise(input, samples.input);
-            [least, largest] = [-largest_of(samples.input, |input| -input), largest_of(samples.input, |input| input)];
-        }
-        if least < -rounding {
+        fourier.synthesise(input, samples.input);
+        let largest = largest_of(samples.input, |input| input);
+        motion.least_input = -largest_of(samples.input, |input| -input);
+        if motion.least_input < -rounding {
             return Err(Error::BadNormalForce);
         }
         element.check_normal(element.by_approach(), largest.max(0.0))?;
@@ -275,20 +272,14 @@ impl OneDirectionWorkspace<'_> {
         if motion.open {
             return Ok(motion);
         }
-        if motion.constant {
-            samples.input.fill(mean);
-            samples.press_constantly(&element.normal(mean));
+        if !element.is_closed(motion.least_input) {
+            let open = |input: f64| if element.is_closed(input) { input } else { input.min(0.0) };
+            samples.input.iter_mut().for_each(|input| *input = open(*input));
+        }
+        if with_slopes {
+            samples.press::<true>(element);
         } else {
-            motion.least_input = least;
-            if !element.is_closed(least) {
-                let open = |input: f64| if element.is_closed(input) { input } else { input.min(0.0) };
-                samples.input.iter_mut().for_each(|input| *input = open(*input));
-            }
-            if with_slopes {
-                samples.press::<true>(element);
-            } else {
-                samples.press::<false>(element);
-            }
+            samples.press::<false>(element);
         }
         Ok(motion)
     }
@@ -305,14 +296,11 @@ impl OneDirectionWorkspace<'_> {
 
     fn write_normal_force(&mut self, element: &Element, input: &[f64], motion: MotionKind, normal: &mut [f64]) {
         let OneDirectionWorkspace { fourier, samples, .. } = self;
-        if !element.by_approach() && !motion.open {
-            // Rounding below 0 counts as 0.
-            normal.iter_mut().zip(input).for_each(|(normal, input)| *normal = *input);
-        } else if motion.constant || motion.open {
+        if motion.open {
             normal.fill(0.0);
-            if let (Some(constant), false, Some(load)) = (normal.first_mut(), motion.open, samples.load.first()) {
-                *constant = *load;
-            }
+        } else if !element.by_approach() {
+            // Rounding below 0 counts as 0.
+            normal.copy_from(input);
         } else {
             fourier.sum(samples.load, normal);
             normalise(normal, 1.0 / samples.count as f64);
@@ -346,14 +334,13 @@ impl OneDirectionWorkspace<'_> {
         if motion.open && element.by_approach() {
             return;
         }
-        if motion.constant || !element.by_approach() {
-            let slope = if element.by_approach() { samples.load_slope.first().copied().unwrap_or(0.0) } else { 1.0 };
-            for (row, column) in (coefficients..).zip(by_input.chunks_exact_mut(2 * coefficients)) {
-                column.iter_mut().skip(row).take(1).for_each(|diagonal| *diagonal = slope);
-            }
-        } else {
+        if element.by_approach() {
             fourier.sum(samples.load_slope, assembly.sums);
             assembly.write_sums(by_input, 2 * coefficients, coefficients);
+        } else {
+            for (row, column) in (coefficients..).zip(by_input.chunks_exact_mut(2 * coefficients)) {
+                column.set(row, 1.0);
+            }
         }
     }
 }

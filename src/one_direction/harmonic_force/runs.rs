@@ -5,7 +5,7 @@
 
 use crate::element::Element;
 use crate::fourier::workspace::record;
-use crate::numerics::total::Total;
+use crate::numerics::total::{Stack, Total};
 use crate::one_direction::diagram::slope;
 use crate::one_direction::harmonic_force::samples::{EvaluatedPart, Samples, ranges};
 use crate::one_direction::step::Crossing;
@@ -113,10 +113,8 @@ impl RunKnot {
 /// A walk along samples: the stack of knots, and the runs and packed boundaries so far.
 #[derive(Debug)]
 pub(super) struct PeriodicPath<'a> {
-    pub knots: &'a mut [RunKnot],
-    pub depth: usize,
-    pub runs: &'a mut [Run],
-    pub run_count: usize,
+    pub knots: Stack<'a, RunKnot>,
+    pub runs: Stack<'a, Run>,
     /// S at the boundaries of the slip zones.
     pub cut_shift: &'a mut [f64],
     pub cut_count: usize,
@@ -125,19 +123,12 @@ pub(super) struct PeriodicPath<'a> {
 impl PeriodicPath<'_> {
     /// Starts anew from the displacement of the centre.
     fn restart(&mut self, displacement: f64) {
-        self.depth = 0;
-        self.push(RunKnot::centre(displacement));
+        self.knots.depth = 0;
+        self.knots.push(RunKnot::centre(displacement));
     }
 
     fn knot(&self, index: usize) -> RunKnot {
-        self.knots.get(index).copied().unwrap_or_default()
-    }
-
-    fn push(&mut self, knot: RunKnot) {
-        if let Some(place) = self.knots.get_mut(self.depth) {
-            *place = knot;
-            self.depth += 1;
-        }
+        self.knots.values.or_zero(index)
     }
 
     /// Advances along samples, run by run.
@@ -150,7 +141,7 @@ impl PeriodicPath<'_> {
         };
         let mut next = range.start;
         while let (Some(&x), Some(&y), Some(&input)) = (xi.get(next), eta.get(next), inputs.get(next))
-            && self.run_count < self.runs.len()
+            && self.runs.depth < self.runs.values.len()
         {
             let mut run = if part.opens && input <= 0.0 {
                 let closes = inputs.iter().skip(next).position(|input| *input > 0.0);
@@ -161,7 +152,7 @@ impl PeriodicPath<'_> {
                 }
                 if !self.close_loops(x, y) {
                     self.stick(next, [xi, eta])
-                } else if self.depth == 0 {
+                } else if self.knots.depth == 0 {
                     self.slip_grossly(next, x, [xi, eta, inputs])
                 } else {
                     self.slip(next, [xi, eta], [x, y], element.per_two_mu)
@@ -170,28 +161,25 @@ impl PeriodicPath<'_> {
             (run.first, run.packed) = (next as u64, self.cut_count as u64);
             next += run.count as usize;
             self.cut_count += if run.kind == Run::SLIP { run.count as usize } else { 0 };
-            if let Some(place) = self.runs.get_mut(self.run_count) {
-                *place = run;
-                self.run_count += 1;
-            }
+            self.runs.push(run);
         }
     }
 
     /// Closes the loops that a step to ξ = x, η = y passes: removes the knots outside the quadrant ξ > x, η < y. Returns whether
     /// one was removed.
     fn close_loops(&mut self, x: f64, y: f64) -> bool {
-        let before = self.depth;
-        while let Some(&RunKnot { xi, eta, .. }) = self.depth.checked_sub(1).and_then(|top| self.knots.get(top))
-            && !(xi > x && eta < y)
+        let before = self.knots.depth;
+        while let Some(RunKnot { xi, eta, .. }) = self.knots.top()
+            && !(*xi > x && *eta < y)
         {
-            self.depth -= 1;
+            self.knots.depth -= 1;
         }
-        self.depth < before
+        self.knots.depth < before
     }
 
     /// Samples that stick.
     fn stick(&mut self, first: usize, [xi, eta]: [&[f64]; 2]) -> Run {
-        let kept = self.depth;
+        let kept = self.knots.depth;
         let inner = self.knot(kept - 1);
         let (mut last, mut sample) = (inner, first);
         while let (Some(&x), Some(&y)) = (xi.get(sample), eta.get(sample))
@@ -199,12 +187,12 @@ impl PeriodicPath<'_> {
             && y > last.eta
         {
             last = RunKnot { xi: x, eta: y, place: Place::end(sample) };
-            self.push(last);
+            self.knots.push(last);
             sample += 1;
         }
         Run {
             kind: Run::STUCK,
-            count: (self.depth - kept) as u64,
+            count: (self.knots.depth - kept) as u64,
             kept: kept as u64,
             inner: inner.place,
             sign: 1.0,
@@ -224,14 +212,14 @@ impl PeriodicPath<'_> {
             continues
         };
         let last = first + later(moving).zip(later(inputs)).take_while(continues).count();
-        self.push(RunKnot::centre(moving.or_zero(last)));
-        self.push(RunKnot { xi: xi.or_zero(last), eta: eta.or_zero(last), place: Place::end(last) });
+        self.knots.push(RunKnot::centre(moving.or_zero(last)));
+        self.knots.push(RunKnot { xi: xi.or_zero(last), eta: eta.or_zero(last), place: Place::end(last) });
         Run { kind: Run::GROSS_SLIP, count: (last + 1 - first) as u64, sign, ..Run::default() }
     }
 
     /// Samples whose slip zone grows in one direction, along the piece above the last knot that stays.
     fn slip(&mut self, first: usize, [xi, eta]: [&[f64]; 2], [x, y]: [f64; 2], per_two_mu: f64) -> Run {
-        let kept = self.depth;
+        let kept = self.knots.depth;
         let (inner, outer) = (self.knot(kept - 1), self.knot(kept));
         let (falling, rising) = (inner.xi - outer.xi, outer.eta - inner.eta);
         // The piece leaves the quadrant through ξ = x unless it crosses η = y first: the quotient is at most 1.
@@ -260,8 +248,8 @@ impl PeriodicPath<'_> {
         }
         let [x, y] = last;
         let [cut, end] = [[x, last_cut], [x, y]].map(|[x, y]| if is_forward { [x, y] } else { [-y, -x] });
-        self.push(RunKnot { xi: cut[0], eta: cut[1], place: Place::cut(sample - 1) });
-        self.push(RunKnot { xi: end[0], eta: end[1], place: Place::end(sample - 1) });
+        self.knots.push(RunKnot { xi: cut[0], eta: cut[1], place: Place::cut(sample - 1) });
+        self.knots.push(RunKnot { xi: end[0], eta: end[1], place: Place::end(sample - 1) });
         Run {
             kind: Run::SLIP,
             count: (sample - first) as u64,
@@ -280,10 +268,10 @@ const SMALLEST: f64 = 1e-150;
 impl PeriodicPath<'_> {
     /// Starts from the diagram before the first sample of a part.
     fn begin(&mut self, part: &EvaluatedPart) {
-        (self.run_count, self.cut_count) = (0, 0);
+        (self.runs.depth, self.cut_count) = (0, 0);
         self.restart(0.0);
         if !part.opens {
-            self.push(RunKnot::CORE);
+            self.knots.push(RunKnot::CORE);
         }
     }
 
@@ -294,12 +282,12 @@ impl PeriodicPath<'_> {
         for range in ranges(part, samples.count) {
             self.advance(element, samples, part, range);
         }
-        let (runs, cuts) = (self.run_count, self.cut_count);
+        let cuts = self.cut_count;
         // Fills the last block of four.
         let last = cuts.checked_sub(1).map_or(0.0, |last| self.cut_shift.or_zero(last));
         self.cut_shift.iter_mut().skip(cuts).take(3).for_each(|place| *place = last);
         let cut_shift = self.cut_shift.blocks().get(..cuts.div_ceil(4));
-        (self.runs.part(..runs), cut_shift.unwrap_or(&[]))
+        (self.runs.values.part(..self.runs.depth), cut_shift.unwrap_or(&[]))
     }
 }
 

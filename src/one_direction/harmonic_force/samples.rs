@@ -1,7 +1,7 @@
 //! Normal states and characteristic coordinates of the samples.
 
 use super::MotionKind;
-use crate::element::{Element, Normal};
+use crate::element::Element;
 use crate::numerics::total::Total;
 
 /// Arrays over the samples of a period, continued periodically to whole blocks of four.
@@ -47,15 +47,6 @@ impl Samples<'_> {
 
     pub fn is_open(&self, sample: usize) -> bool {
         self.input.or_zero(sample) <= 0.0
-    }
-
-    /// The normal state of all samples under a constant input > 0.
-    pub fn press_constantly(&mut self, normal: &Normal) {
-        self.load.fill(normal.load);
-        self.shift.fill(normal.shift);
-        self.load_slope.fill(normal.load_slope);
-        self.shift_slope.fill(normal.shift_slope);
-        self.stiffness.fill(normal.load_slope / normal.shift_slope);
     }
 
     /// The normal states of all samples, with derivatives if requested.
