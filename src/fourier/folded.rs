@@ -9,7 +9,6 @@
 
 use super::angle;
 use super::workspace::{Blocks, Parts, padded};
-use crate::error::Error;
 use crate::numerics::lanes::Lanes;
 use crate::numerics::total::Total;
 
@@ -64,12 +63,12 @@ pub(crate) struct FoldedFourier<'a> {
 
 impl<'a> FoldedFourier<'a> {
     /// For all orders up to an even number.
-    pub fn take(parts: &mut Parts<'a>, samples: usize, orders: usize) -> Result<FoldedFourier<'a>, Error> {
+    pub fn take(parts: &mut Parts<'a>, samples: usize, orders: usize) -> FoldedFourier<'a> {
         let blocks = position_blocks(samples);
-        let weights = parts.take_blocks(blocks)?;
-        let quads = parts.take_blocks(2 * orders * blocks)?.blocks_mut();
-        let folded = parts.take_blocks(SYMMETRIES * blocks)?.blocks_mut();
-        Ok(FoldedFourier { samples, orders, weights, quads, folded, totals: parts.take_blocks(1 + 2 * orders)? })
+        let weights = parts.take_blocks(blocks);
+        let quads = parts.take_blocks(2 * orders * blocks).blocks_mut();
+        let folded = parts.take_blocks(SYMMETRIES * blocks).blocks_mut();
+        FoldedFourier { samples, orders, weights, quads, folded, totals: parts.take_blocks(1 + 2 * orders) }
     }
 
     /// Fills the tables.
@@ -244,8 +243,10 @@ mod tests {
 
     #[test]
     fn samples_of_odd_orders_are_exactly_half_wave_symmetric() {
-        let mut memory = vec![0.0; Parts::count(|parts| FoldedFourier::take(parts, 22, 6))];
-        let mut fourier = FoldedFourier::take(&mut Parts::Taking(&mut memory), 22, 6).unwrap();
+        let mut parts = Parts::new(&mut []);
+        FoldedFourier::take(&mut parts, 22, 6);
+        let mut memory = vec![0.0; parts.doubles];
+        let mut fourier = FoldedFourier::take(&mut Parts::new(&mut memory), 22, 6);
         fourier.fill();
         let mut values = vec![0.0; sample_length(22)];
         fourier.synthesise(&[0.0, 0.3, 0.7, 0.0, 0.0, -0.2, 0.1, 0.0, 0.0, 0.35, -0.23], &mut values);

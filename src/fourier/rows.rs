@@ -5,7 +5,6 @@
 
 use super::angle;
 use super::workspace::{Blocks, Parts};
-use crate::error::Error;
 use crate::numerics::lanes::Lanes;
 use crate::numerics::total::Total;
 use core::f64::consts::PI;
@@ -49,10 +48,10 @@ pub(crate) struct RowStrips<'a, const N: usize> {
 }
 
 impl<'a> Rows<'a> {
-    pub fn take(parts: &mut Parts<'a>, harmonics: usize, samples: usize) -> Result<Rows<'a>, Error> {
+    pub fn take(parts: &mut Parts<'a>, harmonics: usize, samples: usize) -> Rows<'a> {
         let blocks = row_blocks(harmonics) * samples;
-        let (phi, antiderivatives) = (parts.take_blocks(blocks)?, parts.take_blocks(blocks)?);
-        Ok(Rows { harmonics, samples, phi, antiderivatives })
+        let (phi, antiderivatives) = (parts.take_blocks(blocks), parts.take_blocks(blocks));
+        Rows { harmonics, samples, phi, antiderivatives }
     }
 
     /// Fills the tables.
@@ -148,15 +147,10 @@ impl<const N: usize, const D: usize> StripTerms<'_, N, D> {
 }
 
 impl<'a> OuterProducts<'a> {
-    pub fn take(
-        parts: &mut Parts<'a>,
-        harmonics: usize,
-        capacity: usize,
-        of_each: usize,
-    ) -> Result<OuterProducts<'a>, Error> {
+    pub fn take(parts: &mut Parts<'a>, harmonics: usize, capacity: usize, of_each: usize) -> OuterProducts<'a> {
         let row_blocks = row_blocks(harmonics);
         let [y, phi] = [of_each, 1].map(|rows| parts.take_blocks(rows * row_blocks * capacity));
-        Ok(OuterProducts { row_blocks, capacity, count: 0, of_each, y: y?, phi: phi? })
+        OuterProducts { row_blocks, capacity, count: 0, of_each, y, phi }
     }
 
     /// Number of strips of N blocks.

@@ -11,7 +11,6 @@
 
 use super::rows::{OuterProducts, row_blocks};
 use super::workspace::{Blocks, Parts};
-use crate::error::Error;
 use crate::numerics::lanes::Lanes;
 use crate::numerics::total::Total;
 
@@ -29,11 +28,11 @@ pub(crate) struct Assembly<'a> {
 }
 
 impl<'a> Assembly<'a> {
-    pub fn take(parts: &mut Parts<'a>, harmonics: usize, weight: f64) -> Result<Assembly<'a>, Error> {
-        let sums = parts.take(4 * harmonics + 1)?;
-        let pairs = parts.take(2 * (3 * harmonics + 1))?.blocks_mut();
-        let products = parts.take_blocks(row_blocks(harmonics) * (2 * harmonics + 2))?;
-        Ok(Assembly { harmonics, weight, sums, pairs, products })
+    pub fn take(parts: &mut Parts<'a>, harmonics: usize, weight: f64) -> Assembly<'a> {
+        let sums = parts.take(4 * harmonics + 1);
+        let pairs = parts.take(2 * (3 * harmonics + 1)).blocks_mut();
+        let products = parts.take_blocks(row_blocks(harmonics) * (2 * harmonics + 2));
+        Assembly { harmonics, weight, sums, pairs, products }
     }
 
     /// Sets sums and outer products to 0.

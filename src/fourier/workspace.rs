@@ -45,14 +45,16 @@ pub(crate) trait Layout<'a>: Sized {
     }
 
     /// Takes the parts.
-    fn take(size: Size, parts: &mut Parts<'a>) -> Result<Self, Error>;
+    fn take(size: Size, parts: &mut Parts<'a>) -> Self;
 
     /// Fills the tables, in memory that is all zeros.
     fn fill(&mut self);
 
     /// Number of doubles in a workspace of a checked size, including the header.
     fn length(size: Size) -> usize {
-        HEADER + Parts::count(|parts| Self::take(size, parts))
+        let mut parts = Parts::new(&mut []);
+        Self::take(size, &mut parts);
+        HEADER + parts.doubles
     }
 
     /// Number of doubles in a workspace; 0 if the size is not allowed.
@@ -92,7 +94,7 @@ pub(crate) trait Layout<'a>: Sized {
         let memory = workspace.get_mut(..length).ok_or(Error::WorkspaceTooShort)?;
         memory.fill(0.0);
         let (header, buffers) = memory.split_first_chunk_mut::<HEADER>().ok_or(Error::WorkspaceTooShort)?;
-        Self::take(size, &mut Parts::Taking(buffers))?.fill();
+        Self::take(size, &mut Parts::new(buffers)).fill();
         let Size { harmonics, samples, periods } = size;
         let [tag, counts @ ..] = header;
         *tag = Self::KIND.tag();
@@ -124,7 +126,9 @@ pub(crate) trait Layout<'a>: Sized {
     /// Errors: `BadWorkspace` if too short.
     fn of_size(size: Size, workspace: &'a mut [f64]) -> Result<Self, Error> {
         let buffers = workspace.get_mut(HEADER..).ok_or(Error::BadWorkspace)?;
-        Self::take(size, &mut Parts::Taking(buffers))
+        let (length, mut parts) = (buffers.len(), Parts::new(buffers));
+        let taken = Self::take(size, &mut parts);
+        if parts.doubles <= length { Ok(taken) } else { Err(Error::BadWorkspace) }
     }
 }
 
@@ -133,56 +137,43 @@ pub(crate) fn padded(length: usize) -> usize {
     (length + 3) & !3
 }
 
-/// Divides the memory of a workspace into [`padded`] parts, or counts their doubles: both follow from the same calls of `take`.
-pub(crate) enum Parts<'a> {
-    /// Memory that remains.
-    Taking(&'a mut [f64]),
-    /// Doubles so far; all parts are empty.
-    Counting(usize),
+/// Divides the memory of a workspace into [`padded`] parts. Those that do not fit are empty, but counted too.
+pub(crate) struct Parts<'a> {
+    memory: &'a mut [f64],
+    /// Doubles of all parts so far.
+    pub doubles: usize,
 }
 
 impl<'a> Parts<'a> {
-    /// Number of doubles in the parts that a function takes.
-    pub fn count<T>(take: impl FnOnce(&mut Parts<'a>) -> Result<T, Error>) -> usize {
-        let mut parts = Parts::Counting(0);
-        let taken = take(&mut parts);
-        if let (Parts::Counting(doubles), Ok(_)) = (parts, taken) { doubles } else { 0 }
+    pub fn new(memory: &'a mut [f64]) -> Parts<'a> {
+        Parts { memory, doubles: 0 }
     }
 
-    pub fn take(&mut self, length: usize) -> Result<&'a mut [f64], Error> {
-        match self {
-            Parts::Taking(memory) => {
-                let parts = core::mem::take(memory).split_at_mut_checked(padded(length));
-                let (front, back) = parts.ok_or(Error::BadWorkspace)?;
-                *memory = back;
-                front.get_mut(..length).ok_or(Error::BadWorkspace)
-            }
-            Parts::Counting(doubles) => {
-                *doubles += padded(length);
-                Ok(&mut [])
-            }
-        }
+    pub fn take(&mut self, length: usize) -> &'a mut [f64] {
+        let padded = padded(length);
+        self.doubles += padded;
+        let (front, back) = core::mem::take(&mut self.memory).split_at_mut_checked(padded).unwrap_or_default();
+        self.memory = back;
+        front.part_mut(..length)
     }
 
-    pub fn take_arrays<const K: usize>(&mut self, length: usize) -> Result<[&'a mut [f64]; K], Error> {
-        let mut arrays = [(); K].map(|()| <&mut [f64]>::default());
-        for array in &mut arrays {
-            *array = self.take(length)?;
-        }
-        Ok(arrays)
+    pub fn take_arrays<const K: usize>(&mut self, length: usize) -> [&'a mut [f64]; K] {
+        [(); K].map(|()| self.take(length))
     }
 
-    pub fn take_blocks(&mut self, blocks: usize) -> Result<&'a mut Blocks, Error> {
-        Ok(self.take(4 * blocks)?.blocks_mut())
+    pub fn take_blocks(&mut self, blocks: usize) -> &'a mut Blocks {
+        self.take(4 * blocks).blocks_mut()
     }
 
-    pub fn take_records<T: Record>(&mut self, count: usize) -> Result<&'a mut [T], Error> {
+    pub fn take_records<T: Record>(&mut self, count: usize) -> &'a mut [T] {
         const { assert!(align_of::<T>() <= align_of::<f64>() && size_of::<T>().is_multiple_of(size_of::<f64>())) };
-        let doubles = self.take(count * (size_of::<T>() / size_of::<f64>()))?;
+        let doubles = self.take(count * (size_of::<T>() / size_of::<f64>()));
         let records = size_of_val(doubles) / size_of::<T>();
         // SAFETY: a record accepts all bits of these doubles, which no other reference reaches, and leaves none uninitialised.
         #[allow(unsafe_code)]
-        Ok(unsafe { core::slice::from_raw_parts_mut(doubles.as_mut_ptr().cast(), records) })
+        unsafe {
+            core::slice::from_raw_parts_mut(doubles.as_mut_ptr().cast(), records)
+        }
     }
 }
 

@@ -77,28 +77,28 @@ impl<'a> Layout<'a> for OneDirectionWorkspace<'a> {
         self.sensitivity.rows.fill();
     }
 
-    fn take(size: Size, parts: &mut Parts<'a>) -> Result<OneDirectionWorkspace<'a>, Error> {
+    fn take(size: Size, parts: &mut Parts<'a>) -> OneDirectionWorkspace<'a> {
         let Size { harmonics, samples: count, .. } = size;
         // At most one knot, piece and run per sample, and a few more.
         let capacity = count + 4;
-        let fourier = FoldedFourier::take(parts, count, 2 * harmonics)?;
-        let rows = Rows::take(parts, harmonics, count)?;
+        let fourier = FoldedFourier::take(parts, count, 2 * harmonics);
+        let rows = Rows::take(parts, harmonics, count);
         let [displacement, input, load, shift, load_slope, shift_slope, stiffness, xi, eta] =
-            parts.take_arrays(sample_length(count))?;
+            parts.take_arrays(sample_length(count));
         let samples = Samples { count, displacement, input, load, shift, load_slope, shift_slope, stiffness, xi, eta };
         let [force, cut_shift, cut_load, cut_stiffness, slope, by_u, by_input, places] =
-            parts.take_arrays(sample_length(count))?;
+            parts.take_arrays(sample_length(count));
         let forces =
-            Forces { force, cut_load, cut_stiffness, slope, last_cut: parts.take_records(sample_length(count))? };
-        let (knots, runs) = (parts.take_records(capacity)?, parts.take_records(capacity)?);
+            Forces { force, cut_load, cut_stiffness, slope, last_cut: parts.take_records(sample_length(count)) };
+        let (knots, runs) = (parts.take_records(capacity), parts.take_records(capacity));
         let (knots, runs) = (Stack { values: knots, depth: 0 }, Stack { values: runs, depth: 0 });
         let path = PeriodicPath { knots, runs, cut_shift, cut_count: 0 };
-        let pieces = parts.take_records(capacity)?;
-        let stored = parts.take_blocks(2 * row_blocks(harmonics) * capacity)?;
-        let outer = OuterProducts::take(parts, harmonics, count, 2)?;
-        let assembly = Assembly::take(parts, harmonics, 1.0 / count as f64)?;
+        let pieces = parts.take_records(capacity);
+        let stored = parts.take_blocks(2 * row_blocks(harmonics) * capacity);
+        let outer = OuterProducts::take(parts, harmonics, count, 2);
+        let assembly = Assembly::take(parts, harmonics, 1.0 / count as f64);
         let sensitivity = JacobianMemory { rows, pieces, stored, places, outer, own: [by_u, by_input] };
-        Ok(OneDirectionWorkspace { size, fourier, samples, path, forces, sensitivity, assembly })
+        OneDirectionWorkspace { size, fourier, samples, path, forces, sensitivity, assembly }
     }
 }
 

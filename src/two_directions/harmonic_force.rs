@@ -97,18 +97,18 @@ impl<'a> Layout<'a> for TwoDirectionsWorkspace<'a> {
         8 * size.samples + 256
     }
 
-    fn take(size: Size, parts: &mut Parts<'a>) -> Result<TwoDirectionsWorkspace<'a>, Error> {
+    fn take(size: Size, parts: &mut Parts<'a>) -> TwoDirectionsWorkspace<'a> {
         // One column for each coefficient of the motion, in whole blocks.
         let (columns, sums) = (COLUMNS * size.coefficients().div_ceil(BLOCK), 2 * size.coefficients());
-        Ok(TwoDirectionsWorkspace {
+        TwoDirectionsWorkspace {
             size,
-            basis: parts.take(size.coefficients() * size.samples)?,
-            samples: parts.take_records(size.samples)?,
-            changes: parts.take(CHANGES * columns)?,
-            forces: parts.take(2 * columns)?,
-            earlier: parts.take(CHANGES * columns)?,
-            sums: parts.take(sums * columns)?,
-        })
+            basis: parts.take(size.coefficients() * size.samples),
+            samples: parts.take_records(size.samples),
+            changes: parts.take(CHANGES * columns),
+            forces: parts.take(2 * columns),
+            earlier: parts.take(CHANGES * columns),
+            sums: parts.take(sums * columns),
+        }
     }
 
     fn fill(&mut self) {

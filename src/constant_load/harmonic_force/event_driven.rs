@@ -23,7 +23,6 @@ use crate::constant_load::contact::Contact;
 use crate::constant_load::evaluator::Response;
 use crate::constant_load::memory::{Point, Reversal};
 use crate::constant_load::steady_state::SteadyState;
-use crate::error::Error;
 use crate::fourier::folded::{FoldedFourier, sample_length};
 use crate::fourier::rows::row_blocks;
 use crate::fourier::sampled_jacobian::Assembly;
@@ -84,25 +83,25 @@ impl<'a> Layout<'a> for EventWorkspace<'a> {
         self.buffers.grid.fourier.fill();
     }
 
-    fn take(size: Size, parts: &mut Parts<'a>) -> Result<EventWorkspace<'a>, Error> {
+    fn take(size: Size, parts: &mut Parts<'a>) -> EventWorkspace<'a> {
         let (points, row, reversals) = (grid_points(size), row_blocks(size.harmonics), most_reversals(size));
         let buffers = Buffers {
             harmonics: size.harmonics,
             grid: Grid {
                 points,
-                fourier: FoldedFourier::take(parts, points, size.harmonics.next_multiple_of(2))?,
-                coefficients: parts.take(size.coefficients())?,
-                rate: parts.take(sample_length(points))?,
+                fourier: FoldedFourier::take(parts, points, size.harmonics.next_multiple_of(2)),
+                coefficients: parts.take(size.coefficients()),
+                rate: parts.take(sample_length(points)),
             },
-            instants: parts.take_records(points)?,
-            nodes: NodalFourier::take(parts, size)?,
-            gradients: parts.take_blocks(2 * row * reversals)?,
-            phi_integrals: parts.take_blocks(row)?,
-            segment_stiffness: parts.take_blocks(2 * row)?,
-            force: parts.take(size.coefficients())?,
-            assembly: Assembly::take(parts, size.harmonics, 0.5 / PI)?,
+            instants: parts.take_records(points),
+            nodes: NodalFourier::take(parts, size),
+            gradients: parts.take_blocks(2 * row * reversals),
+            phi_integrals: parts.take_blocks(row),
+            segment_stiffness: parts.take_blocks(2 * row),
+            force: parts.take(size.coefficients()),
+            assembly: Assembly::take(parts, size.harmonics, 0.5 / PI),
         };
-        Ok(EventWorkspace { reversals: parts.take(3 * reversals)?.blocks_mut(), buffers })
+        EventWorkspace { reversals: parts.take(3 * reversals).blocks_mut(), buffers }
     }
 }
 

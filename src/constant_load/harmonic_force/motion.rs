@@ -191,8 +191,10 @@ mod tests {
         let (harmonics, points) = (4, 64);
         let n = 2 * harmonics + 1;
         let (mut rate, mut row) = (vec![0.0; sample_length(points)], vec![0.0; n]);
-        let mut memory = vec![0.0; Parts::count(|parts| FoldedFourier::take(parts, points, harmonics))];
-        let mut fourier = FoldedFourier::take(&mut Parts::Taking(&mut memory), points, harmonics).unwrap();
+        let mut parts = Parts::new(&mut []);
+        FoldedFourier::take(&mut parts, points, harmonics);
+        let mut memory = vec![0.0; parts.doubles];
+        let mut fourier = FoldedFourier::take(&mut Parts::new(&mut memory), points, harmonics);
         fourier.fill();
         let mut grid = Grid { points, fourier, coefficients: &mut row, rate: &mut rate };
         for shift in [0.0, 0.02, 0.05, 0.1, 0.5] {

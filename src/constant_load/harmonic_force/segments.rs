@@ -4,7 +4,6 @@
 //! the onset of gross slip has a singularity there, a power of the cube root of the distance; its nodes are those of the cube root.
 
 use super::motion::{Motion, harmonics};
-use crate::error::Error;
 use crate::fourier::workspace::{Parts, Size};
 use crate::numerics::lanes::Lanes;
 use crate::numerics::quadrature::{MAX_GAUSS_BLOCKS, gauss_rule};
@@ -78,9 +77,9 @@ pub(super) struct NodalFourier<'a> {
 
 impl<'a> NodalFourier<'a> {
     /// For orders up to 2H.
-    pub fn take(parts: &mut Parts<'a>, size: Size) -> Result<NodalFourier<'a>, Error> {
-        let rows = parts.take_blocks(4 * size.harmonics * MAX_GAUSS_BLOCKS)?.blocks_mut().blocks_mut();
-        Ok(NodalFourier { nodes_per_period: size.samples, rows })
+    pub fn take(parts: &mut Parts<'a>, size: Size) -> NodalFourier<'a> {
+        let rows = parts.take_blocks(4 * size.harmonics * MAX_GAUSS_BLOCKS).blocks_mut().blocks_mut();
+        NodalFourier { nodes_per_period: size.samples, rows }
     }
 
     /// Adds the integrals of functions of the displacement over a segment times 1, cos t, sin t, cos 2t, ... to their sums; those without

@@ -10,7 +10,6 @@ use super::{HarmonicOutput, RequestedOfCurve};
 use crate::constant_load::contact::Contact;
 use crate::constant_load::memory::{Branch, Point, Reversal};
 use crate::constant_load::steady_state::SteadyState;
-use crate::error::Error;
 use crate::fourier::folded::FoldedFourier;
 use crate::fourier::rows::{OuterProducts, Rows, row_blocks};
 use crate::fourier::sampled_jacobian::Assembly;
@@ -42,25 +41,25 @@ impl<'a> Layout<'a> for UniformWorkspace<'a> {
         self.terms.rows.fill();
     }
 
-    fn take(size: Size, parts: &mut Parts<'a>) -> Result<UniformWorkspace<'a>, Error> {
+    fn take(size: Size, parts: &mut Parts<'a>) -> UniformWorkspace<'a> {
         let Size { harmonics, samples: count, .. } = size;
         // One reversal and one branch per sample, and one more.
         let capacity = count + 1;
-        let fourier = FoldedFourier::take(parts, count, 2 * harmonics)?;
-        let rows = Rows::take(parts, harmonics, count)?;
+        let fourier = FoldedFourier::take(parts, count, 2 * harmonics);
+        let rows = Rows::take(parts, harmonics, count);
         // Whole blocks of four from any sample on.
-        let [displacement, force, stiffness] = parts.take_arrays(2 * count + 7)?;
-        let scratch = parts.take_arrays(count + 7)?;
-        let branches = parts.take_records(capacity)?;
-        let reversals = parts.take(3 * capacity)?.blocks_mut();
-        let entries = parts.take_records(capacity)?;
-        let sums = parts.take_blocks(2 * row_blocks(harmonics) * capacity)?;
-        let outer = OuterProducts::take(parts, harmonics, capacity, 1)?;
-        let assembly = Assembly::take(parts, harmonics, 1.0 / count as f64)?;
-        let derivatives = parts.take(PARAMETERS * count)?.blocks_mut();
+        let [displacement, force, stiffness] = parts.take_arrays(2 * count + 7);
+        let scratch = parts.take_arrays(count + 7);
+        let branches = parts.take_records(capacity);
+        let reversals = parts.take(3 * capacity).blocks_mut();
+        let entries = parts.take_records(capacity);
+        let sums = parts.take_blocks(2 * row_blocks(harmonics) * capacity);
+        let outer = OuterProducts::take(parts, harmonics, capacity, 1);
+        let assembly = Assembly::take(parts, harmonics, 1.0 / count as f64);
+        let derivatives = parts.take(PARAMETERS * count).blocks_mut();
         let path = SampledPath { displacement, force, stiffness, scratch, branches };
         let terms = ReversalTerms { rows, entries, sums, outer };
-        Ok(UniformWorkspace { size, fourier, reversals, path, terms, assembly, derivatives })
+        UniformWorkspace { size, fourier, reversals, path, terms, assembly, derivatives }
     }
 }
 
