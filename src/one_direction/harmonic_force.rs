@@ -91,6 +91,7 @@ impl<'a> Layout<'a> for OneDirectionWorkspace<'a> {
         let forces =
             Forces { force, cut_load, cut_stiffness, slope, last_cut: parts.take_records(sample_length(count)) };
         let (knots, runs) = (parts.take_records(capacity), parts.take_records(capacity));
+
         let (knots, runs) = (Stack { values: knots, depth: 0 }, Stack { values: runs, depth: 0 });
         let path = PeriodicPath { knots, runs, cut_shift, cut_count: 0 };
         let pieces = parts.take_records(capacity);
@@ -262,9 +263,8 @@ impl OneDirectionWorkspace<'_> {
             return Ok(motion);
         }
         fourier.synthesise(input, samples.input);
-        let largest = largest_of(samples.input, |input| input);
-        motion.least_input = -largest_of(samples.input, |input| -input);
-        if motion.least_input < -rounding {
+        let [least, largest] = [-largest_of(-1.0, samples.input), largest_of(1.0, samples.input)];
+        if least < -rounding {
             return Err(Error::BadNormalForce);
         }
         element.check_normal(element.by_approach(), largest.max(0.0))?;
@@ -272,7 +272,8 @@ impl OneDirectionWorkspace<'_> {
         if motion.open {
             return Ok(motion);
         }
-        if !element.is_closed(motion.least_input) {
+        motion.least_input = least;
+        if !element.is_closed(least) {
             let open = |input: f64| if element.is_closed(input) { input } else { input.min(0.0) };
             samples.input.iter_mut().for_each(|input| *input = open(*input));
         }

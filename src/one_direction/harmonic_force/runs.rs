@@ -169,8 +169,9 @@ impl PeriodicPath<'_> {
     /// one was removed.
     fn close_loops(&mut self, x: f64, y: f64) -> bool {
         let before = self.knots.depth;
-        while let Some(RunKnot { xi, eta, .. }) = self.knots.top()
-            && !(*xi > x && *eta < y)
+        while let Some(&RunKnot { xi, eta, .. }) =
+            self.knots.depth.checked_sub(1).and_then(|top| self.knots.values.get(top))
+            && !(xi > x && eta < y)
         {
             self.knots.depth -= 1;
         }
