@@ -3,7 +3,8 @@
 use crate::contact_spec::ContactArgs;
 use crate::number::parse_number;
 use crate::units::DataUnits;
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Arg, ArgAction, Args, Command as Program, CommandFactory, Parser, Subcommand, ValueEnum, value_parser};
+use std::any::TypeId;
 use std::path::PathBuf;
 
 /// Friction law of a contact: properties, curves, hysteresis loops and complex stiffness as CSV and as pictures.
@@ -15,6 +16,22 @@ use std::path::PathBuf;
 pub struct Arguments {
     #[command(subcommand)]
     pub command: Command,
+}
+
+/// The program, with what all options of a kind have in common.
+pub fn program() -> Program {
+    Arguments::command().mut_subcommands(|command| command.mut_args(of_kind))
+}
+
+/// Numbers may be negative, or have exponents of Fortran. Lists are separated by commas. A grid has both ends at least.
+fn of_kind(option: Arg) -> Arg {
+    let is_number = option.get_value_parser().type_id() == TypeId::of::<f64>();
+    let option = match option.get_id().as_str() {
+        "points" => option.value_parser(value_parser!(u32).range(2..=1_000_000)),
+        _ if is_number => option.value_parser(parse_number).allow_hyphen_values(true),
+        _ => option,
+    };
+    if matches!(option.get_action(), ArgAction::Append) { option.value_delimiter(',') } else { option }
 }
 
 macro_rules! units_help {
@@ -174,14 +191,14 @@ const RELATIVE: &str = "Forces are multiples of the slip force, displacements of
 #[derive(Debug, Args)]
 pub struct Tractions {
     /// Tangential forces T, at most mu N in magnitude [default: half of mu N]
-    #[arg(long, value_name = "N", value_delimiter = ',', value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(long, value_name = "N")]
     pub force: Vec<f64>,
     /// Positions along the width [default: points from -b to b, denser at the edges]
-    #[arg(long, value_name = "m", value_delimiter = ',', value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(long, value_name = "m")]
     #[arg(conflicts_with = "points")]
     pub position: Vec<f64>,
     /// Number of positions
-    #[arg(long, value_name = "COUNT", default_value_t = 201, value_parser = at_least_two())]
+    #[arg(long, value_name = "COUNT", default_value_t = 201)]
     pub points: u32,
     #[arg(long, help = RELATIVE)]
     pub relative: bool,
@@ -190,35 +207,35 @@ pub struct Tractions {
 #[derive(Debug, Args)]
 pub struct LayerOptions {
     /// Measured tangential stiffness of contact and layer together, under one or two loads; two determine the stiffening load
-    #[arg(long, value_name = "N/m", value_delimiter = ',', value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(long, value_name = "N/m")]
     pub measured_stiffness: Vec<f64>,
     /// Normal force of each measurement [default: the normal force]
-    #[arg(long, value_name = "N", value_delimiter = ',', value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(long, value_name = "N")]
     #[arg(requires = "measured_stiffness")]
     pub at: Vec<f64>,
     /// Tangential force up to which the one measured stiffness is the secant from rest [default: 0, the initial stiffness]
-    #[arg(long, value_name = "N", value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(long, value_name = "N")]
     #[arg(requires = "measured_stiffness")]
     pub secant_force: Option<f64>,
     /// Root mean square of the heights of both surfaces
-    #[arg(long, value_name = "m", value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(long, value_name = "m")]
     pub rms_height: Option<f64>,
 }
 
 #[derive(Debug, Args)]
 pub struct Curve {
     /// Largest displacement >= 0 of a uniform grid from 0 [default: 1.25 slip displacements]
-    #[arg(long, value_name = "m", value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(long, value_name = "m")]
     pub to: Option<f64>,
     /// Number of points of the grid
-    #[arg(long, value_name = "COUNT", default_value_t = 201, value_parser = at_least_two())]
+    #[arg(long, value_name = "COUNT", default_value_t = 201)]
     pub points: u32,
     /// Displacements instead of a grid
-    #[arg(long, value_name = "m", value_delimiter = ',', value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(long, value_name = "m")]
     #[arg(conflicts_with_all = ["to", "points"])]
     pub displacement: Vec<f64>,
     /// Forces, at most mu N in magnitude, instead of a grid
-    #[arg(long, value_name = "N", value_delimiter = ',', value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(long, value_name = "N")]
     #[arg(conflicts_with_all = ["to", "points", "displacement"])]
     pub force: Vec<f64>,
     #[arg(long, help = RELATIVE)]
@@ -228,17 +245,17 @@ pub struct Curve {
 #[derive(Debug, Args)]
 pub struct Loop {
     /// Displacement amplitudes [default: 0.5, 1 and 1.5 slip displacements]
-    #[arg(long, value_name = "m", value_delimiter = ',', value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(long, value_name = "m")]
     pub amplitude: Vec<f64>,
     /// Number of points of a period, uniformly spaced in time; the first is repeated at the end
-    #[arg(long, value_name = "COUNT", default_value_t = 200, value_parser = at_least_two())]
+    #[arg(long, value_name = "COUNT", default_value_t = 200)]
     pub points: u32,
     /// Amplitude of a harmonic variation of the normal force about normal_force; the contact is open while the sum is
     /// negative
-    #[arg(long, value_name = "N", value_parser = parse_number, allow_hyphen_values = true, requires = "phase")]
+    #[arg(long, value_name = "N", requires = "phase")]
     pub normal_amplitude: Option<f64>,
     /// Phases by which the normal force leads the displacement, from -360 to 360
-    #[arg(long, value_name = "DEGREES", value_delimiter = ',', value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(long, value_name = "DEGREES")]
     #[arg(requires = "normal_amplitude")]
     pub phase: Vec<f64>,
     /// Amplitudes are multiples of the slip displacement and of normal_force
@@ -249,16 +266,16 @@ pub struct Loop {
 #[derive(Debug, Args)]
 pub struct Amplitudes {
     /// Smallest amplitude of a logarithmic grid [default: 0.01 slip displacements]
-    #[arg(long, value_name = "m", value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(long, value_name = "m")]
     pub from: Option<f64>,
     /// Largest amplitude of the grid [default: 100 slip displacements]
-    #[arg(long, value_name = "m", value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(long, value_name = "m")]
     pub to: Option<f64>,
     /// Number of amplitudes of the grid
-    #[arg(long, value_name = "COUNT", default_value_t = 201, value_parser = at_least_two())]
+    #[arg(long, value_name = "COUNT", default_value_t = 201)]
     pub points: u32,
     /// Amplitudes instead of a grid
-    #[arg(long, value_name = "m", value_delimiter = ',', value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(long, value_name = "m")]
     #[arg(conflicts_with_all = ["from", "to", "points"])]
     pub amplitude: Vec<f64>,
     #[arg(long, help = RELATIVE)]
@@ -294,17 +311,17 @@ pub struct History {
 #[derive(Debug, Args)]
 pub struct Normal {
     /// Largest approach >= 0 of a uniform grid from 0 [default: the approach under normal_force]
-    #[arg(long, value_name = "m", value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(long, value_name = "m")]
     pub to: Option<f64>,
     /// Number of points of the grid
-    #[arg(long, value_name = "COUNT", default_value_t = 201, value_parser = at_least_two())]
+    #[arg(long, value_name = "COUNT", default_value_t = 201)]
     pub points: u32,
     /// Approaches instead of a grid; 0 or less if the contact is open
-    #[arg(long, value_name = "m", value_delimiter = ',', value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(long, value_name = "m")]
     #[arg(conflicts_with_all = ["to", "points"])]
     pub approach: Vec<f64>,
     /// Normal forces instead of a grid
-    #[arg(long, value_name = "N", value_delimiter = ',', value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(long, value_name = "N")]
     #[arg(conflicts_with_all = ["to", "points", "approach"])]
     pub force: Vec<f64>,
     /// Forces are multiples of normal_force, approaches of the one under it
@@ -322,7 +339,7 @@ pub struct Iwan {
 #[derive(Debug, Args)]
 pub struct Fit {
     /// Tables of displacement and tangential force, each with at least one cycle, at any amplitudes and loads
-    #[arg(long, value_name = "FILE.csv", value_delimiter = ',', required = true)]
+    #[arg(long, value_name = "FILE.csv", required = true)]
     pub measured: Vec<PathBuf>,
     /// Column of displacements: its name in the header, or its number from 1 [default: displacement]
     #[arg(long, value_name = "NAME")]
@@ -340,7 +357,7 @@ pub struct Fit {
     #[arg(long, value_name = "LINES", default_value_t = 0)]
     pub skip: usize,
     /// Constant normal force of each table, or of all [default: normal_force of the contact]
-    #[arg(long, value_name = "N", value_delimiter = ',', value_parser = parse_number)]
+    #[arg(long, value_name = "N")]
     pub loads: Vec<f64>,
     /// Units of displacement and forces in the tables, if their headers have none: m, cm, mm, um or nm; N, mN or kN [default: those
     /// of the contact]
@@ -348,7 +365,7 @@ pub struct Fit {
     pub data_units: Option<DataUnits>,
     /// What is not fitted: friction_coefficient, series_compliance, contact_compliance (a factor on the displacements of the law),
     /// parallel_stiffness with a value [default: of the contact, 0, 1, 0], shape; in the units of the contact
-    #[arg(long, value_name = "NAME[=VALUE]", value_delimiter = ',', value_parser = parse_fixed)]
+    #[arg(long, value_name = "NAME[=VALUE]", value_parser = parse_fixed)]
     pub fix: Vec<(Fixable, Option<f64>)>,
     /// Parameter of shape that is fitted
     #[arg(long, value_name = "NAME", default_value = "flat_half_width")]
@@ -390,9 +407,4 @@ fn parse_fixed(text: &str) -> Result<(Fixable, Option<f64>), String> {
         Some(_) if parameter == Fixable::Shape => Err("shape has no value: it is that of the contact".to_owned()),
         value => Ok((parameter, value)),
     }
-}
-
-/// Number of points of a grid: both ends at least.
-fn at_least_two() -> clap::builder::RangedI64ValueParser<u32> {
-    clap::value_parser!(u32).range(2..=1_000_000)
 }

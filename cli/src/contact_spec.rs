@@ -2,7 +2,7 @@
 
 use crate::error::{CliError, Result, input, usage};
 use crate::files::{PARAMETERS_SIZE, read_text};
-use crate::number::{format_list, parse_number};
+use crate::number::format_list;
 use crate::units::{Quantity, Units};
 use clap::{Args, ValueEnum};
 use microslip::element::{Directions, Element, NormalInput};
@@ -18,45 +18,45 @@ use std::path::Path;
 #[command(next_help_heading = "Contact (each option overrides the parameter file)")]
 pub struct ContactArgs {
     /// Half-width a >= 0 of the flat; 0 is a cylinder
-    #[arg(long, value_name = "m", value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(long, value_name = "m")]
     pub flat_half_width: Option<f64>,
     /// Radius R > 0 of the rounded edges, or of the cylinder
-    #[arg(long, value_name = "m", value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(long, value_name = "m")]
     pub edge_radius: Option<f64>,
     /// Length L > 0 of the contact along its line
-    #[arg(long, value_name = "m", value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(long, value_name = "m")]
     pub length: Option<f64>,
     /// Elliptical contact: semi-axis b > 0 along the tangential force
-    #[arg(long, value_name = "m", value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(long, value_name = "m")]
     pub semi_axis_x: Option<f64>,
     /// Elliptical contact: semi-axis l > 0 across the tangential force
-    #[arg(long, value_name = "m", value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(long, value_name = "m")]
     pub semi_axis_y: Option<f64>,
     /// Normal force N >= 0, total; 0 is an open contact
-    #[arg(long, value_name = "N", value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(long, value_name = "N")]
     pub normal_force: Option<f64>,
     /// Coulomb's friction coefficient mu >= 0
-    #[arg(long, value_name = "NUMBER", value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(long, value_name = "NUMBER")]
     pub friction_coefficient: Option<f64>,
     /// Young's modulus of both bodies, or of each: 200e9,114e9
-    #[arg(long, value_name = "Pa", value_delimiter = ',', value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(long, value_name = "Pa")]
     #[serde(skip)]
     young_modulus: Vec<f64>,
     /// Poisson's ratio of both bodies, or of each: 0.3,0.32
-    #[arg(long, value_name = "NUMBER", value_delimiter = ',', value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(long, value_name = "NUMBER")]
     #[serde(skip)]
     poisson_ratio: Vec<f64>,
     /// Layer in series with the contact: compliance c_n >= 0 under the reference load [default: 0, none]
-    #[arg(long, value_name = "m/N", value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(long, value_name = "m/N")]
     normal_compliance: Option<f64>,
     /// Layer: compliance c_t >= 0 along the tangential force, under the reference load [default: 0, none]
-    #[arg(long, value_name = "m/N", value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(long, value_name = "m/N")]
     tangential_compliance: Option<f64>,
     /// Layer: N_c, its stiffness grows in proportion to N + N_c [default: 0, constant stiffness]
-    #[arg(long, value_name = "N", value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(long, value_name = "N")]
     pub stiffening_load: Option<f64>,
     /// Layer: the load under which its compliances hold, as measured [default: the normal force]
-    #[arg(long, value_name = "N", value_parser = parse_number, allow_hyphen_values = true)]
+    #[arg(long, value_name = "N")]
     reference_load: Option<f64>,
     /// Reference of the displacement of a flat: rigid_strip for the contact of a machine
     #[arg(long, value_name = "NAME")]

@@ -22,7 +22,7 @@ mod varying_load;
 use args::{Arguments, Command, ContactCommand};
 use canvas::Format;
 use clap::error::ErrorKind;
-use clap::{Args, CommandFactory, FromArgMatches};
+use clap::{Args, FromArgMatches};
 use commands::Report;
 use contact_spec::ContactSpec;
 use error::{CliError, Result, usage};
@@ -31,7 +31,7 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let (mut program, matches) = (Arguments::command(), Arguments::command().get_matches());
+    let (mut program, matches) = (args::program(), args::program().get_matches());
     match Arguments::from_arg_matches(&matches).map_or_else(|error| error.exit(), |arguments| run(&arguments.command)) {
         Ok(status) => ExitCode::from(status),
         Err(CliError::Input(message)) => {
