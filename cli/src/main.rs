@@ -20,7 +20,6 @@ mod units;
 mod varying_load;
 
 use args::{Arguments, Command, ContactCommand};
-use canvas::Format;
 use clap::error::ErrorKind;
 use clap::{Args, FromArgMatches};
 use commands::Report;
@@ -96,7 +95,8 @@ fn execute<Options: Args>(
     let report = compute(options, &ContactSpec::read(parameters, contact)?)?;
     report.warnings.iter().for_each(|warning| print_message("warning", warning));
     if let Some((path, format)) = plot {
-        let picture = report.picture.draw(format).map_err(|error| CliError::in_file(path, error))?;
+        let picture = format(report.picture.draw());
+        let picture = picture.ok_or_else(|| CliError::in_file(path, "the picture is too large for the format"))?;
         files::write_file(path, &picture)?;
     }
     match out {
@@ -106,11 +106,14 @@ fn execute<Options: Args>(
     Ok(report.status)
 }
 
+/// From SVG to the content of a file.
+type Format = fn(String) -> Option<Vec<u8>>;
+
 fn format_of(path: &Path) -> Result<Format> {
     let extension = path.extension().map(|extension| extension.to_ascii_lowercase());
     match extension.as_deref().and_then(|extension| extension.to_str()) {
-        Some("svg") => Ok(Format::Svg),
-        Some("png") => Ok(Format::Png),
+        Some("svg") => Ok(|svg| Some(svg.into_bytes())),
+        Some("png") => Ok(|svg| canvas::png(&svg)),
         _ => usage(format!("--plot {}: the extension must be .svg or .png", path.display())),
     }
 }

@@ -1,7 +1,7 @@
 //! Pictures: rows of one or two panels, axes with units, and a legend. A stroke has the same meaning in all panels of a picture.
 //! Margins and width follow from the widths of the texts.
 
-use crate::canvas::{Bitmap, Canvas, Format, Point, Stroke, Svg, text_width};
+use crate::canvas::{Point, Stroke, Svg, text_width};
 use crate::number::format_number;
 use crate::units::{Quantity, Units};
 use std::collections::HashSet;
@@ -105,62 +105,36 @@ struct Graph<'a> {
     height: f64,
 }
 
-/// Where graphs and legend are drawn.
-struct Layout<'a> {
-    rows: Vec<Vec<Graph<'a>>>,
-    legend: Vec<&'a Line>,
-    /// Left edge of the graphs.
-    left: f64,
-    /// Width and height of the picture.
-    size: (u32, u32),
-}
-
 impl Picture {
-    /// The contents of the file.
-    pub fn draw(&self, format: Format) -> Result<Vec<u8>, &'static str> {
-        let layout = self.layout();
-        match format {
-            Format::Svg => {
-                let mut svg = Svg::new(layout.size);
-                self.draw_on(&mut svg, &layout);
-                Ok(svg.finish())
-            }
-            Format::Png => {
-                let mut bitmap = Bitmap::new(layout.size).ok_or("the bitmap cannot be created")?;
-                self.draw_on(&mut bitmap, &layout);
-                bitmap.finish().ok_or("the bitmap cannot be encoded")
-            }
-        }
-    }
-
-    fn layout(&self) -> Layout<'_> {
+    /// The content of an SVG file.
+    pub fn draw(&self) -> String {
         let rows: Vec<Vec<Graph>> = self.rows.iter().map(|row| self.graphs(row)).collect();
         let left = rows.iter().map(|row| row[0].margin()).fold(0.0, f64::max);
+        let right = left + GRAPH_WIDTH;
         let legend = self.legend();
         let names = legend.iter().map(|line| text_width(&line.name)).fold(0.0, f64::max);
         let of_legend = if legend.is_empty() { 0.0 } else { KEY_LENGTH + PADDING + names + PADDING };
-        let width = (left + GRAPH_WIDTH + 2.0 * PADDING + of_legend).max(text_width(&self.caption) + 2.0 * PADDING);
+        let width = (right + 2.0 * PADDING + of_legend).max(text_width(&self.caption) + 2.0 * PADDING);
         let height: f64 = rows.iter().map(|row| row[0].height + BELOW_GRAPH).sum();
         let height = CAPTION_HEIGHT + height.max(LINE_HEIGHT * legend.len() as f64);
-        Layout { rows, legend, left, size: (width.ceil() as u32, height.ceil() as u32) }
-    }
 
-    fn draw_on(&self, canvas: &mut dyn Canvas, layout: &Layout) {
-        canvas.text(&self.caption, (PADDING, 0.5 * CAPTION_HEIGHT), 0.0, false);
-        let (left, right, mut top) = (layout.left, layout.left + GRAPH_WIDTH, CAPTION_HEIGHT);
-        for row in &layout.rows {
-            row[0].draw_on(canvas, (left, top));
+        let mut svg = Svg::new((width.ceil() as u32, height.ceil() as u32));
+        svg.text(&self.caption, (PADDING, 0.5 * CAPTION_HEIGHT), 0.0, false);
+        let mut top = CAPTION_HEIGHT;
+        for row in &rows {
+            row[0].draw_on(&mut svg, (left, top));
             if let Some(second) = row.get(1) {
-                second.draw_on(canvas, (right - second.width, top));
+                second.draw_on(&mut svg, (right - second.width, top));
             }
             top += row[0].height + BELOW_GRAPH;
         }
         let start = right + 2.0 * PADDING;
-        for (i, line) in layout.legend.iter().enumerate() {
+        for (i, line) in legend.iter().enumerate() {
             let middle = CAPTION_HEIGHT + LINE_HEIGHT * (i as f64 + 0.5);
-            canvas.lines(&[vec![(start, middle), (start + KEY_LENGTH, middle)]], &stroke(line.stroke));
-            canvas.text(&line.name, (start + KEY_LENGTH + PADDING, middle), 0.0, false);
+            svg.lines(&[vec![(start, middle), (start + KEY_LENGTH, middle)]], &stroke(line.stroke));
+            svg.text(&line.name, (start + KEY_LENGTH + PADDING, middle), 0.0, false);
         }
+        svg.finish()
     }
 
     /// The first line of each name.
@@ -214,25 +188,25 @@ impl Graph<'_> {
     }
 
     /// Draws the graph, with labels to the left and below.
-    fn draw_on(&self, canvas: &mut dyn Canvas, (left, top): Point) {
+    fn draw_on(&self, svg: &mut Svg, (left, top): Point) {
         let Graph { panel, x, y, .. } = self;
         let (right, bottom) = (left + self.width, top + self.height);
         let to_x = |place: f64| left + x.fraction(place) * self.width;
         let to_y = |place: f64| bottom - y.fraction(place) * self.height;
 
         for &tick in &x.ticks {
-            canvas.lines(&[vec![(to_x(tick), top), (to_x(tick), bottom)]], &GRID);
-            canvas.lines(&[vec![(to_x(tick), bottom), (to_x(tick), bottom + TICK_LENGTH)]], &AXIS);
-            canvas.text(&x.tick_label(tick), (to_x(tick), bottom + 15.0), 0.5, false);
+            svg.lines(&[vec![(to_x(tick), top), (to_x(tick), bottom)]], &GRID);
+            svg.lines(&[vec![(to_x(tick), bottom), (to_x(tick), bottom + TICK_LENGTH)]], &AXIS);
+            svg.text(&x.tick_label(tick), (to_x(tick), bottom + 15.0), 0.5, false);
         }
         for &tick in &y.ticks {
-            canvas.lines(&[vec![(left, to_y(tick)), (right, to_y(tick))]], &GRID);
-            canvas.lines(&[vec![(left - TICK_LENGTH, to_y(tick)), (left, to_y(tick))]], &AXIS);
-            canvas.text(&y.tick_label(tick), (left - 2.0 * TICK_LENGTH, to_y(tick)), 1.0, false);
+            svg.lines(&[vec![(left, to_y(tick)), (right, to_y(tick))]], &GRID);
+            svg.lines(&[vec![(left - TICK_LENGTH, to_y(tick)), (left, to_y(tick))]], &AXIS);
+            svg.text(&y.tick_label(tick), (left - 2.0 * TICK_LENGTH, to_y(tick)), 1.0, false);
         }
-        canvas.lines(&[vec![(left, top), (left, bottom), (right, bottom)]], &AXIS);
-        canvas.text(&x.label, (0.5 * (left + right), bottom + 38.0), 0.5, false);
-        canvas.text(&y.label, (left - self.margin() + PADDING + 8.0, 0.5 * (top + bottom)), 0.5, true);
+        svg.lines(&[vec![(left, top), (left, bottom), (right, bottom)]], &AXIS);
+        svg.text(&x.label, (0.5 * (left + right), bottom + 38.0), 0.5, false);
+        svg.text(&y.label, (left - self.margin() + PADDING + 8.0, 0.5 * (top + bottom)), 0.5, true);
 
         for line in &panel.lines {
             let stroke = stroke(line.stroke);
@@ -243,9 +217,9 @@ impl Graph<'_> {
                 match &thinned(part, MAX_POINTS / panel.lines.len())[..] {
                     [single] if single.len() == 1 => {
                         let (x, y) = single[0];
-                        canvas.lines(&[vec![(x - 4.0, y), (x + 4.0, y)]], &Stroke { width: 8.0, dash: None, ..stroke });
+                        svg.lines(&[vec![(x - 4.0, y), (x + 4.0, y)]], &Stroke { width: 8.0, dash: None, ..stroke });
                     }
-                    lines => canvas.lines(lines, &stroke),
+                    lines => svg.lines(lines, &stroke),
                 }
             }
         }
@@ -428,26 +402,8 @@ impl Scale {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// Boxes of the texts: left, right, top, bottom.
-    #[derive(Default)]
-    struct Texts(Vec<([f64; 4], String)>);
-
-    impl Canvas for Texts {
-        fn lines(&mut self, _: &[Vec<Point>], _: &Stroke) {}
-
-        fn text(&mut self, text: &str, (x, y): Point, before: f32, rotated: bool) {
-            // The height of capital letters is 0.72 times the font size of 14.
-            let (width, before, half) = (text_width(text), f64::from(before), 5.0);
-            let along = [-before * width, (1.0 - before) * width];
-            let ends = if rotated {
-                [x - half, x + half, y - along[1], y - along[0]]
-            } else {
-                [x + along[0], x + along[1], y - half, y + half]
-            };
-            self.0.push((ends, text.to_owned()));
-        }
-    }
+    use crate::canvas::parsed;
+    use resvg::usvg::Node;
 
     #[test]
     fn texts_lie_inside_the_picture_and_apart() {
@@ -473,15 +429,22 @@ mod tests {
         for rows in [rows, vec![panel(1e-9).into()]] {
             let caption = "N = 150 N, ".repeat(12);
             let picture = Picture { caption, units: Units::Si, rows };
-            let (layout, mut texts) = (picture.layout(), Texts::default());
-            picture.draw_on(&mut texts, &layout);
-            let (width, height) = (f64::from(layout.size.0), f64::from(layout.size.1));
-            for (i, (one, text)) in texts.0.iter().enumerate() {
-                let [left, right, top, bottom] = *one;
-                assert!(left >= 0.0 && right <= width && top >= 0.0 && bottom <= height, "{text}: {one:?}");
-                for (other, other_text) in &texts.0[..i] {
-                    let apart = right <= other[0] || other[1] <= left || bottom <= other[2] || other[3] <= top;
-                    assert!(apart, "{text} covers {other_text}: {one:?} {other:?}");
+            let drawn = parsed(&picture.draw()).unwrap();
+            let texts = drawn.root().children().iter().filter_map(|node| match node {
+                Node::Group(group) => match &group.children()[0] {
+                    Node::Text(text) => Some((text.abs_bounding_box(), text.chunks()[0].text())),
+                    _ => None,
+                },
+                _ => None,
+            });
+            let texts: Vec<_> = texts.collect();
+            assert!(texts.len() > 10);
+            for (i, (one, text)) in texts.iter().enumerate() {
+                let (width, height) = (drawn.size().width(), drawn.size().height());
+                let is_inside = one.left() >= 0.0 && one.right() <= width && one.top() >= 0.0 && one.bottom() <= height;
+                assert!(is_inside, "{text}: {one:?}");
+                for (other, other_text) in &texts[..i] {
+                    assert!(one.intersect(other).is_none(), "{text} covers {other_text}: {one:?} {other:?}");
                 }
             }
         }
