@@ -4,10 +4,10 @@ use crate::error::{CliError, Result, input, usage};
 use crate::files::{PARAMETERS_SIZE, read_text};
 use crate::number::format_list;
 use crate::units::{Quantity, Units};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use microslip::element::{Directions, Element, NormalInput};
-use microslip::parameters::{CENTRE_POINT, RIGID_STRIP};
-use microslip::{Contact, EllipticParameters, Error, Layer, Material, Parameters};
+use microslip::{Contact, Error, Layer, Material};
+use microslip_fit::{ContactParameters, DisplacementReference, Geometry};
 use serde::Deserialize;
 use std::ffi::CStr;
 use std::path::Path;
@@ -60,7 +60,7 @@ pub struct ContactArgs {
     reference_load: Option<f64>,
     /// Reference of the displacement of a flat: rigid_strip for the contact of a machine
     #[arg(long, value_name = "NAME")]
-    displacement_reference: Option<Reference>,
+    displacement_reference: Option<DisplacementReference>,
     /// Units of input and output; must agree with those of a parameter file [default: si]
     #[arg(long, value_name = "NAME")]
     units: Option<Units>,
@@ -75,16 +75,6 @@ pub struct ContactArgs {
 struct MaterialTable {
     young_modulus: Option<f64>,
     poisson_ratio: Option<f64>,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, ValueEnum, Deserialize)]
-#[serde(rename_all = "snake_case")]
-#[value(rename_all = "snake_case")]
-enum Reference {
-    /// A rigid strip, corrected to three-dimensional contact mechanics: the contact of a machine
-    RigidStrip,
-    /// The centre of the contact, under a line of uniform traction: as in the paper, 7 to 13 % more compliant
-    CentrePoint,
 }
 
 /// A contact and the parameters that define it.
@@ -103,7 +93,7 @@ impl ContactSpec {
             given.add(parse(&read_text(path, PARAMETERS_SIZE)?).map_err(|reason| CliError::in_file(path, reason))?)?;
         }
         given.check_presence()?;
-        let contact = given.contact()?.map_err(|error| {
+        let contact = given.parameters()?.contact().map_err(|error| {
             let (message, parameter) = given.explain(error);
             let others =
                 given.implausible().into_iter().filter(|text| parameter.is_none_or(|name| !text.starts_with(name)));
@@ -122,9 +112,9 @@ impl ContactSpec {
         if self.given.normal_force == Some(0.0) {
             return input("without a normal force the contact is open: normal_force must be > 0");
         }
-        let element = match self.given.shape()? {
-            ShapeParameters::Flat(parameters) => Element::rounded_flat(&parameters, directions, normal_input),
-            ShapeParameters::Ellipse(parameters) => Element::elliptic(&parameters, directions, normal_input),
+        let element = match self.given.parameters()? {
+            ContactParameters::Flat(parameters) => Element::rounded_flat(&parameters, directions, normal_input),
+            ContactParameters::Ellipse(parameters) => Element::elliptic(&parameters, directions, normal_input),
         };
         element.map_err(|error| CliError::Input(self.given.explain(error).0))
     }
@@ -152,12 +142,6 @@ impl ContactSpec {
         let spec = ContactSpec { contact: self.contact, given, units: self.units };
         spec.element(Directions::One, NormalInput::Force).map(|_| ())
     }
-}
-
-/// The parameters as the library takes them.
-enum ShapeParameters {
-    Flat(Parameters),
-    Ellipse(EllipticParameters),
 }
 
 /// Parses a parameter file.
@@ -211,9 +195,9 @@ impl ContactArgs {
     pub fn implausible(&self) -> Vec<String> {
         let units = self.units.unwrap_or(Units::Si);
         let metre = Some(1.0 / units.in_si(Quantity::Length));
-        let warnings: Vec<_> = match self.shape() {
-            Ok(ShapeParameters::Flat(parameters)) => parameters.warnings(metre).collect(),
-            Ok(ShapeParameters::Ellipse(parameters)) => parameters.warnings(metre).collect(),
+        let warnings: Vec<_> = match self.parameters() {
+            Ok(ContactParameters::Flat(parameters)) => parameters.warnings(metre).collect(),
+            Ok(ContactParameters::Ellipse(parameters)) => parameters.warnings(metre).collect(),
             Err(_) => Vec::new(),
         };
         let with_value = |text: &CStr| {
@@ -268,14 +252,8 @@ impl ContactArgs {
         usage(format!("missing parameters: {}; give them in a parameter file or by {options}{why}", names.join(", ")))
     }
 
-    fn contact(&self) -> Result<std::result::Result<Contact, Error>> {
-        Ok(match self.shape()? {
-            ShapeParameters::Flat(parameters) => Contact::rounded_flat(&parameters),
-            ShapeParameters::Ellipse(parameters) => Contact::elliptic(&parameters),
-        })
-    }
-
-    fn shape(&self) -> Result<ShapeParameters> {
+    /// The contact without its layer.
+    pub fn contact(&self) -> Result<microslip_fit::Contact> {
         let of_both = |values: &[f64]| match *values {
             [both] => Ok([both; 2]),
             [first, second] => Ok([first, second]),
@@ -286,68 +264,35 @@ impl ContactArgs {
         // Missing numbers were reported; the library rejects NaN.
         let number = |value: Option<f64>| value.unwrap_or(f64::NAN);
         let [normal_force, friction_coefficient] = [self.normal_force, self.friction_coefficient].map(number);
-        let layer = Layer {
+        let geometry = if self.is_elliptic() {
+            let [semi_axis_x, semi_axis_y] = [self.semi_axis_x, self.semi_axis_y].map(number);
+            Geometry::Ellipse { semi_axis_x, semi_axis_y }
+        } else {
+            Geometry::Flat {
+                flat_half_width: number(self.flat_half_width),
+                edge_radius: number(self.edge_radius),
+                length: number(self.length),
+                displacement_reference: self.displacement_reference.unwrap_or(DisplacementReference::RigidStrip),
+            }
+        };
+        Ok(microslip_fit::Contact { geometry, normal_force, friction_coefficient, material })
+    }
+
+    fn parameters(&self) -> Result<ContactParameters> {
+        Ok(self.contact()?.parameters(Layer {
             normal_compliance: self.normal_compliance.unwrap_or(0.0),
             tangential_compliance: self.tangential_compliance.unwrap_or(0.0),
             stiffening_load: self.stiffening_load.unwrap_or(0.0),
             reference_load: self.reference_load.unwrap_or(0.0),
-        };
-        if self.is_elliptic() {
-            let [semi_axis_x, semi_axis_y] = [self.semi_axis_x, self.semi_axis_y].map(number);
-            let of =
-                EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, material, layer };
-            return Ok(ShapeParameters::Ellipse(of));
-        }
-        Ok(ShapeParameters::Flat(Parameters {
-            flat_half_width: number(self.flat_half_width),
-            edge_radius: number(self.edge_radius),
-            length: number(self.length),
-            normal_force,
-            friction_coefficient,
-            material,
-            displacement_reference: match self.displacement_reference {
-                Some(Reference::RigidStrip) => RIGID_STRIP,
-                Some(Reference::CentrePoint) => CENTRE_POINT,
-                None => Parameters::default().displacement_reference,
-            },
-            layer,
-            ..Parameters::default()
         }))
     }
 
     /// Tangential over normal compliance of a rough surface: (2-ν)/(2(1-ν)), the mean of both bodies by their shares of 1/E*.
     pub fn tangential_ratio(&self) -> Result<f64> {
-        let material = match self.shape()? {
-            ShapeParameters::Flat(parameters) => parameters.material,
-            ShapeParameters::Ellipse(parameters) => parameters.material,
-        };
-        let [first, second] = material.map(|Material { young_modulus, poisson_ratio: nu }| {
+        let [first, second] = self.contact()?.material.map(|Material { young_modulus, poisson_ratio: nu }| {
             ((1.0 - nu * nu) / young_modulus, 0.5 * (2.0 - nu) / (1.0 - nu))
         });
         Ok((first.0 * first.1 + second.0 * second.1) / (first.0 + second.0))
-    }
-
-    /// The contact as the start of a fit.
-    pub fn fit_contact(&self) -> Result<microslip_fit::Contact> {
-        let displacement_reference = match self.displacement_reference {
-            Some(Reference::CentrePoint) => microslip_fit::DisplacementReference::CentrePoint,
-            // It is given: missing parameters were reported.
-            Some(Reference::RigidStrip) | None => microslip_fit::DisplacementReference::RigidStrip,
-        };
-        let (geometry, normal_force, friction_coefficient, material) = match self.shape()? {
-            ShapeParameters::Flat(p) => {
-                let Parameters { flat_half_width, edge_radius, length, .. } = p;
-                let geometry =
-                    microslip_fit::Geometry::Flat { flat_half_width, edge_radius, length, displacement_reference };
-                (geometry, p.normal_force, p.friction_coefficient, p.material)
-            }
-            ShapeParameters::Ellipse(p) => {
-                let EllipticParameters { semi_axis_x, semi_axis_y, .. } = p;
-                let geometry = microslip_fit::Geometry::Ellipse { semi_axis_x, semi_axis_y };
-                (geometry, p.normal_force, p.friction_coefficient, p.material)
-            }
-        };
-        Ok(microslip_fit::Contact { geometry, normal_force, friction_coefficient, material })
     }
 
     /// The message of an error, with the values of the parameter that it names first, and the name of that parameter.
@@ -365,8 +310,8 @@ impl ContactArgs {
         let mut options: String =
             numbers.map(|(name, values)| format!(" {} {}", option_name(name), format_list(&values))).collect();
         options.push_str(match self.displacement_reference {
-            Some(Reference::RigidStrip) => " --displacement-reference rigid_strip",
-            Some(Reference::CentrePoint) => " --displacement-reference centre_point",
+            Some(DisplacementReference::RigidStrip) => " --displacement-reference rigid_strip",
+            Some(DisplacementReference::CentrePoint) => " --displacement-reference centre_point",
             None => "",
         });
         if self.units == Some(Units::Mm) {

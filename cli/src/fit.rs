@@ -24,7 +24,7 @@ pub fn fit(options: &Fit, spec: &ContactSpec) -> Result<Report> {
     check_outputs(&options.measured.iter().map(PathBuf::as_path).collect::<Vec<_>>(), &extra)?;
     let measured = options.measured.iter().enumerate().map(|(index, path)| measurement(options, spec, index, path));
     let (measured, warnings): (Vec<_>, Vec<_>) = measured.collect::<Result<Vec<_>>>()?.into_iter().unzip();
-    let contact = spec.given.fit_contact()?;
+    let contact = spec.given.contact()?;
     let found = microslip_fit::fit(&contact, &measured, &fixed(options, spec))
         .map_err(|error| CliError::Input(error.to_string()))?;
     if let Some(path) = &options.fitted {

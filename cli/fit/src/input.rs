@@ -1,7 +1,8 @@
 //! The input of a fit: the contact, measured loops, and what is fixed. All numbers are in one consistent set of units.
 
 use crate::error::{Error, error};
-use microslip::Material;
+use microslip::parameters::{CENTRE_POINT, RIGID_STRIP};
+use microslip::{EllipticParameters, Layer, Material, Parameters};
 use serde::{Deserialize, Deserializer, Serialize};
 
 /// The contact. Fitted parameters are only start values here. It is read from the keys of a parameter file.
@@ -44,11 +45,67 @@ pub enum Geometry {
 /// Reference of the displacement of a flat.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "snake_case")]
+#[cfg_attr(feature = "clap", derive(clap::ValueEnum), value(rename_all = "snake_case"))]
 pub enum DisplacementReference {
-    /// The centre of the contact, under a line of uniform traction.
-    CentrePoint,
-    /// A rigid strip, corrected to three-dimensional contact mechanics.
+    /// A rigid strip, corrected to three-dimensional contact mechanics: the contact of a machine
     RigidStrip,
+    /// The centre of the contact, under a line of uniform traction: as in the paper, 7 to 13 % more compliant
+    CentrePoint,
+}
+
+/// The parameters of a contact as the library takes them.
+#[derive(Debug, Clone, Copy)]
+pub enum ContactParameters {
+    /// Of a [`Geometry::Flat`].
+    Flat(Parameters),
+    /// Of a [`Geometry::Ellipse`].
+    Ellipse(EllipticParameters),
+}
+
+impl Contact {
+    /// The parameters with a layer in series.
+    pub fn parameters(&self, layer: Layer) -> ContactParameters {
+        let Contact { geometry, normal_force, friction_coefficient, material } = *self;
+        match geometry {
+            Geometry::Flat { flat_half_width, edge_radius, length, displacement_reference } => {
+                ContactParameters::Flat(Parameters {
+                    flat_half_width,
+                    edge_radius,
+                    length,
+                    normal_force,
+                    friction_coefficient,
+                    material,
+                    displacement_reference: match displacement_reference {
+                        DisplacementReference::CentrePoint => CENTRE_POINT,
+                        DisplacementReference::RigidStrip => RIGID_STRIP,
+                    },
+                    layer,
+                    ..Parameters::default()
+                })
+            }
+            Geometry::Ellipse { semi_axis_x, semi_axis_y } => ContactParameters::Ellipse(EllipticParameters {
+                semi_axis_x,
+                semi_axis_y,
+                normal_force,
+                friction_coefficient,
+                material,
+                layer,
+            }),
+        }
+    }
+}
+
+impl ContactParameters {
+    /// The contact under a constant normal force.
+    ///
+    /// # Errors
+    /// The status of the library.
+    pub fn contact(&self) -> Result<microslip::Contact, microslip::Error> {
+        match self {
+            ContactParameters::Flat(parameters) => microslip::Contact::rounded_flat(parameters),
+            ContactParameters::Ellipse(parameters) => microslip::Contact::elliptic(parameters),
+        }
+    }
 }
 
 /// The keys of a parameter file.

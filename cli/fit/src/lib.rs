@@ -18,7 +18,8 @@ mod verdict;
 
 pub use error::Error;
 pub use input::{
-    Contact, DisplacementReference, Geometry, Measurement, NormalForce, Options, ShapeParameter, missing_parameters,
+    Contact, ContactParameters, DisplacementReference, Geometry, Measurement, NormalForce, Options, ShapeParameter,
+    missing_parameters,
 };
 pub use microslip::Material;
 pub use report::{

@@ -12,10 +12,9 @@
 
 use crate::cycles::{Loop, Sample};
 use crate::error::{Error, error};
-use crate::input::{self, DisplacementReference, Geometry, ShapeParameter};
+use crate::input::{self, Geometry, ShapeParameter};
 use crate::report::stiffening_load;
-use microslip::parameters::{CENTRE_POINT, RIGID_STRIP};
-use microslip::{Contact, EllipticParameters, Layer, Material, Parameters};
+use microslip::{Contact, Layer, Material};
 
 /// Places of the parameters in arrays.
 pub(crate) const FRICTION: usize = 0;
@@ -110,43 +109,21 @@ impl Family {
     /// The contact and what is in series with it, under a normal force.
     fn at(&self, geometry: &Geometry, normal_force: f64, parameters: &[f64; PARAMETERS]) -> Result<Contact, Error> {
         let [friction_coefficient, tangential_compliance, _, _, share, _] = *parameters;
-        let factor = self.factor(parameters);
-        let reference_load = self.contact.normal_force;
+        let (factor, mut geometry, reference_load) = (self.factor(parameters), *geometry, self.contact.normal_force);
+        match &mut geometry {
+            Geometry::Flat { edge_radius, .. } => *edge_radius /= factor,
+            Geometry::Ellipse { semi_axis_x, semi_axis_y } => {
+                // Hertz: lengths scale as N^(1/3).
+                let scale = (normal_force / reference_load).cbrt();
+                (*semi_axis_x, *semi_axis_y) = (scale * *semi_axis_x, scale * *semi_axis_y);
+            }
+        }
         let material =
             self.contact.material.map(|body| Material { young_modulus: body.young_modulus / factor, ..body });
         let stiffening_load = if share > 0.0 { stiffening_load(share, reference_load) } else { 0.0 };
         let layer = Layer { tangential_compliance, stiffening_load, reference_load, ..Layer::none() };
-        let contact = match *geometry {
-            Geometry::Flat { flat_half_width, edge_radius, length, displacement_reference } => {
-                Contact::rounded_flat(&Parameters {
-                    flat_half_width,
-                    edge_radius: edge_radius / factor,
-                    length,
-                    normal_force,
-                    friction_coefficient,
-                    material,
-                    displacement_reference: match displacement_reference {
-                        DisplacementReference::CentrePoint => CENTRE_POINT,
-                        DisplacementReference::RigidStrip => RIGID_STRIP,
-                    },
-                    layer,
-                    ..Parameters::default()
-                })
-            }
-            Geometry::Ellipse { semi_axis_x, semi_axis_y } => {
-                // Hertz: lengths scale as N^(1/3).
-                let scale = (normal_force / reference_load).cbrt();
-                let (semi_axis_x, semi_axis_y) = (scale * semi_axis_x, scale * semi_axis_y);
-                Contact::elliptic(&EllipticParameters {
-                    semi_axis_x,
-                    semi_axis_y,
-                    normal_force,
-                    friction_coefficient,
-                    material,
-                    layer,
-                })
-            }
-        };
+        let contact = input::Contact { geometry, normal_force, friction_coefficient, material };
+        let contact = contact.parameters(layer).contact();
         contact.map_err(|reason| Error(format!("the contact under a normal force of {normal_force:e}: {reason}")))
     }
 
@@ -297,6 +274,7 @@ impl<'a> LoopModel<'a> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::input::DisplacementReference;
 
     fn contact(flat_half_width: f64) -> input::Contact {
         let material = Material { young_modulus: 2e11, poisson_ratio: 0.3 };
