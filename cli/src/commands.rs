@@ -2,11 +2,11 @@
 
 use crate::args::{Amplitudes, Curve, Iwan, Loop, Tractions};
 use crate::contact_spec::ContactSpec;
-use crate::error::{CliError, Result, input, usage};
+use crate::error::{CliError, Result, in_option, input, usage};
 use crate::number::format_number;
 use crate::plot::{Axis, Line, Panel, Picture, Row, rounded};
 use crate::table::Table;
-use crate::units::Quantity::{Energy, Force, Length, Number, Pressure, Stiffness, StiffnessSlope};
+use crate::units::Quantity::{self, Energy, Force, Length, Number, Pressure, Stiffness, StiffnessSlope};
 use crate::varying_load;
 use microslip::constant_load::equivalents::{SpringSlider, iwan, jenkins};
 use microslip::{Contact, CurvePoint, Error};
@@ -130,10 +130,15 @@ pub fn pairs(rows: &[Vec<f64>], x: usize, y: usize) -> Vec<(f64, f64)> {
     rows.iter().map(|row| (row[x], row[y])).collect()
 }
 
+/// A panel for each column over the first one, whose axis is given.
+pub fn panels(x: Axis, columns: &[(&'static str, Quantity)], rows: &[Vec<f64>]) -> Vec<Row> {
+    let axes = columns.iter().map(|(name, quantity)| Axis::linear(name, *quantity));
+    axes.enumerate().skip(1).map(|(i, y)| panel(x, y, pairs(rows, 0, i))).collect()
+}
+
 pub const DISPLACEMENT: Axis = Axis::linear("displacement", Length);
 const AMPLITUDE: Axis = Axis::logarithmic("displacement amplitude", Length);
 const ACROSS: Axis = Axis::linear("x", Length);
-pub const STIFFNESS: Axis = Axis::linear("stiffness", Stiffness);
 pub const FORCE: Axis = Axis::linear("force", Force);
 
 pub fn contact(spec: &ContactSpec) -> Report {
@@ -178,7 +183,7 @@ fn maximum_pressure(spec: &ContactSpec) -> f64 {
 
 /// The point of the monotonic curve at a force.
 fn point_at_force(contact: &Contact, force: f64) -> Result<CurvePoint<'_>> {
-    contact.curve_at_force(force).map_err(|error| match CliError::in_option("--force", force, error) {
+    contact.curve_at_force(force).map_err(|error| match in_option("--force", force)(error) {
         CliError::Input(message) if error == Error::ForceExceedsSlip => {
             CliError::Input(format!("{message}, which is {} N", format_number(contact.slip_force)))
         }
@@ -193,7 +198,7 @@ pub fn tractions(options: &Tractions, spec: &ContactSpec) -> Result<Report> {
         forces.push(0.5 * contact.slip_force);
     }
     if let Some(bad) = options.position.iter().find(|x| !x.is_finite()) {
-        return Err(CliError::in_option("--position", *bad, Error::BadPosition));
+        return Err(in_option("--position", *bad)(Error::BadPosition));
     }
     let x = match &options.position[..] {
         [] => across(contact, options.points),
@@ -233,7 +238,7 @@ pub fn curve(options: &Curve, spec: &ContactSpec) -> Result<Report> {
     };
     let at_displacement = |option: &str, displacement: f64| {
         let point = contact.curve_at_displacement(displacement);
-        let point = point.map_err(|error| CliError::in_option(option, displacement, error))?;
+        let point = point.map_err(in_option(option, displacement))?;
         Ok(vec![displacement, point.force(), point.stiffness(), point.stick_half_width()])
     };
     if forces.is_empty() && displacements.is_empty() {
@@ -246,11 +251,7 @@ pub fn curve(options: &Curve, spec: &ContactSpec) -> Result<Report> {
     let displacements = displacements.into_iter().map(|displacement| at_displacement("--displacement", displacement));
     let rows = forces.iter().map(at_force).chain(displacements).collect::<Result<Vec<_>>>()?;
     let columns = [("displacement", Length), ("force", Force), ("stiffness", Stiffness), ("stick_half_width", Length)];
-    let panels = vec![
-        panel(DISPLACEMENT, FORCE, pairs(&rows, 0, 1)),
-        panel(DISPLACEMENT, STIFFNESS, pairs(&rows, 0, 2)),
-        panel(DISPLACEMENT, Axis::linear("stick half-width", Length), pairs(&rows, 0, 3)),
-    ];
+    let panels = panels(DISPLACEMENT, &columns, &rows);
     Ok(Report::new(spec, Table::of_numbers(&columns, spec.units, &rows), panels))
 }
 
@@ -266,7 +267,7 @@ pub fn hysteresis_loop(options: &Loop, spec: &ContactSpec) -> Result<Report> {
     }
     let (mut rows, mut lines) = (Vec::new(), Vec::new());
     for (stroke, amplitude) in amplitudes.into_iter().enumerate() {
-        let error = |error| CliError::in_option("--amplitude", amplitude, error);
+        let error = in_option("--amplitude", amplitude);
         let hysteresis = contact.hysteresis_loop(amplitude).map_err(error)?;
         let dissipated = contact.complex_stiffness(amplitude).map_err(error)?.dissipated;
         let n = options.points as usize;
@@ -300,7 +301,7 @@ impl Amplitudes {
         };
         let (from, to) = (end(self.from, 0.01), end(self.to, 100.0));
         for (option, amplitude) in [("--from", from), ("--to", to)] {
-            let error = |error| CliError::in_option(option, amplitude, error);
+            let error = in_option(option, amplitude);
             contact.complex_stiffness(amplitude).map_err(error)?;
         }
         if !(from > 0.0 && from <= to) {
@@ -316,10 +317,7 @@ impl Amplitudes {
 pub fn stiffness(options: &Amplitudes, spec: &ContactSpec) -> Result<Report> {
     let amplitudes = options.values(&spec.contact)?;
     let row = |amplitude: f64| {
-        let k = spec
-            .contact
-            .complex_stiffness(amplitude)
-            .map_err(|error| CliError::in_option("--amplitude", amplitude, error))?;
+        let k = spec.contact.complex_stiffness(amplitude).map_err(in_option("--amplitude", amplitude))?;
         Ok(vec![amplitude, k.real, k.imaginary, k.d_real, k.d_imag, k.dissipated])
     };
     let rows = amplitudes.into_iter().map(row).collect::<Result<Vec<_>>>()?;
@@ -349,16 +347,12 @@ pub fn quoted(word: &str) -> String {
 pub fn jenkins_equivalent(options: &Amplitudes, spec: &ContactSpec) -> Result<Report> {
     let amplitudes = options.values(&spec.contact)?;
     let row = |amplitude: f64| {
-        let slider =
-            jenkins(&spec.contact, amplitude).map_err(|error| CliError::in_option("--amplitude", amplitude, error))?;
+        let slider = jenkins(&spec.contact, amplitude).map_err(in_option("--amplitude", amplitude))?;
         Ok(vec![amplitude, slider.stiffness, slider.slip_force])
     };
     let rows = amplitudes.into_iter().map(row).collect::<Result<Vec<_>>>()?;
     let columns = [("amplitude", Length), ("stiffness", Stiffness), ("slip_force", Force)];
-    let panels = vec![
-        panel(AMPLITUDE, STIFFNESS, pairs(&rows, 0, 1)),
-        panel(AMPLITUDE, Axis::linear("slip force", Force), pairs(&rows, 0, 2)),
-    ];
+    let panels = panels(AMPLITUDE, &columns, &rows);
     Ok(Report::new(spec, Table::of_numbers(&columns, spec.units, &rows), panels))
 }
 
@@ -366,7 +360,7 @@ pub fn iwan_equivalent(options: &Iwan, spec: &ContactSpec) -> Result<Report> {
     let contact = &spec.contact;
     let mut sliders = Vec::new();
     let error = iwan(contact, options.count as usize, |slider| sliders.push(slider))
-        .map_err(|error| CliError::in_option("--count", f64::from(options.count), error))?;
+        .map_err(in_option("--count", f64::from(options.count)))?;
     let rows: Vec<_> =
         sliders.iter().zip(1..).map(|(slider, i)| vec![f64::from(i), slider.stiffness, slider.slip_force]).collect();
     let columns = [("slider", Number), ("stiffness", Stiffness), ("slip_force", Force)];
@@ -382,7 +376,7 @@ pub fn iwan_equivalent(options: &Iwan, spec: &ContactSpec) -> Result<Report> {
     let difference = |at: f64| of_sliders(at) - of_contact(at);
     let points = |force: &dyn Fn(f64) -> f64| displacements.iter().map(|&at| (at, force(at))).collect();
     let panels = vec![
-        panel(DISPLACEMENT, Axis::linear("force", Force), points(&of_contact)),
+        panel(DISPLACEMENT, FORCE, points(&of_contact)),
         panel(DISPLACEMENT, Axis::linear("force error of the sliders", Force), points(&difference)),
     ];
     let table = Table::of_numbers(&columns, spec.units, &rows);

@@ -28,9 +28,9 @@ impl CliError {
         let name = if path == Path::new("-") { "standard input".into() } else { path.to_string_lossy() };
         CliError::Input(format!("{name}: {reason}"))
     }
+}
 
-    /// An error of the library about the value of an option.
-    pub fn in_option(option: &str, value: f64, error: microslip::Error) -> CliError {
-        CliError::Input(format!("{option} {}: {error}", format_number(value)))
-    }
+/// Errors of the library about the value of an option.
+pub fn in_option(option: &str, value: f64) -> impl Fn(microslip::Error) -> CliError + Copy {
+    move |error| CliError::Input(format!("{option} {}: {error}", format_number(value)))
 }

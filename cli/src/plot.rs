@@ -32,6 +32,7 @@ pub struct Panel {
 
 #[derive(Debug, Clone, Copy)]
 pub struct Axis {
+    /// Words separated by blanks, or as in a table.
     pub name: &'static str,
     pub quantity: Quantity,
     pub logarithmic: bool,
@@ -65,7 +66,7 @@ impl Axis {
     /// The power of ten of the unit for values of this size in SI units, and the label.
     fn label(&self, size: f64) -> (i32, String) {
         let (power, unit) = prefixed(size, self.quantity);
-        (power, format!("{} [{unit}]", self.name))
+        (power, format!("{} [{unit}]", self.name.replace('_', " ")))
     }
 }
 

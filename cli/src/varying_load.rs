@@ -1,9 +1,9 @@
 //! Commands under a normal force that varies, with separation.
 
 use crate::args::{Loop, Normal};
-use crate::commands::{DISPLACEMENT, FORCE, Report, STIFFNESS, check_range, grid, pairs, panel, scaled};
+use crate::commands::{DISPLACEMENT, FORCE, Report, check_range, grid, panels, scaled};
 use crate::contact_spec::ContactSpec;
-use crate::error::{CliError, Result};
+use crate::error::{CliError, Result, in_option};
 use crate::number::format_number;
 use crate::plot::{Axis, Line, Panel, rounded};
 use crate::table::Table;
@@ -18,12 +18,12 @@ pub const NORMAL_FORCE: Axis = Axis::linear("normal force", Force);
 pub fn normal(options: &Normal, spec: &ContactSpec) -> Result<Report> {
     let element = spec.element(Directions::One, NormalInput::Approach)?;
     let at_approach = |option: &str, approach: f64| {
-        element.check_approach(approach).map_err(|error| CliError::in_option(option, approach, error))?;
+        element.check_approach(approach).map_err(in_option(option, approach))?;
         let point = element.normal_force_at(approach);
         Ok(vec![approach, point.value, point.slope, element.half_width_under(point.value)])
     };
     let at_force = |&force: &f64| {
-        element.check_normal_force(force).map_err(|error| CliError::in_option("--force", force, error))?;
+        element.check_normal_force(force).map_err(in_option("--force", force))?;
         let point = element.approach_under(force);
         // An open contact has no stiffness.
         let stiffness = if force > 0.0 { 1.0 / point.slope } else { 0.0 };
@@ -41,15 +41,10 @@ pub fn normal(options: &Normal, spec: &ContactSpec) -> Result<Report> {
     let approaches = approaches.into_iter().map(|approach| at_approach("--approach", approach));
     let rows = forces.iter().map(at_force).chain(approaches).collect::<Result<Vec<_>>>()?;
     let columns = [("approach", Length), ("normal_force", Force), ("stiffness", Stiffness), ("half_width", Length)];
-    let approach = Axis::linear("approach", Length);
-    // Both may jump as the contact closes.
-    let of_closed =
-        |y: usize| rows.iter().map(move |row| (row[0], if row[1] > 0.0 { row[y] } else { f64::NAN })).collect();
-    let panels = vec![
-        panel(approach, NORMAL_FORCE, pairs(&rows, 0, 1)),
-        panel(approach, STIFFNESS, of_closed(2)),
-        panel(approach, Axis::linear("half-width", Length), of_closed(3)),
-    ];
+    // Stiffness and half-width may jump as the contact closes.
+    let is_drawn = |row: &[f64], i: usize| i < 2 || row[1] > 0.0;
+    let drawn = |row: &Vec<f64>| (0..row.len()).map(|i| if is_drawn(row, i) { row[i] } else { f64::NAN }).collect();
+    let panels = panels(Axis::linear("approach", Length), &columns, &rows.iter().map(drawn).collect::<Vec<_>>());
     Ok(Report::new(spec, Table::of_numbers(&columns, spec.units, &rows), panels))
 }
 
@@ -69,7 +64,7 @@ pub fn swinging_loop(options: &Loop, spec: &ContactSpec, amplitudes: &[f64]) -> 
     let (mean, n) = (element.normal_force, options.points as usize);
     let given = options.normal_amplitude.unwrap_or_default() * if options.relative { mean } else { 1.0 };
     if !(given >= 0.0 && given.is_finite()) {
-        return Err(CliError::in_option("--normal-amplitude", given, Error::BadForceAmplitude));
+        return Err(in_option("--normal-amplitude", given)(Error::BadForceAmplitude));
     }
     for phase in &options.phase {
         check_range("--phase", *phase, -360.0..=360.0)?;
@@ -83,7 +78,7 @@ pub fn swinging_loop(options: &Loop, spec: &ContactSpec, amplitudes: &[f64]) -> 
     let mut strokes = 0..;
     let mut next_stroke = || strokes.next().unwrap_or_default();
     for &amplitude in amplitudes {
-        let error = |error| CliError::in_option("--amplitude", amplitude, error);
+        let error = in_option("--amplitude", amplitude);
         let hysteresis = spec.contact.hysteresis_loop(amplitude).map_err(error)?;
         let constant = spec.contact.complex_stiffness(amplitude).map_err(error)?.dissipated;
         for &phase in &options.phase {
