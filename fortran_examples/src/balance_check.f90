@@ -1,4 +1,4 @@
-!> Checks of the harmonic balance without stored results, at the frequencies of the group &points:
+!> Checks of the harmonic balance without stored results, at the single frequencies of a case:
 !> the derivatives of the residual against central differences, the energy supplied against that dissipated, and the harmonic
 !> force of the contacts against two periods of time steps.
 !>
@@ -25,7 +25,7 @@ program balance_check
   integer :: i
 
   call read_case(trim(argument(1, 'balance_check CASE')), data)
-  if (size(data%frequencies) == 0) call fail('a group &points is needed')
+  if (size(data%frequencies) == 0) call fail('frequency is needed')
   call prepare_problem(data, 1.0_wp, data%harmonics, data%samples, problem)
   allocate (displacement(2 * data%harmonics + 1, size(data%contacts)))
   do i = 1, size(data%frequencies)

@@ -3,26 +3,22 @@
 !>
 !> Units are SI, frequencies in Hz. Paths are relative to the working directory. Defaults in brackets:
 !>
-!>   &model
+!>   &case
 !>     name: output files start with it
 !>     matrices: the Matrix Market files ..._mass.mtx, ..._damping.mtx, ..._stiffness.mtx (coordinate real symmetric)
 !>     driven_dof(:), amplitude(:): force amplitude * cos(omega t), N; a negative amplitude is in opposite phase
 !>     response_dof: degree of freedom whose amplitude is reported
+!>     harmonics, samples: of the balance: highest harmonic, and samples of a period [5, 128]
+!>     tolerance: of the residual, relative to the displacement of each contact [1e-9]
+!>     frequency_from, frequency_to, load_factors(:): range of the continuation, and one response for each factor [none]
+!>     frequency(:): single frequencies [none]
 !>   &contact, one for each; a missing value is that of the contact before it
 !>     name: in the columns of the results
 !>     law: 'microslip', or 'spring-slider' with the same initial stiffness and slip force
 !>     dof(2): relative displacement: first minus second; 0 is the ground
 !>     count: number of identical contacts that share the displacement [1]
 !>     load_varied: whether the load factor multiplies the normal force [.true.]
-!>     flat_half_width, edge_radius, length, normal_force, friction_coefficient, young_modulus(2), poisson_ratio(2)
-!>   &harmonic_balance
-!>     harmonics, samples: highest harmonic, and samples of a period [5, 128]
-!>     tolerance: of the residual, relative to the displacement of each contact [1e-9]
-!>   &sweep
-!>     frequency_from, frequency_to: range of the continuation
-!>     load_factors(:): one response for each
-!>   &points
-!>     frequency(:): single frequencies
+!>     p: mslip_parameters, of which the displacement reference is the rigid strip
 !>   &time_integration, any number
 !>     frequency, load_factor: at which time integration is compared [load_factor 1]
 !>     harmonics(:), samples: of the balances compared [samples 1024]
@@ -34,7 +30,7 @@ module case_input
   use friction_contacts, only: friction_contact, law_microslip, law_slider
   use harmonic_balance, only: balance_problem
   use linear_structure, only: read_structure, structure
-  use microslip, only: MSLIP_RIGID_STRIP
+  use microslip, only: mslip_parameters, mslip_parameters_default, MSLIP_RIGID_STRIP
   implicit none
   private
   public :: read_case, prepare_problem
@@ -55,11 +51,11 @@ module case_input
     type(structure) :: model
     type(friction_contact), allocatable :: contacts(:)
     real(wp), allocatable :: excitation(:)                 !! F in F cos(omega t), N
-    integer :: response_dof = 0, harmonics = 5, samples = 128
-    real(wp) :: tolerance = 1.0e-9_wp
-    real(wp) :: range(2) = 0.0_wp                          !! angular frequencies of &sweep
-    real(wp), allocatable :: load_factors(:)               !! of &sweep; empty without the group
-    real(wp), allocatable :: frequencies(:)                !! Hz, of &points; likewise
+    integer :: response_dof = 0, harmonics = 0, samples = 0
+    real(wp) :: tolerance = 0.0_wp
+    real(wp) :: range(2) = 0.0_wp                          !! angular frequencies of the continuation
+    real(wp), allocatable :: load_factors(:)
+    real(wp), allocatable :: frequencies(:)                !! Hz, single ones
     type(integration_input), allocatable :: integrations(:)
   end type case_data
 
@@ -73,11 +69,8 @@ contains
 
     open (newunit=unit, file=path, status='old', action='read', iostat=status, iomsg=message)
     if (status /= 0) call fail(trim(path)//': cannot be opened: '//trim(message))
-    call read_model()
+    call read_balance()
     call read_contacts()
-    call read_harmonic_balance()
-    call read_sweep()
-    call read_points()
     call read_time_integration()
     close (unit)
 
@@ -98,40 +91,49 @@ contains
       call require(status == 0 .or. .not. found, group, message)
     end function found
 
-    subroutine read_model()
+    subroutine read_balance()
       character(len=name_length) :: name
       character(len=path_length) :: matrices
-      integer :: driven_dof(max_list_size), response_dof, n
-      real(wp) :: amplitude(max_list_size)
-      namelist /model/ name, matrices, driven_dof, amplitude, response_dof
+      integer :: driven_dof(max_list_size), response_dof, harmonics, samples, n
+      real(wp) :: tolerance, frequency_from, frequency_to
+      real(wp), dimension(max_list_size) :: amplitude, load_factors, frequency
+      namelist /case/ name, matrices, driven_dof, amplitude, response_dof, harmonics, samples, tolerance, frequency_from, &
+        frequency_to, load_factors, frequency
 
       name = ' '; matrices = ' '; driven_dof = 0; amplitude = 0.0_wp; response_dof = 0
-      rewind (unit)
-      read (unit, nml=model, iostat=status, iomsg=message)
-      call require(found('model'), 'model', 'must be given')
+      harmonics = 5; samples = 128; tolerance = 1.0e-9_wp
+      frequency_from = 0.0_wp; frequency_to = 0.0_wp; load_factors = unset; frequency = unset
+      read (unit, nml=case, iostat=status, iomsg=message)
+      call require(found('case'), 'case', 'must be given')
       call read_structure(trim(matrices), data%model)
       n = size(data%model%mass, 1)
       call require(len_trim(name) > 0 .and. minval(driven_dof) >= 0 .and. response_dof >= 1 .and. &
-                   max(maxval(driven_dof), response_dof) <= n, 'model', 'name or a degree of freedom is wrong')
+                   max(maxval(driven_dof), response_dof) <= n, 'case', 'name or a degree of freedom is wrong')
+      call require(harmonics >= 1 .and. samples > 2 * harmonics .and. tolerance > 0.0_wp, 'case', &
+                   'harmonics must be 1 or more, samples above twice the harmonics')
       allocate (data%excitation(n), source=0.0_wp)
       data%excitation(pack(driven_dof, driven_dof > 0)) = pack(amplitude, driven_dof > 0)
-      data%name = name
-      data%response_dof = response_dof
-    end subroutine read_model
+      data%name = name; data%response_dof = response_dof
+      data%harmonics = harmonics; data%samples = samples; data%tolerance = tolerance
+      data%range = 2.0_wp * pi * [frequency_from, frequency_to]
+      data%load_factors = pack(load_factors, load_factors > unset)
+      data%frequencies = pack(frequency, frequency > unset)
+      call require(size(data%load_factors) == 0 .or. (frequency_from > 0.0_wp .and. frequency_to > frequency_from), 'case', &
+                   'frequencies must increase')
+    end subroutine read_balance
 
     !> A variable that is not given keeps the value of the contact before. The library checks geometry, load and material.
     subroutine read_contacts()
       character(len=name_length) :: name, law
       integer :: dof(2), count
       logical :: load_varied
-      real(wp) :: flat_half_width, edge_radius, length, normal_force, friction_coefficient, young_modulus(2), poisson_ratio(2)
+      type(mslip_parameters) :: p
       type(friction_contact) :: c
-      namelist /contact/ name, law, dof, count, load_varied, flat_half_width, edge_radius, length, normal_force, &
-        friction_coefficient, young_modulus, poisson_ratio
+      namelist /contact/ name, law, dof, count, load_varied, p
 
       law = ' '; count = 1; load_varied = .true.
-      flat_half_width = unset; edge_radius = unset; length = unset; normal_force = unset; friction_coefficient = unset
-      young_modulus = unset; poisson_ratio = unset
+      call mslip_parameters_default(p)
+      p%displacement_reference = MSLIP_RIGID_STRIP
       rewind (unit)
       allocate (data%contacts(0))
       do
@@ -143,57 +145,11 @@ contains
                      'law must be "'//law_microslip//'" or "'//law_slider//'"')
         call require(all(dof >= 0) .and. all(dof <= size(data%model%mass, 1)) .and. count > 0 .and. len_trim(name) > 0, 'contact', &
                      'name, dof or count is wrong')
-        c%name = name; c%law = law; c%dof = dof; c%count = count; c%load_varied = load_varied
-        associate (p => c%parameters)
-          p%flat_half_width = flat_half_width; p%edge_radius = edge_radius; p%length = length; p%normal_force = normal_force
-          p%friction_coefficient = friction_coefficient
-          p%material%young_modulus = young_modulus
-          p%material%poisson_ratio = poisson_ratio
-          p%displacement_reference = MSLIP_RIGID_STRIP
-        end associate
+        c%name = name; c%law = law; c%dof = dof; c%count = count; c%load_varied = load_varied; c%parameters = p
         data%contacts = [data%contacts, c]
       end do
       call require(size(data%contacts) > 0, 'contact', 'must be given')
     end subroutine read_contacts
-
-    subroutine read_harmonic_balance()
-      integer :: harmonics, samples
-      real(wp) :: tolerance
-      namelist /harmonic_balance/ harmonics, samples, tolerance
-
-      harmonics = data%harmonics; samples = data%samples; tolerance = data%tolerance
-      rewind (unit)
-      read (unit, nml=harmonic_balance, iostat=status, iomsg=message)
-      if (.not. found('harmonic_balance')) return
-      call require(harmonics >= 1 .and. samples > 2 * harmonics .and. tolerance > 0.0_wp, 'harmonic_balance', &
-                   'harmonics must be 1 or more, samples above twice the harmonics')
-      data%harmonics = harmonics; data%samples = samples; data%tolerance = tolerance
-    end subroutine read_harmonic_balance
-
-    subroutine read_sweep()
-      real(wp) :: frequency_from, frequency_to, load_factors(max_list_size)
-      namelist /sweep/ frequency_from, frequency_to, load_factors
-
-      frequency_from = 0.0_wp; frequency_to = 0.0_wp; load_factors = unset
-      allocate (data%load_factors(0))
-      rewind (unit)
-      read (unit, nml=sweep, iostat=status, iomsg=message)
-      if (.not. found('sweep')) return
-      call require(frequency_from > 0.0_wp .and. frequency_to > frequency_from, 'sweep', 'frequencies must increase')
-      data%range = 2.0_wp * pi * [frequency_from, frequency_to]
-      data%load_factors = pack(load_factors, load_factors > unset)
-    end subroutine read_sweep
-
-    subroutine read_points()
-      real(wp) :: frequency(max_list_size)
-      namelist /points/ frequency
-
-      frequency = unset
-      rewind (unit)
-      read (unit, nml=points, iostat=status, iomsg=message)
-      if (.not. found('points')) frequency = unset
-      data%frequencies = pack(frequency, frequency > unset)
-    end subroutine read_points
 
     subroutine read_time_integration()
       real(wp) :: frequency, load_factor, steady_tolerance, allowed_difference

@@ -3,10 +3,10 @@
 !>     forced_response CASE DIRECTORY
 !>
 !> CASE is a file of namelist groups (case_input.f90). Written to DIRECTORY, for a case called NAME:
-!> * with a group &sweep, for every load factor,
+!> * for every load factor,
 !>   NAME_response.csv  the response along the frequency,
 !>   NAME_peaks.csv     the resonance peaks;
-!> * with a group &points,
+!> * with single frequencies,
 !>   NAME_coefficients.csv  the harmonic coefficients of all degrees of freedom at single frequencies.
 program forced_response
   use basics, only: argument, csv, fail, open_table, pi, progress, text, wp
@@ -24,7 +24,7 @@ program forced_response
 
   call read_case(trim(argument(1, usage)), data)
   prefix = trim(argument(2, usage))//'/'//trim(data%name)
-  if (size(data%load_factors) + size(data%frequencies) == 0) call fail('a group &sweep or &points is needed')
+  if (size(data%load_factors) + size(data%frequencies) == 0) call fail('load_factors or frequency is needed')
   if (size(data%frequencies) > 0) call solve_points()
   if (size(data%load_factors) > 0) call solve_sweep()
 
