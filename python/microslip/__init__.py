@@ -10,6 +10,7 @@ After any error nothing has changed. Any thread may call any function; only a `S
 two threads at once.
 """
 
+from ._constants import Parameter, Status
 from ._contact import (
     ComplexStiffness,
     Contact,
@@ -25,7 +26,7 @@ from ._contact import (
     Step,
     Tractions,
 )
-from ._core import Error, Parameter, Status, ffi, lib, status_text
+from ._core import Error, ffi, lib, status_text
 from ._element import Element, ElementArray, ElementStep, NormalApproach, NormalForce, StaticDisplacement
 from ._face import FaceParts, face_parts
 from ._fit import FitError, fit

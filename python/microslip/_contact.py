@@ -8,12 +8,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ._constants import Parameter
 from ._core import (
     Array,
     Constant,
     Field,
     Pair,
-    Parameter,
     Values,
     call_batch,
     check,

@@ -1,15 +1,15 @@
-"""Status codes, and the arguments and values of all calls: one check for each kind of argument, which names it in messages."""
+"""The arguments and values of all calls: one check for each kind of argument, which names it in messages, and errors."""
 
 from __future__ import annotations
 
 import operator
 import reprlib
-from enum import IntEnum
 from typing import Any, Generic, TypeVar, Union, cast, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ._constants import Status
 from ._native import ffi, lib
 
 Array = NDArray[np.float64]
@@ -23,70 +23,6 @@ Values = Any  # float64 of the shape of an argument; a NumPy scalar if that is o
 REFERENCES = ("centre_point", "rigid_strip")
 RULES = ("uniform_sampling", "event_driven")
 NORMAL_INPUTS = ("approach", "normal_force")
-
-
-class Status(IntEnum):
-    """The status codes of the C interface: ``MSLIP_BAD_LENGTH`` is ``Status.BAD_LENGTH``."""
-
-    # <generated: statuses>
-    NULL_POINTER = 1
-    BAD_FLAT_HALF_WIDTH = 2
-    BAD_EDGE_RADIUS = 3
-    BAD_LENGTH = 4
-    BAD_NORMAL_FORCE = 5
-    BAD_FRICTION_COEFFICIENT = 6
-    BAD_YOUNG_MODULUS = 7
-    BAD_POISSON_RATIO = 8
-    BAD_DISPLACEMENT_REFERENCE = 9
-    BAD_SEMI_AXIS_X = 10
-    BAD_SEMI_AXIS_Y = 11
-    LENGTH_TOO_SHORT = 12
-    OUT_OF_RANGE = 13
-    BAD_NORMAL_COMPLIANCE = 15
-    BAD_TANGENTIAL_COMPLIANCE = 16
-    BAD_STIFFENING_LOAD = 17
-    BAD_REFERENCE_LOAD = 18
-    BAD_CONTACT = 20
-    BAD_STATE = 21
-    BAD_WORKSPACE = 22
-    STATE_TOO_SHORT = 23
-    BAD_ELEMENT = 24
-    WORKSPACE_TOO_SHORT = 25
-    BAD_FORCE = 30
-    FORCE_EXCEEDS_SLIP = 31
-    BAD_DISPLACEMENT = 32
-    BAD_POSITION = 33
-    BAD_AMPLITUDE = 34
-    BAD_FORCE_AMPLITUDE = 35
-    BAD_HARMONICS = 36
-    BAD_SAMPLES = 37
-    BAD_COUNT = 38
-    BAD_RULE = 39
-    NOT_AVAILABLE = 40
-    BAD_INDEX = 41
-    BAD_DIRECTIONS = 42
-    BAD_NORMAL_INPUT = 43
-    BAD_PERIODS = 44
-    BAD_COEFFICIENTS = 45
-    BAD_AREA = 46
-    BAD_PRESSURE = 47
-    BAD_ARRAY_SIZE = 90
-    BAD_ALIGNMENT = 91
-    # </generated>
-
-
-class Parameter(IntEnum):
-    """Columns of a sensitivity: the derivative with respect to this parameter."""
-
-    # <generated: parameters>
-    NORMAL_FORCE = 0
-    FRICTION_COEFFICIENT = 1
-    FLAT_HALF_WIDTH = 2
-    EDGE_RADIUS = 3
-    LENGTH = 4
-    COMPOSITE_MODULUS = 5
-    LAYER_COMPLIANCE = 6
-    # </generated>
 
 
 class Error(ValueError):

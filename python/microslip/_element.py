@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ._constants import Status
 from ._core import (
     NORMAL_INPUTS,
     Array,
@@ -15,7 +16,6 @@ from ._core import (
     Error,
     Field,
     Pair,
-    Status,
     Values,
     check,
     choice,

@@ -13,7 +13,7 @@ use cbindgen::{Bindings, Builder, Config};
 
 const HEADER: &str = "include/microslip.h";
 const MODULE: &str = "include/microslip.f90";
-const PYTHON: &str = "python/microslip/_core.py";
+const PYTHON: &str = "python/microslip/_constants.py";
 const TEST_OF_FORTRAN: [&str; 2] = ["tests/fortran/procedures.f90", "tests/fortran/calls.f90"];
 const CALLS_OF_RUST: &str = "tests/calls/table.rs";
 const RECORD: &str = "c_tests/abi.h";
@@ -46,7 +46,7 @@ fn since(line: &str) -> String {
 fn generated() -> Result<[(&'static str, String); 7], String> {
     let header = header();
     let module = fortran::fill(&read(MODULE)?, &header).map_err(|e| format!("{MODULE}: {e}"))?;
-    let python = fortran::python(&read(PYTHON)?, &header).map_err(|e| format!("{PYTHON}: {e}"))?;
+    let python = fortran::python(&header);
     let source = interface::Header::new(&header)?;
     let prototypes = source.prototypes()?;
     let functions = interface::functions(&prototypes)?;

@@ -1,7 +1,7 @@
 //! Chores that need the Rust source as data:
 //!
-//! - `header` writes the generated files and blocks: `include/microslip.h`, blocks of `include/microslip.f90` and
-//!   `python/microslip/_core.py`, tables of calls for the tests, the record of the binary interface. `header --check` fails if the
+//! - `header` writes the generated files and blocks: `include/microslip.h`, blocks of `include/microslip.f90`,
+//!   `python/microslip/_constants.py`, tables of calls for the tests, the record of the binary interface. `header --check` fails if the
 //!   committed ones are stale.
 
 use std::env;
