@@ -3,7 +3,7 @@
 //!
 //! In the module, a block stands between the lines `! <generated: NAME>` and `! </generated>`.
 
-use crate::interface::{Declaration, Header, Prototype, functions};
+use crate::interface::{Declaration, Item, Prototype, functions};
 use crate::wrappers;
 
 /// Column at which comments and statements are wrapped; a line that takes a short comment along may have `LONGEST`.
@@ -14,12 +14,10 @@ const LONGEST: usize = 132;
 pub const UNBROKEN: char = '\u{a0}';
 
 /// Fills the generated blocks of the module from the header.
-pub fn fill(module: &str, header: &str) -> Result<String, String> {
-    let declared = Header::new(header)?;
-    let prototypes = declared.prototypes()?;
+pub fn fill(module: &str, items: &[Item], prototypes: &[Prototype]) -> Result<String, String> {
     let mut blocks =
-        vec![("constants", constants(header)), ("types", types(header)?), ("functions", interfaces(&prototypes)?)];
-    blocks.extend(wrappers::blocks(&functions(&prototypes)?));
+        vec![("constants", constants(items)), ("types", types(items)?), ("functions", interfaces(prototypes)?)];
+    blocks.extend(wrappers::blocks(&functions(prototypes)?));
 
     let mut filled = Vec::new();
     let mut lines = module.lines();
@@ -60,10 +58,10 @@ pub fn python(header: &str) -> String {
 }
 
 /// The integer constants but for the version of the package, which `mslip_version` returns.
-fn constants(header: &str) -> Vec<String> {
+fn constants(items: &[Item]) -> Vec<String> {
     let mut lines = Vec::new();
-    for (item, comment) in items(header) {
-        let mut words = item.split_ascii_whitespace();
+    for Item { text, comment } in items {
+        let mut words = text.split_ascii_whitespace();
         let (Some("#define"), Some(name), Some(value)) = (words.next(), words.next(), words.next()) else { continue };
         if name.starts_with("MSLIP_VERSION_") || value.parse::<i32>().is_err() {
             continue;
@@ -73,17 +71,21 @@ fn constants(header: &str) -> Vec<String> {
         let value = if name.starts_with("MSLIP_BY_") { from_1.as_deref().unwrap_or(value) } else { value };
         // Fortran ignores case: `mslip_abi_version` is a function.
         let name = if name == "MSLIP_ABI_VERSION" { "MSLIP_MODULE_ABI_VERSION" } else { name };
-        lines.extend(commented("  ", format!("integer(mslip_int), parameter, public :: {name} = {value}"), &comment));
+        lines.extend(commented(
+            "  ",
+            format!("integer(mslip_int), parameter, public :: {name} = {value}"),
+            &comment.join(" "),
+        ));
     }
     lines
 }
 
 /// The types that the library fills: the structures with a reserved array. Every component is 0 until then.
-fn types(header: &str) -> Result<Vec<String>, String> {
+fn types(items: &[Item]) -> Result<Vec<String>, String> {
     let mut lines = Vec::new();
     let mut components = None;
-    for (item, comment) in items(header) {
-        let item = item.trim_end_matches(';');
+    for Item { text, comment } in items {
+        let (item, comment) = (text.trim_end_matches(';'), comment.join(" "));
         if let Some(name) = item.strip_prefix("typedef struct ").and_then(|rest| rest.strip_suffix(" {")) {
             let mut head = vec![format!("  type, bind(c), public :: {name}")];
             head.extend(comment_lines("    ", &comment));
@@ -175,21 +177,6 @@ fn dummy(argument: &Declaration, counted: bool) -> Result<(String, String), Stri
     } else {
         scalar(base).map(|_| ("type(c_ptr), value".to_owned(), name.to_owned()))
     }
-}
-
-/// The lines of the header that are not comments, each with the comment before it.
-fn items(header: &str) -> Vec<(&str, String)> {
-    let mut items = Vec::new();
-    let mut comment = Vec::new();
-    for line in header.lines().map(str::trim) {
-        if let Some(text) = line.strip_prefix("//") {
-            comment.push(text.trim());
-        } else {
-            items.push((line, comment.join(" ")));
-            comment.clear();
-        }
-    }
-    items
 }
 
 /// A statement with its comment, on the same line if that is not too long.

@@ -1,6 +1,7 @@
 //! The functions of the interface: declarations and comments from the C header, lengths and statuses from `interface.txt`.
 
 use std::collections::HashMap;
+use std::mem::{replace, take};
 
 /// The facts that types do not state.
 const FACTS: &str = include_str!("../interface.txt");
@@ -50,54 +51,45 @@ impl Prototype<'_> {
     }
 }
 
-/// A header, with each declaration of a function on one line.
-pub struct Header {
-    lines: Vec<String>,
+/// A statement of the header on one line: a directive of the preprocessor, a function, the start or end of a structure, or a
+/// component of it. The paragraphs of the comment before it.
+pub struct Item {
+    pub text: String,
+    pub comment: Vec<String>,
 }
 
-impl Header {
-    pub fn new(header: &str) -> Result<Header, String> {
-        let declared = header.split_once("extern \"C\" {").ok_or("the header declares no functions")?.1;
-        let mut lines: Vec<String> = Vec::new();
-        for line in
-            declared.lines().map(str::trim).filter(|line| !line.starts_with(['/', '#', '}']) || line.starts_with("//"))
-        {
-            match lines.last_mut() {
-                Some(last) if !last.starts_with("//") && !last.is_empty() && !last.ends_with(';') => {
-                    last.push(' ');
-                    last.push_str(line);
-                }
-                _ => lines.push(line.to_owned()),
-            }
+pub fn items(header: &str) -> Vec<Item> {
+    let (mut items, mut text, mut comment) = (Vec::new(), String::new(), vec![String::new()]);
+    // The convention of the whole header is in another kind of comment.
+    for line in header.lines().map(str::trim).filter(|line| !line.starts_with('*') && !line.starts_with("/*")) {
+        match (line.strip_prefix("//").map(str::trim), comment.last_mut()) {
+            (Some(""), _) => comment.push(String::new()),
+            (Some(words), Some(paragraph)) => *paragraph = format!("{paragraph} {words}").trim().to_owned(),
+            _ => text = format!("{text} {line}").trim().to_owned(),
         }
-        Ok(Header { lines })
-    }
-
-    /// The functions without their comments.
-    pub fn declarations(&self) -> impl Iterator<Item = &str> {
-        self.lines.iter().filter(|line| !line.starts_with("//")).filter_map(|line| line.strip_suffix(';'))
-    }
-
-    pub fn prototypes(&self) -> Result<Vec<Prototype<'_>>, String> {
-        let (mut prototypes, mut comment) = (Vec::new(), vec![String::new()]);
-        for line in &self.lines {
-            if let Some(text) = line.strip_prefix("//") {
-                match (text.trim(), comment.last_mut()) {
-                    ("", _) => comment.push(String::new()),
-                    (text, Some(paragraph)) => *paragraph = format!("{paragraph} {text}").trim().to_owned(),
-                    (_, None) => {}
-                }
-            } else if let Some(declaration) = line.strip_suffix(';') {
-                let (head, arguments) = declaration.split_once('(').ok_or(format!("no function: {declaration}"))?;
-                let arguments =
-                    arguments.trim_end_matches(')').split(',').map(str::trim).filter(|text| *text != "void");
-                let arguments = arguments.map(Declaration::parse).collect::<Result<_, String>>()?;
-                let comment = std::mem::replace(&mut comment, vec![String::new()]);
-                prototypes.push(Prototype { result: Declaration::parse(head)?, arguments, comment });
-            }
+        if !text.is_empty() && (line.starts_with(['#', '}']) || line.ends_with([';', '{'])) {
+            items.push(Item { text: take(&mut text), comment: replace(&mut comment, vec![String::new()]) });
         }
-        Ok(prototypes)
     }
+    items
+}
+
+/// The functions: their declarations without arguments, their arguments, and comments.
+pub fn declarations(items: &[Item]) -> impl Iterator<Item = (&str, &str, &[String])> {
+    items.iter().filter_map(|item| {
+        let (head, arguments) = item.text.strip_suffix(");")?.split_once('(')?;
+        Some((head, arguments, &item.comment[..]))
+    })
+}
+
+pub fn prototypes(items: &[Item]) -> Result<Vec<Prototype<'_>>, String> {
+    let mut prototypes = Vec::new();
+    for (head, arguments, comment) in declarations(items) {
+        let arguments = arguments.split(',').map(str::trim).filter(|text| *text != "void").map(Declaration::parse);
+        let (result, arguments) = (Declaration::parse(head)?, arguments.collect::<Result<_, _>>()?);
+        prototypes.push(Prototype { result, arguments, comment: comment.to_vec() });
+    }
+    Ok(prototypes)
 }
 
 /// An argument of a function.
@@ -226,7 +218,7 @@ pub fn functions<'a>(prototypes: &'a [Prototype<'a>]) -> Result<Vec<Function<'a>
                     facts.iter_mut().for_each(|fact| fact.extents.push('n'));
                 }
             }
-            entries.push(Entry { name, words, facts, section: std::mem::take(&mut section) });
+            entries.push(Entry { name, words, facts, section: take(&mut section) });
         } else if let Some((name, comment)) = line.split_once(": ") {
             common.insert(name, comment);
         } else if let Some((name, status)) = line.split_once(' ') {

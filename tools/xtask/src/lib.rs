@@ -45,10 +45,10 @@ fn since(line: &str) -> String {
 /// The generated files, as paths in the repository, with the texts that they should have.
 fn generated() -> Result<[(&'static str, String); 7], String> {
     let header = header();
-    let module = fortran::fill(&read(MODULE)?, &header).map_err(|e| format!("{MODULE}: {e}"))?;
     let python = fortran::python(&header);
-    let source = interface::Header::new(&header)?;
-    let prototypes = source.prototypes()?;
+    let items = interface::items(&header);
+    let prototypes = interface::prototypes(&items)?;
+    let module = fortran::fill(&read(MODULE)?, &items, &prototypes).map_err(|e| format!("{MODULE}: {e}"))?;
     let functions = interface::functions(&prototypes)?;
     let [procedures, calls] = wrappers::test(&functions);
     let (procedures, calls) = ((TEST_OF_FORTRAN[0], procedures), (TEST_OF_FORTRAN[1], calls));

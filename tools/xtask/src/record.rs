@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use microslip::ffi;
 
-use crate::interface::Header;
+use crate::interface::{declarations, items};
 use crate::tables::wrapped;
 
 const HEAD: &str = "\
@@ -53,10 +53,9 @@ fn structures(header: &str) -> Result<String, String> {
 
 fn functions(header: &str) -> Result<String, String> {
     let mut text = String::new();
-    for declaration in Header::new(header)?.declarations() {
-        let (head, arguments) = declaration.split_once('(').ok_or(format!("no function: {declaration}"))?;
-        let (result, name) = head.split_at(head.rfind([' ', '*']).ok_or(format!("no result: {declaration}"))? + 1);
-        text += &wrapped(&format!("FUNCTION({}, {name}, ({arguments})", result.trim()));
+    for (head, arguments, _) in declarations(&items(header)) {
+        let (result, name) = head.split_at(head.rfind([' ', '*']).ok_or(format!("no result: {head}"))? + 1);
+        text += &wrapped(&format!("FUNCTION({}, {name}, ({arguments}))", result.trim()));
     }
     Ok(text)
 }

@@ -94,13 +94,12 @@ pub fn wrapped(line: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::interface::{Header, functions};
+    use crate::interface::{functions, items, prototypes};
 
     #[test]
     fn every_function_names_its_statuses() {
-        let text = crate::header();
-        let header = Header::new(&text).unwrap();
-        let prototypes = header.prototypes().unwrap();
+        let items = items(&crate::header());
+        let prototypes = prototypes(&items).unwrap();
         let functions = functions(&prototypes).unwrap();
         for function in fallible(&functions) {
             let returns = |name: &str| {
