@@ -149,9 +149,3 @@ impl DataUnits {
         })
     }
 }
-
-impl std::fmt::Display for DataUnits {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{},{}", self.length.name, self.force.name)
-    }
-}

@@ -5,6 +5,7 @@
 //! explains most first. The direction is that at the fit, so that sizes of large effects are estimates.
 
 use crate::cycles::{Loop, Sample};
+use crate::data::{ends, mean};
 use crate::error::Error;
 use crate::least_squares::{Fit, Free};
 use crate::model::{FRICTION, Prediction};
@@ -90,11 +91,11 @@ fn samples<'a>(fit: &'a Fit) -> Vec<At<'a>> {
 pub(crate) fn causes(fit: &Fit, kinds: &[CauseKind], least_share: f64) -> Vec<Effect> {
     let Some((residuals, parameters)) = fit.basis() else { return Vec::new() };
     let samples = samples(fit);
-    let least = |value: &dyn Fn(&At) -> f64| samples.iter().map(value).fold(f64::INFINITY, f64::min);
+    let largest = |value: &dyn Fn(&At) -> f64| ends(samples.iter().map(value))[1];
     let ranges = Ranges {
-        slip_force: -fit.parameters[FRICTION] * least(&|at| -at.one.normal_force),
-        speed: -least(&|at| -at.sample.velocity.abs()),
-        amplitude: [least(&|at| at.one.amplitude), -least(&|at| -at.one.amplitude)],
+        slip_force: fit.parameters[FRICTION] * largest(&|at| at.one.normal_force),
+        speed: largest(&|at| at.sample.velocity.abs()),
+        amplitude: ends(samples.iter().map(|at| at.one.amplitude)),
     };
     let remove = |vector: &mut DVector<f64>, basis: &DMatrix<f64>| *vector -= basis * basis.tr_mul(vector);
     let direction = |kind| {
@@ -143,7 +144,7 @@ pub(crate) fn play(fit: &Fit, others: Free, least_share: f64) -> Result<Option<V
             forces.into_iter().map(|[measured, law]| ((measured - law) / one.height()).powi(2)).collect::<Vec<_>>()
         };
         let squares: Vec<_> = loops.iter().zip(fit.forces()).flat_map(of_loop).collect();
-        squares.iter().sum::<f64>() / squares.len() as f64
+        mean(squares.into_iter())
     };
     let mut rest = fit.of_loops(&loops, others)?;
     let share = 1.0 - mean_square(&loops, &rest) / mean_square(fit.loops(), fit);

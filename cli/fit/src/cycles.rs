@@ -1,6 +1,6 @@
 //! Reversals and cycles of a record, and its loops: cycles of equal amplitude without offset and drift of the displacement.
 
-use crate::data::{Record, range, smoothed};
+use crate::data::{Record, mean, range, regression, smoothed};
 use crate::error::{Error, error};
 
 /// Cycles of one record and one amplitude.
@@ -155,11 +155,6 @@ fn first_cycle(displacement: &[f64], first: usize, noise: f64) -> usize {
     (from..count).find(|i| if before { above(i) >= 0.0 } else { above(i) <= 0.0 }).unwrap_or(count)
 }
 
-pub(crate) fn mean(values: impl Iterator<Item = f64> + Clone) -> f64 {
-    let count = values.clone().count();
-    values.sum::<f64>() / count.max(1) as f64
-}
-
 impl Loop {
     fn new(record: &Record, smooth: &[f64], reversals: &[usize], end: usize) -> Loop {
         let samples = reversals[0]..end;
@@ -169,10 +164,8 @@ impl Loop {
             let [time, displacement] = [&record.time[..], smooth].map(|of| 0.5 * (of[pair[0]] + of[pair[1]]));
             (time, displacement)
         };
-        let middles: Vec<_> = reversals.windows(2).map(middle).collect();
-        let (time, centre) = (mean(middles.iter().map(|at| at.0)), mean(middles.iter().map(|at| at.1)));
-        let moment = |f: &dyn Fn(f64, f64) -> f64| mean(middles.iter().map(|at| f(at.0 - time, at.1 - centre)));
-        let drift = if has_drift { moment(&|t, x| t * x) / moment(&|t, _| t * t) } else { 0.0 };
+        let [time, centre, slope] = regression(reversals.windows(2).map(middle));
+        let drift = if has_drift { slope } else { 0.0 };
         // Drift of the mean force of a branch to the next but one.
         let of_branch = |pair: &[usize]| {
             let [time, force] = [&record.time, &record.force].map(|of| mean(of[pair[0]..pair[1]].iter().copied()));
@@ -315,10 +308,8 @@ impl Loop {
         if area > -0.01 || loops.iter().any(|one| one.area() > -OPEN * area) {
             return Ok(());
         }
-        let moment = |f: &dyn Fn(&Sample) -> f64| mean(self.samples.iter().map(f));
-        let [x, force] = [moment(&|sample| sample.displacement), moment(&|sample| sample.force)];
-        let rises = moment(&|sample| (sample.displacement - x) * (sample.force - force)) > 0.0;
-        let reason = if rises {
+        let [.., slope] = regression(self.samples.iter().map(|sample| (sample.displacement, sample.force)));
+        let reason = if slope > 0.0 {
             "the columns of displacement and force are swapped, the rows are in reverse order, or the force is late"
         } else {
             "the sign of displacement or force is reversed; the force must resist the displacement that it is plotted against, and \

@@ -168,16 +168,14 @@ impl Record {
 
     /// The same record with a displacement from which its regression line over the time is removed.
     pub fn without_trend(&self) -> Record {
-        let mean = |values: &mut dyn Iterator<Item = f64>| values.sum::<f64>() / self.time.len() as f64;
-        let [time, centre] = [&self.time, &self.displacement].map(|of| mean(&mut of.iter().copied()));
-        let pairs = || self.time.iter().zip(&self.displacement).map(|(t, x)| (t - time, x - centre));
-        let slope = mean(&mut pairs().map(|(t, x)| t * x)) / mean(&mut pairs().map(|(t, _)| t * t));
-        Record { displacement: pairs().map(|(t, x)| x - slope * t).collect(), ..self.clone() }
+        let pairs = || self.time.iter().copied().zip(self.displacement.iter().copied());
+        let [time, centre, slope] = regression(pairs());
+        Record { displacement: pairs().map(|(t, x)| x - centre - slope * (t - time)).collect(), ..self.clone() }
     }
 
     /// Means of the given number of successive samples.
     pub fn averaged(&self, samples: usize) -> Record {
-        let mean = |part: &[f64]| part.iter().sum::<f64>() / samples as f64;
+        let mean = |part: &[f64]| mean(part.iter().copied());
         let record = self.map(|values| values.chunks_exact(samples).map(mean).collect());
         let noise = [noise(&record.displacement), noise(&record.force)];
         let [interval, step] = [self.interval, self.step].map(|size| size * samples as f64);
@@ -191,12 +189,25 @@ impl Record {
 }
 
 pub(crate) fn range(values: &[f64]) -> f64 {
-    let [low, high] = ends(values);
+    let [low, high] = ends(values.iter().copied());
     high - low
 }
 
-fn ends(values: &[f64]) -> [f64; 2] {
-    values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(*value), high.max(*value)])
+/// The least and the largest value.
+pub(crate) fn ends(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
+}
+
+pub(crate) fn mean(values: impl Iterator<Item = f64> + Clone) -> f64 {
+    let count = values.clone().count();
+    values.sum::<f64>() / count.max(1) as f64
+}
+
+/// Means of both values of pairs, and the slope of the second over the first by least squares.
+pub(crate) fn regression(pairs: impl Iterator<Item = (f64, f64)> + Clone) -> [f64; 3] {
+    let [x, y] = [mean(pairs.clone().map(|pair| pair.0)), mean(pairs.clone().map(|pair| pair.1))];
+    let covariance = mean(pairs.clone().map(|pair| (pair.0 - x) * (pair.1 - y)));
+    [x, y, covariance / mean(pairs.map(|pair| (pair.0 - x).powi(2))).max(f64::MIN_POSITIVE)]
 }
 
 /// Parabola through five samples by least squares (Savitzky and Golay).
@@ -242,7 +253,7 @@ fn resolution(values: &[f64]) -> f64 {
 /// differ, so that it is no resolution of the sensor, and there is noise, so that it is no computed loop.
 fn saturation(values: &[f64]) -> Option<f64> {
     let count = |is: &dyn Fn(f64, f64) -> bool| values.windows(2).filter(|pair| is(pair[0], pair[1])).count();
-    let [low, high] = ends(values);
+    let [low, high] = ends(values.iter().copied());
     let least = (CLIPPED * values.len() as f64).max(5.0) as usize;
     // Noise separates four equal values of a digitiser, but not of a saturated sensor.
     let clipped = [low, high].map(|end| values.windows(4).filter(|near| near.iter().all(|at| *at == end)).count());

@@ -43,7 +43,7 @@ pub enum Geometry {
 }
 
 /// Reference of the displacement of a flat.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[cfg_attr(feature = "clap", derive(clap::ValueEnum), value(rename_all = "snake_case"))]
 pub enum DisplacementReference {
@@ -109,7 +109,7 @@ impl ContactParameters {
 }
 
 /// The keys of a parameter file.
-#[derive(Deserialize)]
+#[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct ParameterFile {
     flat_half_width: Option<f64>,
@@ -125,7 +125,7 @@ struct ParameterFile {
 }
 
 /// A table `[[material]]`.
-#[derive(Deserialize)]
+#[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct MaterialTable {
     young_modulus: Option<f64>,
@@ -142,19 +142,12 @@ impl TryFrom<ParameterFile> for Contact {
             _ => None,
         };
         let [young_modulus, poisson_ratio] = [of_both(|body| body.young_modulus), of_both(|body| body.poisson_ratio)];
-        let given = [
-            ("flat_half_width", file.flat_half_width.is_some()),
-            ("edge_radius", file.edge_radius.is_some()),
-            ("length", file.length.is_some()),
-            ("displacement_reference", file.displacement_reference.is_some()),
-            ("semi_axis_x", file.semi_axis_x.is_some()),
-            ("semi_axis_y", file.semi_axis_y.is_some()),
-            ("normal_force", file.normal_force.is_some()),
-            ("friction_coefficient", file.friction_coefficient.is_some()),
-            ("young_modulus", young_modulus.is_some()),
-            ("poisson_ratio", poisson_ratio.is_some()),
-        ];
-        let missing = missing_parameters(|name| given.contains(&(name, true)))?;
+        let keys = serde_json::to_value(&file).unwrap_or_default();
+        let missing = missing_parameters(|name| match name {
+            "young_modulus" => young_modulus.is_some(),
+            "poisson_ratio" => poisson_ratio.is_some(),
+            name => !keys[name].is_null(),
+        })?;
         if !missing.is_empty() {
             return error(format!("missing parameters: {}", missing.join(", ")));
         }

@@ -5,6 +5,7 @@
 //! its reversals, with one more residual each, over their standard error.
 
 use crate::cycles::{Loop, Sample};
+use crate::data::{ends, mean, regression};
 use crate::error::Error;
 use crate::model::{
     CONTACT, Curve, FRICTION, Family, LoopModel, NUISANCES, PARALLEL, PARAMETERS, Prediction, SERIES, SHAPE, STIFFENING,
@@ -33,6 +34,8 @@ pub(crate) struct Fit<'a> {
     /// parallel stiffness.
     pub parameters: [f64; PARAMETERS],
     nuisances: Vec<[f64; NUISANCES]>,
+    /// Sum of the squares of all residuals, after a minimisation.
+    pub chi_squared: f64,
     /// Lower and upper limits of the parameters.
     limits: [[f64; 2]; PARAMETERS],
 }
@@ -45,10 +48,7 @@ impl<'a> Fit<'a> {
         parameters: [f64; PARAMETERS],
         limits: [[f64; 2]; PARAMETERS],
     ) -> Result<Fit<'a>, Error> {
-        let middle = |one: &Loop| {
-            let forces = one.samples.iter().map(|sample| sample.force);
-            0.5 * (forces.clone().fold(f64::INFINITY, f64::min) + forces.fold(f64::NEG_INFINITY, f64::max))
-        };
+        let middle = |one: &Loop| 0.5 * ends(one.samples.iter().map(|sample| sample.force)).iter().sum::<f64>();
         let mut fit = Fit {
             family,
             loops,
@@ -58,6 +58,7 @@ impl<'a> Fit<'a> {
             has_share: false,
             parameters,
             nuisances: loops.iter().map(|one| [middle(one), 0.0, 0.0, 0.0]).collect(),
+            chi_squared: f64::INFINITY,
             limits,
         };
         fit.update()?;
@@ -81,9 +82,7 @@ impl<'a> Fit<'a> {
         let mut parameters = self.parameters;
         parameters[PARALLEL] *= if free[PARALLEL] { 0.0 } else { 1.0 };
         [parameters[FRICTION], parameters[SERIES], parameters[CONTACT]] = start_values(loops, &compliances, given);
-        let mut fit = Fit::new(self.family, loops, parameters, self.limits)?;
-        fit.minimize(free);
-        Ok(fit)
+        Ok(Fit::new(self.family, loops, parameters, self.limits)?.minimized(free))
     }
 
     /// The curves of changed parameters.
@@ -112,11 +111,11 @@ impl<'a> Fit<'a> {
                 ([force, variance], (force - at.force).powi(2) - variance)
             };
             let (targets, excess): (Vec<_>, Vec<_>) = one.samples.iter().map(at).unzip();
-            (targets, excess.iter().sum::<f64>() / excess.len() as f64 / one.height().powi(2))
+            (targets, mean(excess.into_iter()) / one.height().powi(2))
         };
         let (mut targets, excesses): (Vec<Vec<_>>, Vec<f64>) = self.models().map(target).unzip();
         // Computed loops may have no noise.
-        let least = (LEAST_ERROR * excesses.iter().sum::<f64>() / excesses.len() as f64).max(1e-14);
+        let least = (LEAST_ERROR * mean(excesses.iter().copied())).max(1e-14);
         for ((one, targets), excess) in self.loops.iter().zip(&mut targets).zip(excesses) {
             let excess = excess.max(least) * one.height().powi(2);
             targets.iter_mut().for_each(|[_, variance]| *variance = (*variance + excess).sqrt());
@@ -161,6 +160,13 @@ impl<'a> Fit<'a> {
             }
             fixed = pushed;
         }
+        self.chi_squared = self.residuals().map_or(f64::INFINITY, |residuals| residuals.norm_squared());
+    }
+
+    /// The fit after [`Fit::minimize`].
+    pub fn minimized(mut self, free: Free) -> Fit<'a> {
+        self.minimize(free);
+        self
     }
 
     /// Which parameters are at a limit, and meet a condition.
@@ -188,11 +194,6 @@ impl<'a> Fit<'a> {
             one.samples.iter().zip(targets).map(residual).collect()
         };
         self.models().zip(&self.targets).map(of_loop).collect()
-    }
-
-    /// Sum of the squares of all residuals.
-    pub fn chi_squared(&self) -> f64 {
-        self.residuals().map_or(f64::INFINITY, |residuals| residuals.norm_squared())
     }
 
     /// Measured and computed force, without offset and drift, at the samples of each loop.
@@ -247,8 +248,8 @@ impl<'a> Fit<'a> {
 
     /// The largest normal force over the smallest one.
     pub fn range_of_loads(&self) -> f64 {
-        let loads = self.loops.iter().map(|one| one.normal_force);
-        loads.clone().fold(0.0, f64::max) / loads.fold(f64::INFINITY, f64::min)
+        let [least, largest] = ends(self.loops.iter().map(|one| one.normal_force));
+        largest / least
     }
 
     /// Largest displacement of each loop over that at the onset of gross slip.
@@ -365,9 +366,8 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Fit<'_> {
 pub(crate) fn start_values(loops: &[Loop], compliances: &[f64], given: [Option<f64>; 3]) -> [f64; 3] {
     let friction = loops.iter().map(|one| one.height() / one.normal_force).fold(0.0, f64::max);
     let friction = given[FRICTION].unwrap_or(friction);
-    let total: Vec<_> = loops.iter().map(|one| initial_compliance(one, one.height())).collect();
-    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
-    let [total, law] = [mean(&total), mean(compliances)];
+    let total = mean(loops.iter().map(|one| initial_compliance(one, one.height())));
+    let law = mean(compliances.iter().copied());
     let contact = given[CONTACT].unwrap_or_else(|| {
         let rest = total - given[SERIES].unwrap_or(0.0);
         if given[SERIES].is_none() && rest > law { 1.0 } else { (rest / law).max(1e-3) }
@@ -378,14 +378,9 @@ pub(crate) fn start_values(loops: &[Loop], compliances: &[f64], given: [Option<f
 
 /// du/dT over the first part of the branches: the regression of displacement on force up to 30 % of the height of the loop.
 fn initial_compliance(one: &Loop, height: f64) -> f64 {
-    let middle = one.samples.iter().map(|sample| sample.force).sum::<f64>() / one.samples.len() as f64;
-    let rise = |sample: &&Sample| sample.direction * (sample.force - middle) + height;
-    let part: Vec<_> = one.samples.iter().filter(|sample| rise(sample) < 0.6 * height).collect();
-    let count = part.len().max(1) as f64;
-    let of = |f: &dyn Fn(&&Sample) -> f64| part.iter().map(f).sum::<f64>() / count;
-    let [force, distance] = [of(&rise), of(&|sample| sample.distance)];
-    let variance = of(&|sample| (rise(sample) - force).powi(2));
-    let covariance = of(&|sample| (rise(sample) - force) * (sample.distance - distance));
-    let compliance = covariance / variance.max(f64::MIN_POSITIVE);
+    let middle = mean(one.samples.iter().map(|sample| sample.force));
+    let rise = |sample: &Sample| sample.direction * (sample.force - middle) + height;
+    let pairs = one.samples.iter().map(|sample| (rise(sample), sample.distance));
+    let [.., compliance] = regression(pairs.filter(|(rise, _)| *rise < 0.6 * height));
     if compliance > 0.0 { compliance } else { one.amplitude / height.max(f64::MIN_POSITIVE) }
 }

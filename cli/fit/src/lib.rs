@@ -56,7 +56,7 @@ pub fn fit(contact: &Contact, measurements: &[Measurement], options: &Options) -
     let compliances = compliances.collect::<Result<Vec<_>, _>>()?;
     let given = [options.friction_coefficient, options.series_compliance, options.contact_compliance];
     let [friction, series, contact_factor] = start_values(&loops, &compliances, given);
-    let compliance = series + contact_factor * cycles::mean(compliances.iter().copied());
+    let compliance = series + contact_factor * data::mean(compliances.iter().copied());
     warnings.extend(plausibility::check(&loops, &compliances, friction, compliance)?);
 
     let limit = [1e-3 * friction, 1e3 * friction];

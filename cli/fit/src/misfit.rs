@@ -4,6 +4,7 @@
 //! correlation that is short against a cycle; what repeats in each cycle is an error of the law.
 
 use crate::cycles::Loop;
+use crate::data::mean;
 use nalgebra::{DMatrix, DVector};
 
 /// The law explains a loop if its misfit is at most this factor times the noise. Rounding to the steps q of a digitiser has
@@ -31,7 +32,7 @@ impl<'a> LoopMisfit<'a> {
     pub fn new(one: &'a Loop, forces: &[[f64; 2]], stiffnesses: &[f64]) -> LoopMisfit<'a> {
         let residuals: Vec<_> = forces.iter().map(|[measured, law]| measured - law).collect();
         let [of_displacement, of_force] = one.noise;
-        let mean_square = |values: &[f64]| values.iter().map(|value| value * value).sum::<f64>() / values.len() as f64;
+        let mean_square = |values: &[f64]| mean(values.iter().map(|value| value * value));
         let of_samples = of_force.powi(2) + mean_square(stiffnesses) * of_displacement.powi(2);
         let of_cycles = between_branches(one, &residuals, forces);
         let of_digits = one.resolution.powi(2) / 12.0;

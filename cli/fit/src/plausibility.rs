@@ -1,6 +1,7 @@
 //! Whether height and slope of the loops suit the contact: errors of units, and what the loops cannot show.
 
 use crate::cycles::Loop;
+use crate::data::ends;
 use crate::error::{Error, error};
 
 /// Friction coefficients that occur.
@@ -47,11 +48,8 @@ pub(crate) fn check(loops: &[Loop], contact: &[f64], friction: f64, compliance: 
             compliance / softest
         ));
     }
-    let spread = |value: &dyn Fn(&Loop) -> f64| {
-        let values = loops.iter().map(value);
-        values.clone().fold(0.0, f64::max) / values.fold(f64::INFINITY, f64::min) - 1.0
-    };
-    if spread(&|one| one.amplitude / one.normal_force) < EQUAL {
+    let [least, largest] = ends(loops.iter().map(|one| one.amplitude / one.normal_force));
+    if largest / least - 1.0 < EQUAL {
         warnings.push(
             "one amplitude only: compliances and shape follow from the form of the loop alone, so that friction that depends on \
              the amplitude, and errors of the rig, are not distinguished from them"

@@ -1,6 +1,7 @@
 //! The result of a fit.
 
 use crate::cycles::Loop;
+use crate::data::mean;
 use crate::input::{Contact, DisplacementReference, Geometry};
 use crate::model::PARAMETERS;
 use serde::{Deserialize, Serialize};
@@ -192,13 +193,12 @@ impl Misfit {
     /// Of measured and computed forces at the samples of each loop.
     pub(crate) fn new(loops: &[Loop], forces: &[Vec<[f64; 2]>]) -> Misfit {
         let differences = || forces.iter().flatten().map(|[measured, model]| measured - model);
-        let count = differences().count() as f64;
         let energies: Vec<_> = loops.iter().zip(forces).map(|(one, forces)| energies(one, forces)).collect();
         let relative = |[measured, model]: &[f64; 2]| (model / measured - 1.0).powi(2);
         Misfit {
-            force_rms: (differences().map(|difference| difference * difference).sum::<f64>() / count).sqrt(),
+            force_rms: mean(differences().map(|difference| difference * difference)).sqrt(),
             force_max: differences().fold(0.0, |most: f64, difference| most.max(difference.abs())),
-            energy: (energies.iter().map(relative).sum::<f64>() / loops.len() as f64).sqrt(),
+            energy: mean(energies.iter().map(relative)).sqrt(),
         }
     }
 }

@@ -68,9 +68,9 @@ impl<'a> Solution<'a> {
                     let rest = self.total_compliance.value - trial.parameters[CONTACT] * trial.law_compliance()[0];
                     trial.parameters[SERIES] = rest.max(1e-3 * self.total_compliance.value);
                 }
-                let trial = Candidate::new(trial, free);
-                if i != FRICTION || trial.is_as_good_as(&self.fit, QUANTILE.powi(2) * self.unit) {
-                    fit = trial.fit;
+                let trial = trial.minimized(free);
+                if i != FRICTION || is_as_good_as(&trial, &self.fit, QUANTILE.powi(2) * self.unit) {
+                    fit = trial;
                     break;
                 }
             }
@@ -103,26 +103,11 @@ const SMALL_PART: f64 = 0.1;
 /// A plateau, and microslip, are claimed only beyond this multiple of the quantile: with a confidence of 0.9999.
 const CLAIM: f64 = 2.0;
 
-/// A fit at one shape.
-#[derive(Clone)]
-struct Candidate<'a> {
-    fit: Fit<'a>,
-    chi_squared: f64,
-}
-
-impl<'a> Candidate<'a> {
-    fn new(mut fit: Fit<'a>, free: Free) -> Candidate<'a> {
-        fit.minimize(free);
-        let chi_squared = fit.chi_squared();
-        Candidate { fit, chi_squared }
-    }
-
-    /// Whether another fit explains no more: at most this part of the sum of squares, or an error of the model.
-    fn is_as_good_as(&self, other: &Fit, excess: f64) -> bool {
-        let pairs = || misfits(&self.fit).into_iter().zip(misfits(other));
-        self.chi_squared - other.chi_squared() <= excess
-            || pairs().all(|(this, other)| this.misfit.powi(2) <= other.misfit.powi(2) + other.of_model)
-    }
+/// Whether a fit is as good as another one: it explains no less than by this part of the sum of squares, or by an error of the model.
+fn is_as_good_as(this: &Fit, other: &Fit, excess: f64) -> bool {
+    let pairs = || misfits(this).into_iter().zip(misfits(other));
+    this.chi_squared - other.chi_squared <= excess
+        || pairs().all(|(this, other)| this.misfit.powi(2) <= other.misfit.powi(2) + other.of_model)
 }
 
 /// Loads that differ by less, as a factor, show nothing of a stiffness that grows with the load.
@@ -168,11 +153,12 @@ fn solve_with<'a>(
         return solve_with(given, options, range, [is_growing, false]);
     }
     let candidates = match range {
-        None => vec![Candidate::new(start, others)],
+        None => vec![start.minimized(others)],
         Some(range) => along_shapes(&start, range, others, all)?,
     };
     let best = best_of(&candidates);
-    let Candidate { fit, chi_squared } = candidates[best].clone();
+    let fit = candidates[best].clone();
+    let chi_squared = fit.chi_squared;
     // As many independent residuals as correlation times; each parameter takes one.
     let residuals = fit.weighted_residuals();
     let independent = residuals.iter().map(Vec::len).sum::<usize>() as f64 / correlation(&residuals);
@@ -180,12 +166,12 @@ fn solve_with<'a>(
     let points = candidates.iter().map(|candidate| {
         let excess = ((candidate.chi_squared - chi_squared).max(0.0) / unit).sqrt();
         let relative_rms = (candidate.chi_squared / chi_squared).sqrt();
-        (ProfilePoint { shape: candidate.fit.parameters[SHAPE], relative_rms, admitted: excess <= QUANTILE }, excess)
+        (ProfilePoint { shape: candidate.parameters[SHAPE], relative_rms, admitted: excess <= QUANTILE }, excess)
     });
     let (profile, excesses): (Vec<_>, Vec<_>) = points.unzip();
 
     let free = if range.is_some() { all } else { others };
-    let excess = |candidate: &Candidate| (candidate.chi_squared - chi_squared) / unit;
+    let excess = |candidate: &Fit| (candidate.chi_squared - chi_squared) / unit;
     let without_plateau = without_plateau(&fit, free, |candidate| excess(candidate).max(0.0).sqrt());
     let has_plateau = without_plateau.is_none();
     if spring && !has_plateau {
@@ -206,19 +192,19 @@ fn solve_with<'a>(
             vec![(fit.clone(), all)]
         } else {
             let admitted = candidates.into_iter().zip(&profile).filter(|(_, point)| point.admitted);
-            admitted.map(|(candidate, _)| (candidate.fit, others)).collect()
+            admitted.map(|(candidate, _)| (candidate, others)).collect()
         };
     }
     if let Some(candidate) = without_plateau {
         let [of_shape, free] = [others, free].map(|of| std::array::from_fn(|i| of[i] && i != FRICTION));
         let steps = FRICTION_STEPS.iter().filter(|_| others[FRICTION]).filter_map(|step| {
-            let mut start = candidate.fit.clone();
+            let mut start = candidate.clone();
             start.parameters[FRICTION] = step * start.carried(0.0);
-            let candidate = Candidate::new(start, free);
-            candidate.is_as_good_as(&fit, QUANTILE.powi(2) * unit).then_some((candidate.fit, of_shape))
+            let candidate = start.minimized(free);
+            is_as_good_as(&candidate, &fit, QUANTILE.powi(2) * unit).then_some((candidate, of_shape))
         });
         of_shapes.extend(steps);
-        of_shapes.push((candidate.fit, others));
+        of_shapes.push((candidate, others));
     }
     if corrected.parameters != fit.parameters {
         of_shapes.push((corrected, of_shapes[0].1));
@@ -259,7 +245,7 @@ fn solve_with<'a>(
     }
     let slider = spring_slider(&fit, others);
     // What the law explains beyond the slider is below the error of the model, or may be chance.
-    let is_spring_slider = slider.is_as_good_as(&fit, (CLAIM * QUANTILE).powi(2) * unit);
+    let is_spring_slider = is_as_good_as(&slider, &fit, (CLAIM * QUANTILE).powi(2) * unit);
     let [law, _] = fit.law_compliance();
     let total = total_compliance.value;
     if is_spring_slider && !is_hidden(law, total) {
@@ -274,17 +260,7 @@ fn solve_with<'a>(
         let value = estimates[SHAPE].value;
         estimates[SHAPE] = Estimate { value, lower: low, upper: Some(high), status: Status::NotDetermined };
     }
-    Ok(Solution {
-        fit,
-        free,
-        unit,
-        estimates,
-        total_compliance,
-        profile,
-        explanation,
-        slider: slider.fit,
-        is_spring_slider,
-    })
+    Ok(Solution { fit, free, unit, estimates, total_compliance, profile, explanation, slider, is_spring_slider })
 }
 
 /// Whether the law explains the loops, with the causes of what it does not, and the fit without the effect of small ones.
@@ -347,7 +323,7 @@ fn stiffening(best: &Fit, free: Free, unit: f64) -> Estimate {
     let is_admitted = |share: f64| {
         let mut fit = best.clone();
         fit.parameters[STIFFENING] = share;
-        let excess = Candidate::new(fit, others).chi_squared - best.chi_squared();
+        let excess = fit.minimized(others).chi_squared - best.chi_squared;
         excess <= QUANTILE.powi(2) * unit
     };
     let least = value * 1e-3;
@@ -389,37 +365,31 @@ fn explanation(fit: &Fit) -> Explanation {
 
 /// A fit without gross slip that the data admit: the best one, or one of larger friction coefficient. `None` if no
 /// such fit is admitted: the loops have a plateau.
-fn without_plateau<'a>(best: &Fit<'a>, free: Free, excess: impl Fn(&Candidate) -> f64) -> Option<Candidate<'a>> {
-    let mut candidate = Candidate { fit: best.clone(), chi_squared: best.chi_squared() };
+fn without_plateau<'a>(best: &Fit<'a>, free: Free, excess: impl Fn(&Fit) -> f64) -> Option<Fit<'a>> {
+    let mut candidate = best.clone();
     let others = std::array::from_fn(|i| free[i] && i != FRICTION);
     let mut steps = FRICTION_STEPS.into_iter();
-    while slips(&candidate.fit, SHORTEST_PLATEAU) && excess(&candidate) <= CLAIM * QUANTILE {
+    while slips(&candidate, SHORTEST_PLATEAU) && excess(&candidate) <= CLAIM * QUANTILE {
         if !free[FRICTION] {
             return None;
         }
-        let mut fit = candidate.fit;
-        fit.parameters[FRICTION] = best.parameters[FRICTION] * steps.next()?;
-        candidate = Candidate::new(fit, others);
+        candidate.parameters[FRICTION] = best.parameters[FRICTION] * steps.next()?;
+        candidate.minimize(others);
     }
     (excess(&candidate) <= CLAIM * QUANTILE).then_some(candidate)
 }
 
 /// The best spring and slider.
-fn spring_slider<'a>(best: &Fit<'a>, others: Free) -> Candidate<'a> {
+fn spring_slider<'a>(best: &Fit<'a>, others: Free) -> Fit<'a> {
     let [_, series, contact, ..] = best.parameters;
     let mut fit = best.clone();
     fit.parameters[SERIES] = series + contact * best.law_compliance()[0];
     (fit.parameters[CONTACT], fit.parameters[STIFFENING]) = (0.0, 0.0);
-    Candidate::new(fit, [others[FRICTION], true, false, false, false, others[PARALLEL]])
+    fit.minimized([others[FRICTION], true, false, false, false, others[PARALLEL]])
 }
 
 /// Fits at shapes over the whole range, each from the one beside it, and at the best shape, in the order of the shapes.
-fn along_shapes<'a>(
-    start: &Fit<'a>,
-    [low, high]: [f64; 2],
-    others: Free,
-    all: Free,
-) -> Result<Vec<Candidate<'a>>, Error> {
+fn along_shapes<'a>(start: &Fit<'a>, [low, high]: [f64; 2], others: Free, all: Free) -> Result<Vec<Fit<'a>>, Error> {
     let shape = |k: usize| low + (high - low) * k as f64 / (SHAPES - 1) as f64;
     let first = (0..SHAPES).find(|k| shape(*k) >= start.parameters[SHAPE]).unwrap_or(SHAPES - 1);
     let mut candidates = Vec::new();
@@ -428,21 +398,20 @@ fn along_shapes<'a>(
         let mut from = start.clone();
         for k in shapes {
             from.parameters[SHAPE] = shape(k);
-            let found = Candidate::new(from, others);
-            from = found.fit.clone();
-            candidates.push(found);
+            from.minimize(others);
+            candidates.push(from.clone());
         }
     }
     let best = &candidates[best_of(&candidates)];
-    let refined = Candidate::new(best.fit.clone(), all);
+    let refined = best.clone().minimized(all);
     if refined.chi_squared < best.chi_squared {
         candidates.push(refined);
     }
-    candidates.sort_by(|one, other| one.fit.parameters[SHAPE].total_cmp(&other.fit.parameters[SHAPE]));
+    candidates.sort_by(|one, other| one.parameters[SHAPE].total_cmp(&other.parameters[SHAPE]));
     Ok(candidates)
 }
 
-fn best_of(candidates: &[Candidate]) -> usize {
+fn best_of(candidates: &[Fit]) -> usize {
     let better = |i: &usize, j: &usize| candidates[*i].chi_squared.total_cmp(&candidates[*j].chi_squared);
     (0..candidates.len()).min_by(better).unwrap_or(0)
 }
