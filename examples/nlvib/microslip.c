@@ -119,11 +119,9 @@ static void init(int is_element, mxArray **result, int n, const mxArray *const *
     check(is_element ? mslip_element_init(&p, directions, normal_input, memory) : mslip_contact_init(&p, memory));
 }
 
-static void set(mxArray *structure, const char *name, double value)
-{
-    mxAddField(structure, name);
-    mxSetField(structure, 0, name, mxCreateDoubleScalar(value));
-}
+/* Adds a field of an object to a struct. */
+#define SET(structure, object, name) \
+    (mxAddField(structure, #name), mxSetField(structure, 0, #name, mxCreateDoubleScalar((object)->name)))
 
 static mxArray *fields(const mxArray *array)
 {
@@ -132,23 +130,23 @@ static mxArray *fields(const mxArray *array)
     const mslip_element *element = object(array, sizeof *element);
     if (contact) {
         check(mslip_contact_check(contact));
-        set(result, "composite_modulus", contact->composite_modulus);
-        set(result, "half_width", contact->half_width);
-        set(result, "slip_force", contact->slip_force);
-        set(result, "slip_displacement", contact->slip_displacement);
-        set(result, "initial_stiffness", contact->initial_stiffness);
-        set(result, "slip_energy", contact->slip_energy);
+        SET(result, contact, composite_modulus);
+        SET(result, contact, half_width);
+        SET(result, contact, slip_force);
+        SET(result, contact, slip_displacement);
+        SET(result, contact, initial_stiffness);
+        SET(result, contact, slip_energy);
     } else {
         check(mslip_element_check(element));
-        set(result, "composite_modulus", element->composite_modulus);
-        set(result, "friction_coefficient", element->friction_coefficient);
-        set(result, "normal_force", element->normal_force);
-        set(result, "half_width", element->half_width);
-        set(result, "approach", element->approach);
-        set(result, "normal_stiffness", element->normal_stiffness);
-        set(result, "tangential_stiffness", element->tangential_stiffness);
-        set(result, "directions", element->directions);
-        set(result, "normal_input", element->normal_input);
+        SET(result, element, composite_modulus);
+        SET(result, element, friction_coefficient);
+        SET(result, element, normal_force);
+        SET(result, element, half_width);
+        SET(result, element, approach);
+        SET(result, element, normal_stiffness);
+        SET(result, element, tangential_stiffness);
+        SET(result, element, directions);
+        SET(result, element, normal_input);
     }
     return result;
 }
@@ -164,10 +162,14 @@ static mxArray *approach(const mxArray *element, const mxArray *force)
 
 /* ---- Harmonic force ---- */
 
-/* The workspace of the last call serves the next one if that has the same size. directions is 0 for a contact. */
+/* directions is 0 for a contact. */
+typedef struct size {
+    size_t directions, harmonics, samples, rule, periods;
+} size;
+
+/* The workspace of the last call serves the next one if that has the same size. */
 static struct {
-    int32_t directions, rule;
-    size_t harmonics, samples, periods;
+    size size;
     double *memory;
 } workspace;
 
@@ -177,26 +179,29 @@ static void free_workspace(void)
     workspace.memory = NULL;
 }
 
-static double *workspace_for(int32_t directions, size_t harmonics, size_t samples, int32_t rule, size_t periods)
+static double *workspace_for(size s)
 {
-    size_t length;
-    int32_t status;
-    if (workspace.memory && workspace.directions == directions && workspace.harmonics == harmonics &&
-        workspace.samples == samples && workspace.rule == rule && workspace.periods == periods)
-        return workspace.memory;
+    int32_t directions = (int32_t)s.directions, rule = (int32_t)s.rule, status;
+    size_t length = directions ? mslip_element_workspace_length(directions, s.harmonics, s.samples, rule)
+                               : mslip_harmonic_workspace_length(s.harmonics, s.samples, rule);
+    if (workspace.memory && memcmp(&workspace.size, &s, sizeof s) == 0) return workspace.memory;
     free_workspace();
-    length = directions ? mslip_element_workspace_length(directions, harmonics, samples, rule)
-                        : mslip_harmonic_workspace_length(harmonics, samples, rule);
+    workspace.size = s;
     /* One double for a size that is rejected. */
     workspace.memory = malloc((length ? length : 1) * sizeof(double));
     require(workspace.memory != NULL, "out of memory");
-    workspace.directions = directions, workspace.rule = rule;
-    workspace.harmonics = harmonics, workspace.samples = samples, workspace.periods = periods;
-    status = directions ? mslip_element_workspace_init(directions, harmonics, samples, rule, periods, length, workspace.memory)
-                        : mslip_harmonic_workspace_init(harmonics, samples, rule, length, workspace.memory);
+    status = directions
+                 ? mslip_element_workspace_init(directions, s.harmonics, s.samples, rule, s.periods, length, workspace.memory)
+                 : mslip_harmonic_workspace_init(s.harmonics, s.samples, rule, length, workspace.memory);
     if (status != MSLIP_OK) free_workspace();
     check(status);
     return workspace.memory;
+}
+
+static double *output(mxArray **result, size_t rows, size_t columns)
+{
+    *result = mxCreateDoubleMatrix(rows, columns, mxREAL);
+    return mxGetPr(*result);
 }
 
 static void harmonic_force(int outputs, mxArray **result, int n, const mxArray *const *arguments)
@@ -207,29 +212,19 @@ static void harmonic_force(int outputs, mxArray **result, int n, const mxArray *
     int32_t rule = n > 3 ? constant(arguments[3], "the rule is a number") : MSLIP_UNIFORM_SAMPLING;
     size_t periods = n > 4 ? count(arguments[4], "the number of periods is a number") : 0;
     size_t components = element ? (size_t)element->directions + 1 : 1;
-    double *memory, *jacobian = NULL, *dissipated = NULL, *drift = NULL;
+    double *memory, *force, *jacobian, *dissipated, *drift;
 
     require(n <= 4 || mxGetScalar(arguments[4]) >= 0, "the number of periods is not negative");
     require(contact || element, "the object is neither a contact nor an element");
     require(mxIsDouble(arguments[2]) && !mxIsComplex(arguments[2]) && rows % 2 == 1 && mxGetN(arguments[2]) == components,
             "the displacement has 2H+1 rows, and a column for each component");
-    memory = workspace_for(element ? element->directions : 0, rows / 2, samples, rule, periods);
-    result[0] = mxCreateDoubleMatrix(rows, components, mxREAL);
-    if (outputs > 1) {
-        result[1] = mxCreateDoubleMatrix(rows * components, rows * components, mxREAL);
-        jacobian = mxGetPr(result[1]);
-    }
-    if (outputs > 2) {
-        result[2] = mxCreateDoubleMatrix(1, 1, mxREAL);
-        dissipated = mxGetPr(result[2]);
-    }
-    if (outputs > 3) {
-        result[3] = mxCreateDoubleMatrix(1, 1, mxREAL);
-        drift = mxGetPr(result[3]); /* of a contact it remains 0 */
-    }
-    check(element ? mslip_element_harmonic_force(element, memory, mxGetPr(arguments[2]), mxGetPr(result[0]), jacobian, dissipated,
-                                                 drift)
-                  : mslip_harmonic_force(contact, memory, mxGetPr(arguments[2]), mxGetPr(result[0]), jacobian, dissipated));
+    memory = workspace_for((size){ element ? element->directions : 0, rows / 2, samples, rule, periods });
+    force = output(&result[0], rows, components);
+    jacobian = outputs > 1 ? output(&result[1], rows * components, rows * components) : NULL;
+    dissipated = outputs > 2 ? output(&result[2], 1, 1) : NULL;
+    drift = outputs > 3 ? output(&result[3], 1, 1) : NULL; /* of a contact it remains 0 */
+    check(element ? mslip_element_harmonic_force(element, memory, mxGetPr(arguments[2]), force, jacobian, dissipated, drift)
+                  : mslip_harmonic_force(contact, memory, mxGetPr(arguments[2]), force, jacobian, dissipated));
 }
 
 void mexFunction(int outputs, mxArray *result[], int n, const mxArray *arguments[])
