@@ -4,10 +4,12 @@ module basics
   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit, real64
   implicit none
   private
-  public :: argument, csv, fail, open_table, progress, text
+  public :: argument, fail, open_table, progress, text
 
   integer, parameter, public :: wp = real64
   real(wp), parameter, public :: pi = acos(-1.0_wp)
+  !> Format of a row of a table, with as many digits as restore the same doubles.
+  character(len=*), parameter, public :: row = '(*(g0,:,","))'
   integer, parameter, public :: path_length = 256, name_length = 32
 
   interface text
@@ -70,18 +72,6 @@ contains
     write (buffer, format) number
     string = trim(adjustl(buffer))
   end function text_of_real
-
-  !> Fields of a table, each after a comma. 17 digits restore the same doubles.
-  pure function csv(values) result(fields)
-    real(wp), intent(in) :: values(:)
-    character(len=:), allocatable :: fields
-    integer :: i
-
-    fields = ''
-    do i = 1, size(values)
-      fields = fields//','//text(values(i), '(es24.16e3)')
-    end do
-  end function csv
 
   !> Unit of a new file with this first line.
   integer function open_table(path, header) result(unit)

@@ -9,7 +9,7 @@
 !> * with single frequencies,
 !>   NAME_coefficients.csv  the harmonic coefficients of all degrees of freedom at single frequencies.
 program forced_response
-  use basics, only: argument, csv, fail, open_table, pi, progress, text, wp
+  use basics, only: argument, fail, open_table, pi, progress, row, text, wp
   use case_input, only: case_data, prepare_problem, read_case
   use continuation, only: follow_response, refine_peak, response_path
   use fourier_series, only: harmonic_amplitude, series_peak
@@ -50,7 +50,7 @@ contains
       if (.not. converged) call fail('no harmonic balance found at '//text(data%frequencies(i), '(f12.3)')//' Hz')
       response = structure_response(problem, point)
       do dof = 1, size(response, 2)
-        write (table, '(a)') text(data%frequencies(i), '(es24.16e3)')//','//text(dof)//csv(response(:, dof))
+        write (table, row) data%frequencies(i), dof, response(:, dof)
       end do
       call report('point '//text(i), data%frequencies(i), series_peak(response(:, data%response_dof)))
     end do
@@ -110,7 +110,7 @@ contains
     call evaluate(problem, omega, displacement, point)
     response = structure_response(problem, point)
     amplitude = series_peak(response(:, data%response_dof))
-    write (table, '(a)') text(load)//csv([data%load_factors(load), omega / (2.0_wp * pi), amplitude, &
-                                          harmonic_amplitude(response(:, data%response_dof)), point%dissipated])
+    write (table, row) load, data%load_factors(load), omega / (2.0_wp * pi), amplitude, &
+      harmonic_amplitude(response(:, data%response_dof)), point%dissipated
   end subroutine write_row
 end program forced_response

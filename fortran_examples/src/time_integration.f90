@@ -123,7 +123,7 @@ end module newmark
 !>
 !> The exit code is 1 if the peak of the last balance of a group differs by more than its allowed_difference.
 program time_integration
-  use basics, only: argument, csv, fail, open_table, pi, progress, text, wp
+  use basics, only: argument, fail, open_table, pi, progress, row, text, wp
   use case_input, only: case_data, integration_input, prepare_problem, read_case
   use dense_algebra, only: solve, symmetric_modes
   use fourier_series, only: harmonic_amplitude, series_basis, series_peak
@@ -176,8 +176,7 @@ contains
       difference = [abs(peak(k) / integrated_peak - 1.0_wp), &
                     relative_difference(balances(k)%response, integrated%response), &
                     relative_difference(balances(k)%displacement, integrated%displacement)]
-      write (table, '(a)') text(input%load_factor, '(es24.16e3)')//','//text(input%harmonics(k))// &
-        csv([peak(k), integrated_peak, difference])
+      write (table, row) input%load_factor, input%harmonics(k), peak(k), integrated_peak, difference
       call write_waveform(input, input%harmonics(k), balances(k))
       call progress('  '//text(input%harmonics(k))//' harmonics: peak '//text(1.0e6_wp * peak(k), '(f10.4)')// &
                     ' um, time integration '//text(1.0e6_wp * integrated_peak, '(f10.4)')//' um, waveform '// &
@@ -312,12 +311,11 @@ contains
     call symmetric_modes(problem%model%stiffness + matmul(scaled, transpose(problem%incidence)), problem%model%mass, omega, shapes)
     shown = abs(matmul(problem%incidence(:, 1), shapes))
     do i = 1, size(omega)
-      write (modes, '(a)') text(input%load_factor, '(es24.16e3)')//csv([omega(i) / (2.0_wp * pi * input%frequency), &
-                                                                        shown(i) / maxval(shown)])
+      write (modes, row) input%load_factor, omega(i) / (2.0_wp * pi * input%frequency), shown(i) / maxval(shown)
     end do
     amplitude = harmonic_amplitude(matmul(force, series_basis(most, size(force))))
     do i = 1, most
-      write (spectrum, '(a)') text(input%load_factor, '(es24.16e3)')//csv([real(i, wp), amplitude(i) / amplitude(1)])
+      write (spectrum, row) input%load_factor, i, amplitude(i) / amplitude(1)
     end do
   end subroutine write_harmonics
 
@@ -328,8 +326,8 @@ contains
     integer :: j
 
     do j = 0, input%steps_per_period, max(1, input%steps_per_period / waveform_points)
-      write (waveforms, '(a)') text(input%load_factor, '(es24.16e3)')//','//text(harmonics)// &
-        csv([2.0_wp * pi * j / input%steps_per_period, waves%displacement(modulo(j, input%steps_per_period) + 1)])
+      write (waveforms, row) input%load_factor, harmonics, 2.0_wp * pi * j / input%steps_per_period, &
+        waves%displacement(modulo(j, input%steps_per_period) + 1)
     end do
   end subroutine write_waveform
 
