@@ -177,7 +177,7 @@ struct Fact<'a> {
 
 impl<'a> Fact<'a> {
     fn parse(line: &'a str) -> Result<Fact<'a>, String> {
-        let (head, comment) = line.split_once(':').ok_or(format!("no comment: {line}"))?;
+        let (head, comment) = line.split_once(':').unwrap_or((line, ""));
         let required = head.ends_with('!');
         let (name, extents) = head.trim_end_matches([' ', '!', ')']).split_once(" (").unwrap_or((head, ""));
         let name = name.trim_end_matches([' ', '!']);

@@ -116,22 +116,14 @@ fn description(function: &Function) -> Vec<String> {
     let paragraphs = paragraphs.map(|text| {
         let of_c = |sentence: &&str| ["NULL", "alias", "MSLIP_BY_"].iter().any(|word| sentence.contains(word));
         let kept: Vec<&str> = sentences(text).into_iter().filter(|sentence| !of_c(sentence)).collect();
-        let mut text = String::new();
         // An index is in parentheses, a unit in brackets.
-        let mut of_index = false;
-        for letter in kept.join(" ").chars() {
-            let index = letter == '[' && text.ends_with(|before: char| before.is_alphanumeric());
-            of_index |= index;
-            text.push(if index {
-                '('
-            } else if letter == ']' && of_index {
-                ')'
-            } else {
-                letter
-            });
-            of_index &= letter != ']';
-        }
-        text
+        let text = kept.join(" ");
+        let mut parts = text.split('[');
+        let first = parts.next().unwrap_or_default().to_owned();
+        parts.fold(first, |text, part| match text.ends_with(char::is_alphanumeric) {
+            true => format!("{text}({}", part.replacen(']', ")", 1)),
+            false => format!("{text}[{part}"),
+        })
     });
     let mut lines = Vec::new();
     for paragraph in paragraphs.filter(|text| !text.is_empty()) {
@@ -400,10 +392,8 @@ impl Procedure<'_> {
         let function = self.function;
         let letters: Vec<char> =
             ['k', 'm', 'n'].into_iter().filter(|letter| function.letters().contains(*letter)).collect();
-        let mut extents: Vec<String> = letters.iter().filter_map(|letter| self.extent(*letter)).collect();
-        if self.form == Form::Scalar {
-            extents.clear();
-        }
+        let of_form = letters.iter().filter(|_| self.form != Form::Scalar);
+        let extents: Vec<_> = of_form.filter_map(|letter| Some((*letter, self.extent(*letter)?))).collect();
         let mut checks = Vec::new();
         let mut pointers = 0;
         let mut actual: Vec<String> = Vec::new();
@@ -452,13 +442,19 @@ impl Procedure<'_> {
         self.statements(&extents, &checks, pointers, &actual)
     }
 
-    fn statements(&self, extents: &[String], checks: &[String], pointers: usize, actual: &[String]) -> Vec<String> {
+    fn statements(
+        &self,
+        extents: &[(char, String)],
+        checks: &[String],
+        pointers: usize,
+        actual: &[String],
+    ) -> Vec<String> {
         let mut lines = vec![String::new()];
         let call = format!("status = {}({})", self.c_name(), actual.join(", "));
-        let of_workspace = extents.iter().any(|extent| extent.contains("call "));
+        let of_workspace = extents.iter().any(|(letter, _)| *letter == 'k');
         let of_index = checks.iter().any(|check| check.contains("check_index"));
         if !extents.is_empty() {
-            let names: Vec<String> = extents.iter().filter_map(|extent| Some(letter_of(extent)?.to_string())).collect();
+            let names: Vec<String> = extents.iter().map(|(letter, _)| letter.to_string()).collect();
             lines.push(format!("    integer(mslip_size) :: {}", names.join(", ")));
         }
         if of_index {
@@ -469,7 +465,7 @@ impl Procedure<'_> {
         if lines.len() > 1 {
             lines.push(String::new());
         }
-        lines.extend(extents.iter().flat_map(|extent| extent.split('\n')).map(|line| format!("    {line}")));
+        lines.extend(extents.iter().flat_map(|(_, extent)| extent.split('\n')).map(|line| format!("    {line}")));
         lines.extend(of_index.then(|| "    failed = n".to_owned()));
         lines.extend((pointers > 0).then(|| "    ptr = c_null_ptr".to_owned()));
         if !of_workspace && !of_index && !checks.is_empty() {
@@ -579,10 +575,6 @@ impl Procedure<'_> {
             _ => format!("address_of({name})"),
         }
     }
-}
-
-fn letter_of(extent: &str) -> Option<char> {
-    if extent.starts_with("call ") { Some('k') } else { extent.chars().next() }
 }
 
 fn is_optional(argument: &Argument) -> bool {
