@@ -148,6 +148,8 @@ contains
 
 end module contact_element
 
+! The arguments below that are not used are not declared: they have types by their first letters, as in CalculiX.
+
 !> Called in every iteration: nodal forces, state, and the stiffness, which is passed to e_c3d_u1 in xstiff.
 subroutine resultsmech_u1(co, kon, ipkon, lakon, ne, v, stx, elcon, nelcon, rhcon, nrhcon, alcon, nalcon, alzero, &
     ielmat, ielorien, norien, orab, ntmat_, t0, t1, ithermal, prestr, iprestr, eme, iperturb, fn, iout, qa, vold, &
@@ -155,7 +157,7 @@ subroutine resultsmech_u1(co, kon, ipkon, lakon, ne, v, stx, elcon, nelcon, rhco
     mi, ielas, icmd, ncmat_, nstate_, stiini, vini, ener, eei, enerini, istep, iinc, reltime, calcul_fn, calcul_qa, &
     calcul_cauchy, nener, ikin, nal, ne0, thicke, emeini, i, ielprop, prop, t0g, t1g)
   use contact_element
-  implicit none
+  implicit real(wp) (a-h, o-z)
   ! Used: node numbers of element i from kon(ipkon(i) + 1); displacements of this iteration, v, of the previous one, vold, and at
   ! the start of the increment, vini; constants of the material; properties of the section; state variables at the start
   ! (xstateini) and the end (xstate) of the increment.
@@ -163,14 +165,6 @@ subroutine resultsmech_u1(co, kon, ipkon, lakon, ne, v, stx, elcon, nelcon, rhco
   integer :: calcul_fn, calcul_qa, nal, i, ielprop(*)
   real(wp) :: v(0:mi(2), *), vold(0:mi(2), *), vini(0:mi(2), *), fn(0:mi(2), *), elcon(0:ncmat_, ntmat_, *), qa(*), prop(*)
   real(wp) :: xstateini(nstate_, mi(1), *), xstate(nstate_, mi(1), *), xstiff(27, mi(1), *)
-  ! Not used.
-  character(len=8) :: lakon(*)
-  character(len=80) :: matname(*)
-  integer :: ne, nrhcon(*), nalcon(*), ielorien(*), norien, ithermal(*), iprestr, iout, nplicon(*), nplkcon(*), npmat_
-  integer :: istep, iinc, calcul_cauchy, nener, ikin, ne0, ielas
-  real(wp) :: co(*), stx(*), rhcon(*), alcon(*), alzero(*), orab(*), t0(*), t1(*), prestr(*), eme(*), veold(*), dtime
-  real(wp) :: time, ttime, plicon(*), plkcon(*), stiini(*), ener(*), eei(*), enerini(*), reltime, thicke(*)
-  real(wp) :: emeini(*), t0g(*), t1g(*)
   type(contact_law) :: law
   integer :: first, second, material
 
@@ -183,6 +177,7 @@ subroutine resultsmech_u1(co, kon, ipkon, lakon, ne, v, stx, elcon, nelcon, rhco
 contains
 
   subroutine evaluate(d)
+    implicit none
     real(wp), intent(in) :: d(:, :)
     real(wp) :: force(size(d, 2)), stiffness(size(d, 2), size(d, 2)), nodal_force(3)
     logical :: accepted
@@ -228,6 +223,7 @@ contains
 
   !> Displacement of the second node relative to the first.
   function relative(nodal, d)
+    implicit none
     real(wp), intent(in) :: nodal(0:mi(2), *), d(:, :)
     real(wp) :: relative(size(d, 2))
 
@@ -244,21 +240,9 @@ subroutine e_c3d_u1(co, kon, lakonl, p1, p2, omx, bodyfx, nbody, s, sm, ff, nele
     coefmpc, nmpc, ikmpc, ilmpc, veold, ne0, ipkon, thicke, integerglob, doubleglob, tieset, istartset, iendset, ialset, &
     ntie, nasym, ielprop, prop)
   use contact_element
-  implicit none
+  implicit real(wp) (a-h, o-z)
   integer :: nelem, mi(*), nelcon(2, *), ielmat(mi(3), *), ielprop(*), ncmat_, ntmat_
   real(wp) :: s(60, 60), sm(60, 60), ff(60), xstiff(27, mi(1), *), prop(*), elcon(0:ncmat_, ntmat_, *)
-  ! Not used.
-  character(len=8) :: lakonl
-  character(len=20) :: sideload(*)
-  character(len=80) :: matname(*)
-  character(len=81) :: tieset(3, *)
-  integer :: kon(*), nbody, nmethod, nrhcon(*), nalcon(*), ielorien(*), norien, ithermal(*)
-  integer :: iperturb(*), nelemload(*), nload, idist, iexpl, nplicon(*), nplkcon(*), npmat_, mass(*), stiffness
-  integer :: buckling, rhsi, intscheme, istep, iinc, coriolis, ipompc(*), nodempc(*), nmpc, ikmpc(*), ilmpc(*), ne0
-  integer :: ipkon(*), integerglob(*), istartset(*), iendset(*), ialset(*), ntie, nasym
-  real(wp) :: co(*), p1(*), p2(*), omx, bodyfx(*), rhcon(*), alcon(*), alzero(*), orab(*), t0(*), t1(*), vold(*)
-  real(wp) :: xload(*), sti(*), stx(*), plicon(*), plkcon(*), dtime, ttime, time, xloadold(*), reltime, coefmpc(*)
-  real(wp) :: veold(*), thicke(*), doubleglob(*)
   real(wp) :: d(3, 3), k(3, 3)
   integer :: m
 
@@ -276,11 +260,4 @@ end subroutine e_c3d_u1
 !> Stresses and other fields at nodes: the contact has none.
 subroutine extrapolate_u1(yi, yn, ipkon, inum, kon, lakon, nfield, nk, ne, mi, ndim, orab, ielorien, co, iorienloc, cflag, &
     vold, force, ielmat, thicke, ielprop, prop, i)
-  use contact_element, only: wp
-  implicit none
-  logical :: force
-  character(len=1) :: cflag
-  character(len=8) :: lakon(*)
-  integer :: ipkon(*), inum(*), kon(*), mi(*), ne, nfield, nk, i, ndim, iorienloc, ielorien(*), ielmat(*), ielprop(*)
-  real(wp) :: yi(*), yn(*), orab(*), co(*), prop(*), vold(*), thicke(*)
 end subroutine extrapolate_u1
