@@ -109,38 +109,19 @@ impl ContactSpec {
 
     /// The element of the same contact under a normal force that varies.
     pub fn element(&self, directions: Directions, normal_input: NormalInput) -> Result<Element> {
+        self.element_with(self.given.layer(), directions, normal_input)
+    }
+
+    /// The element with another layer.
+    pub fn element_with(&self, layer: Layer, directions: Directions, normal_input: NormalInput) -> Result<Element> {
         if self.given.normal_force == Some(0.0) {
             return input("without a normal force the contact is open: normal_force must be > 0");
         }
-        let element = match self.given.parameters()? {
+        let element = match self.given.contact()?.parameters(layer) {
             ContactParameters::Flat(parameters) => Element::rounded_flat(&parameters, directions, normal_input),
             ContactParameters::Ellipse(parameters) => Element::elliptic(&parameters, directions, normal_input),
         };
         element.map_err(|error| CliError::Input(self.given.explain(error).0))
-    }
-
-    /// The element of the contact without its layer, by the normal force.
-    pub fn smooth_element(&self) -> Result<Element> {
-        let given = ContactArgs {
-            normal_compliance: None,
-            tangential_compliance: None,
-            reference_load: None,
-            ..self.given.clone()
-        };
-        ContactSpec { contact: self.contact, given, units: self.units }.element(Directions::One, NormalInput::Force)
-    }
-
-    /// Whether the library accepts a layer in the contact.
-    pub fn check_layer(&self, layer: &Layer) -> Result<()> {
-        let given = ContactArgs {
-            normal_compliance: Some(layer.normal_compliance),
-            tangential_compliance: Some(layer.tangential_compliance),
-            stiffening_load: Some(layer.stiffening_load),
-            reference_load: Some(layer.reference_load),
-            ..self.given.clone()
-        };
-        let spec = ContactSpec { contact: self.contact, given, units: self.units };
-        spec.element(Directions::One, NormalInput::Force).map(|_| ())
     }
 }
 
@@ -278,13 +259,18 @@ impl ContactArgs {
         Ok(microslip_fit::Contact { geometry, normal_force, friction_coefficient, material })
     }
 
+    fn layer(&self) -> Layer {
+        let number = |value: Option<f64>| value.unwrap_or(0.0);
+        Layer {
+            normal_compliance: number(self.normal_compliance),
+            tangential_compliance: number(self.tangential_compliance),
+            stiffening_load: number(self.stiffening_load),
+            reference_load: number(self.reference_load),
+        }
+    }
+
     fn parameters(&self) -> Result<ContactParameters> {
-        Ok(self.contact()?.parameters(Layer {
-            normal_compliance: self.normal_compliance.unwrap_or(0.0),
-            tangential_compliance: self.tangential_compliance.unwrap_or(0.0),
-            stiffening_load: self.stiffening_load.unwrap_or(0.0),
-            reference_load: self.reference_load.unwrap_or(0.0),
-        }))
+        Ok(self.contact()?.parameters(self.layer()))
     }
 
     /// Tangential over normal compliance of a rough surface: (2-ν)/(2(1-ν)), the mean of both bodies by their shares of 1/E*.
@@ -299,7 +285,8 @@ impl ContactArgs {
     fn explain(&self, error: Error) -> (String, Option<&'static str>) {
         let message = error.to_string();
         let numbers = self.numbers();
-        let subject = message.split(' ').find_map(|word| numbers.iter().find(|(name, _)| word == *name));
+        let given = |word: &str| numbers.iter().find(|(name, values)| word == *name && !values.is_empty());
+        let subject = message.split(' ').find_map(given);
         let Some((name, values)) = subject else { return (message, None) };
         (format!("{message}, not {}", format_list(values)), Some(name))
     }

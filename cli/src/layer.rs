@@ -8,6 +8,7 @@ use crate::number::format_number;
 use crate::table::Table;
 use crate::units::Quantity::{Force, Length};
 use microslip::Layer;
+use microslip::element::{Directions, NormalInput};
 
 /// Persson (2007): stiffness N/u0 with u0 from 0.4 to 0.5 times the rms height.
 const SHARES: [f64; 3] = [0.4, 0.45, 0.5];
@@ -33,28 +34,26 @@ pub fn layer(options: &LayerOptions, spec: &ContactSpec) -> Result<Report> {
         ([_] | [_, _], None) => measured(options, spec, normal_force, ratio)?,
         _ => return usage("give --measured-stiffness of one or two loads, or --rms-height"),
     };
-    spec.check_layer(&layer)?;
-    let unit = format!("{}/N", spec.units.unit(Length));
-    let row = |name: &str, value: f64| {
-        let [lower, upper] = [least, largest].map(|share| match options.rms_height {
-            Some(_) => format_number(value * share / middle),
-            None => String::new(),
-        });
+    // Whether the library accepts it.
+    spec.element_with(layer, Directions::One, NormalInput::Force)?;
+    let (compliance, force) = (format!("{}/N", spec.units.unit(Length)), spec.units.unit(Force));
+    let values = [
+        ("normal_compliance", layer.normal_compliance, compliance.as_str()),
+        ("tangential_compliance", layer.tangential_compliance, &compliance),
+        ("stiffening_load", layer.stiffening_load, force),
+        ("reference_load", layer.reference_load, force),
+    ];
+    let row = |(name, value, unit): (&str, f64, &str)| {
+        let end = |share: f64| format_number(value * share / middle);
+        let has_range = options.rms_height.is_some() && unit != force;
+        let [lower, upper] = if has_range { [least, largest].map(end) } else { Default::default() };
         format!("{name},{},{lower},{upper},{unit}", format_number(value))
     };
-    let Layer { normal_compliance, tangential_compliance, stiffening_load, reference_load } = layer;
-    let loads = [("stiffening_load", stiffening_load), ("reference_load", reference_load)];
-    let compliances = [("normal_compliance", normal_compliance), ("tangential_compliance", tangential_compliance)];
-    let mut rows: Vec<String> = compliances.iter().map(|(name, value)| row(name, *value)).collect();
-    rows.extend(
-        loads.iter().map(|(name, value)| format!("{name},{},,,{}", format_number(*value), spec.units.unit(Force))),
-    );
-    let numbers = compliances.iter().chain(&loads).map(|(_, value)| format!("{value:e}_wp")).collect::<Vec<_>>();
-    let report = Report::new(spec, Table::of_text("quantity,value,lower,upper,unit", rows), Vec::new());
-    let report = compliances
-        .iter()
-        .chain(&loads)
-        .fold(report, |report, (name, value)| report.with_remark(&format!("{name} = {}", format_number(*value))));
+    let table = Table::of_text("quantity,value,lower,upper,unit", values.map(row).into());
+    let report = values.iter().fold(Report::new(spec, table, Vec::new()), |report, (name, value, _)| {
+        report.with_remark(&format!("{name} = {}", format_number(*value)))
+    });
+    let numbers = values.map(|(_, value, _)| format!("{value:e}_wp"));
     Ok(report.with_remark(&format!("p%layer = mslip_layer({})", numbers.join(", "))))
 }
 
@@ -74,7 +73,7 @@ fn measured(options: &LayerOptions, spec: &ContactSpec, normal_force: f64, ratio
     if stiffnesses.len() == 2 && options.secant_force.is_some() {
         return usage("--secant-force is for a single --measured-stiffness");
     }
-    let smooth = spec.smooth_element()?;
+    let smooth = spec.element_with(Layer::none(), Directions::One, NormalInput::Force)?;
     let mut layers = Vec::new();
     for (&stiffness, &load) in stiffnesses.iter().zip(&loads) {
         let (stiffness, load) = (positive("measured-stiffness", stiffness)?, positive("at", load)?);

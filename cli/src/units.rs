@@ -1,5 +1,6 @@
 //! Units. The friction law holds in any consistent set of units: only pictures convert.
 
+use Quantity::*;
 use clap::ValueEnum;
 use serde::Deserialize;
 
@@ -32,15 +33,15 @@ impl Units {
     /// The unit of a quantity, and its value in SI units.
     fn unit_and_factor(self, quantity: Quantity) -> (&'static str, f64) {
         let (si, mm, factor) = match quantity {
-            Quantity::Number => ("-", "-", 1.0),
-            Quantity::Angle => ("deg", "deg", 1.0),
-            Quantity::Length => ("m", "mm", 1e-3),
-            Quantity::Force => ("N", "N", 1.0),
-            Quantity::Pressure => ("Pa", "MPa", 1e6),
-            Quantity::Stiffness => ("N/m", "N/mm", 1e3),
-            Quantity::StiffnessSlope => ("N/m^2", "N/mm^2", 1e6),
-            Quantity::Energy => ("J", "mJ", 1e-3),
-            Quantity::Time => ("s", "s", 1.0),
+            Number => ("-", "-", 1.0),
+            Angle => ("deg", "deg", 1.0),
+            Length => ("m", "mm", 1e-3),
+            Force => ("N", "N", 1.0),
+            Pressure => ("Pa", "MPa", 1e6),
+            Stiffness => ("N/m", "N/mm", 1e3),
+            StiffnessSlope => ("N/m^2", "N/mm^2", 1e6),
+            Energy => ("J", "mJ", 1e-3),
+            Time => ("s", "s", 1.0),
         };
         if self == Units::Si { (si, 1.0) } else { (mm, factor) }
     }
@@ -56,7 +57,7 @@ impl Units {
     /// The same units of measured data.
     pub fn of_data(self) -> DataUnits {
         let unit = |quantity| Unit { name: self.unit(quantity), quantity, in_si: self.in_si(quantity) };
-        DataUnits { length: unit(Quantity::Length), force: unit(Quantity::Force) }
+        DataUnits { length: unit(Length), force: unit(Force) }
     }
 }
 
@@ -81,16 +82,16 @@ const UNITS: [Unit; 10] = {
         Unit { name, quantity, in_si }
     }
     [
-        of("m", Quantity::Length, 1.0),
-        of("cm", Quantity::Length, 1e-2),
-        of("mm", Quantity::Length, 1e-3),
-        of("um", Quantity::Length, 1e-6),
-        of("nm", Quantity::Length, 1e-9),
-        of("N", Quantity::Force, 1.0),
-        of("mN", Quantity::Force, 1e-3),
-        of("kN", Quantity::Force, 1e3),
-        of("s", Quantity::Time, 1.0),
-        of("ms", Quantity::Time, 1e-3),
+        of("m", Length, 1.0),
+        of("cm", Length, 1e-2),
+        of("mm", Length, 1e-3),
+        of("um", Length, 1e-6),
+        of("nm", Length, 1e-9),
+        of("N", Force, 1.0),
+        of("mN", Force, 1e-3),
+        of("kN", Force, 1e3),
+        of("s", Time, 1.0),
+        of("ms", Time, 1e-3),
     ]
 };
 
@@ -143,9 +144,6 @@ impl DataUnits {
             let found = unit(text).filter(|unit| unit.quantity == quantity);
             found.ok_or_else(|| format!("the {name} is in one of {}", quantity.known()))
         };
-        Ok(DataUnits {
-            length: find(length, Quantity::Length, "displacement")?,
-            force: find(force, Quantity::Force, "force")?,
-        })
+        Ok(DataUnits { length: find(length, Length, "displacement")?, force: find(force, Force, "force")? })
     }
 }
