@@ -75,8 +75,6 @@ pub fn swinging_loop(options: &Loop, spec: &ContactSpec, amplitudes: &[f64]) -> 
         [_] => String::new(),
         _ => format!("±{}, ", rounded(amplitude, Length, units)),
     };
-    let mut strokes = 0..;
-    let mut next_stroke = || strokes.next().unwrap_or_default();
     for &amplitude in amplitudes {
         let error = in_option("--amplitude", amplitude);
         let hysteresis = spec.contact.hysteresis_loop(amplitude).map_err(error)?;
@@ -90,17 +88,16 @@ pub fn swinging_loop(options: &Loop, spec: &ContactSpec, amplitudes: &[f64]) -> 
             let row = |[displacement, normal_force, force]: &[f64; 3]| {
                 vec![amplitude, phase, *displacement, *normal_force, *force, dissipated, constant]
             };
-            let of_loop: Vec<_> = period.iter().step_by(steps / n).map(row).collect();
             let size = format!("{}{}°", name(amplitude), format_number(phase));
             let points = |x: usize, y: usize| period.iter().map(|point| (point[x], point[y])).collect();
-            let (stroke, name) = (next_stroke(), format!("{size}: {}", rounded(dissipated, Energy, units)));
+            let (stroke, name) = (forces.len(), format!("{size}: {}", rounded(dissipated, Energy, units)));
             forces.push(Line { stroke, name, points: points(0, 2) });
             loads.push(Line { stroke, name: String::new(), points: points(0, 1) });
-            rows.extend(of_loop);
+            rows.extend(period.iter().step_by(steps / n).map(row));
         }
         let points = (0..=n).map(|i| (hysteresis.displacement(i, n), hysteresis.force(i, n))).collect();
         let name = format!("{}constant load: {}", name(amplitude), rounded(constant, Energy, units));
-        forces.push(Line { stroke: next_stroke(), name, points });
+        forces.push(Line { stroke: forces.len(), name, points });
     }
     let columns = [
         ("amplitude", Length),

@@ -40,35 +40,6 @@ struct At<'a> {
     sigma: f64,
 }
 
-/// Largest slip force, and ranges over all loops.
-struct Ranges {
-    slip_force: f64,
-    speed: f64,
-    amplitude: [f64; 2],
-}
-
-impl Ranges {
-    /// dF/d(size) of a cause.
-    fn direction(&self, kind: CauseKind, at: &At) -> f64 {
-        let [smallest, largest] = self.amplitude;
-        let (force, speed) = (at.prediction.force, at.sample.velocity / self.speed);
-        match kind {
-            DifferentPlateaus => force.max(0.0),
-            Amplitude => force * (at.one.amplitude - smallest) / (largest - smallest).max(f64::MIN_POSITIVE),
-            Cycle => 0.5 * force * at.sample.time,
-            Speed => force * speed.abs(),
-            Lag => -at.force_step,
-            // The displacement of the contact is less by half the play in the direction of the force.
-            Play => {
-                let [_, _, low, high] = at.prediction.nuisance_slopes;
-                -0.5 * (low + high + at.prediction.stiffness * force.signum())
-            }
-            Viscous => self.slip_force * speed,
-            ParallelSpring => self.slip_force * at.sample.displacement / largest,
-        }
-    }
-}
-
 pub(crate) const KINDS: [CauseKind; 8] =
     [DifferentPlateaus, Amplitude, Cycle, Speed, Lag, Play, Viscous, ParallelSpring];
 
@@ -92,16 +63,32 @@ pub(crate) fn causes(fit: &Fit, kinds: &[CauseKind], least_share: f64) -> Vec<Ef
     let Some((residuals, parameters)) = fit.basis() else { return Vec::new() };
     let samples = samples(fit);
     let largest = |value: &dyn Fn(&At) -> f64| ends(samples.iter().map(value))[1];
-    let ranges = Ranges {
-        slip_force: fit.parameters[FRICTION] * largest(&|at| at.one.normal_force),
-        speed: largest(&|at| at.sample.velocity.abs()),
-        amplitude: ends(samples.iter().map(|at| at.one.amplitude)),
+    let slip_force = fit.parameters[FRICTION] * largest(&|at| at.one.normal_force);
+    let highest_speed = largest(&|at| at.sample.velocity.abs());
+    let [smallest, widest] = ends(samples.iter().map(|at| at.one.amplitude));
+    // dF/d(size).
+    let derivative = |kind: CauseKind, at: &At| {
+        let (force, speed) = (at.prediction.force, at.sample.velocity / highest_speed);
+        match kind {
+            DifferentPlateaus => force.max(0.0),
+            Amplitude => force * (at.one.amplitude - smallest) / (widest - smallest).max(f64::MIN_POSITIVE),
+            Cycle => 0.5 * force * at.sample.time,
+            Speed => force * speed.abs(),
+            Lag => -at.force_step,
+            // The displacement of the contact is less by half the play in the direction of the force.
+            Play => {
+                let [_, _, low, high] = at.prediction.nuisance_slopes;
+                -0.5 * (low + high + at.prediction.stiffness * force.signum())
+            }
+            Viscous => slip_force * speed,
+            ParallelSpring => slip_force * at.sample.displacement / widest,
+        }
     };
     let remove = |vector: &mut DVector<f64>, basis: &DMatrix<f64>| *vector -= basis * basis.tr_mul(vector);
     let direction = |kind| {
         // The corrections of the reversals have residuals of their own, which no cause has.
         let mut direction = DVector::zeros(residuals.len());
-        samples.iter().enumerate().for_each(|(row, at)| direction[row] = ranges.direction(kind, at) / at.sigma);
+        samples.iter().enumerate().for_each(|(row, at)| direction[row] = derivative(kind, at) / at.sigma);
         let whole = direction.clone();
         remove(&mut direction, &parameters);
         (direction.norm() > DISTINCT * whole.norm()).then_some((kind, direction, whole))

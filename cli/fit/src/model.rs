@@ -24,6 +24,8 @@ pub(crate) const SHAPE: usize = 3;
 pub(crate) const STIFFENING: usize = 4;
 pub(crate) const PARALLEL: usize = 5;
 pub(crate) const PARAMETERS: usize = 6;
+/// The law itself, with a friction coefficient of 1.
+const LAW: [f64; PARAMETERS] = [1.0, 0.0, 1.0, 0.0, 0.0, 0.0];
 /// The largest share s: the library admits N_c from 1e-3 of each normal force.
 pub(crate) const MOST_STIFFENING: f64 = 0.99;
 /// Step of the share s in its derivative, which the library does not have.
@@ -57,7 +59,7 @@ impl Family {
 
     /// The given contact, with a friction coefficient of 1.
     fn given(&self) -> Result<Contact, Error> {
-        self.at(&self.contact.geometry, self.contact.normal_force, &[1.0, 0.0, 1.0, 0.0, 0.0, 0.0])
+        self.at(&self.contact.geometry, self.contact.normal_force, &LAW)
     }
 
     /// a/b of the given contact; `None` for an ellipse.
@@ -129,7 +131,7 @@ impl Family {
 
     /// Initial compliance of the contact alone under a normal force.
     pub fn compliance(&self, shape: f64, normal_force: f64) -> Result<f64, Error> {
-        let contact = self.at(&self.geometry(shape), normal_force, &[1.0, 0.0, 1.0, 0.0, 0.0, 0.0])?;
+        let contact = self.at(&self.geometry(shape), normal_force, &LAW)?;
         Ok(1.0 / contact.initial_stiffness)
     }
 
