@@ -16,6 +16,9 @@ import sys
 from pathlib import Path
 
 import numpy as np
+from scipy.io import mmwrite
+from scipy.linalg import eigh
+from scipy.sparse import csc_array
 
 E, NU, DENSITY = 114e9, 0.32, 4430.0  # Ti-6Al-4V: Pa, -, kg/m3
 LENGTH, WIDTH, THICKNESS = 0.120, 0.040, 0.006  # m
@@ -27,13 +30,6 @@ DAMPING_RATIO = 1e-3  # of all modes
 MISTUNING = 0.005  # of the stiffness of the second blade
 BOUNDARY = [1, PLATFORM, 2 * ELEMENTS]  # root, platform, tip
 MODES = 8  # of each blade, with its boundary fixed
-
-
-def modes_of(stiffness, mass):
-    """Angular frequencies and mass-normalised modes."""
-    inverse = np.linalg.inv(np.linalg.cholesky(mass))
-    squares, vectors = np.linalg.eigh(inverse @ stiffness @ inverse.T)
-    return np.sqrt(squares), inverse.T @ vectors
 
 
 def beam_element(modulus, l):
@@ -72,7 +68,7 @@ def blade(modulus):
 
     # The boundary stays physical, with modes of the fixed boundary (Craig and Bampton, AIAA Journal 6, 1968). Their sign is chosen.
     inner = np.setdiff1d(np.arange(n), BOUNDARY)
-    modes = modes_of(stiffness[np.ix_(inner, inner)], mass[np.ix_(inner, inner)])[1][:, :MODES]
+    modes = eigh(stiffness[np.ix_(inner, inner)], mass[np.ix_(inner, inner)])[1][:, :MODES]
     basis = np.zeros((n, len(BOUNDARY) + MODES))
     basis[BOUNDARY, range(len(BOUNDARY))] = 1
     basis[inner, :len(BOUNDARY)] = -np.linalg.solve(stiffness[np.ix_(inner, inner)], stiffness[np.ix_(inner, BOUNDARY)])
@@ -88,9 +84,9 @@ def model():
         own = slice(i * size, (i + 1) * size)
         mass[own, own], stiffness[own, own] = blade(E * (1 + i * MISTUNING))
         # The same damping ratio in all modes with open contacts.
-        omega, modes = modes_of(stiffness[own, own], mass[own, own])
+        squares, modes = eigh(stiffness[own, own], mass[own, own])
         modes = mass[own, own] @ modes
-        damping[own, own] = 2 * DAMPING_RATIO * modes * omega @ modes.T
+        damping[own, own] = 2 * DAMPING_RATIO * modes * np.sqrt(squares) @ modes.T
     return [0.5 * (matrix + matrix.T) for matrix in matrices]
 
 
@@ -99,9 +95,6 @@ if __name__ == "__main__":
     texts = ["mass, kg", "damping, N s/m", "stiffness with open contacts, N/m"]
     for kind, text, matrix in zip(["mass", "damping", "stiffness"], texts, model()):
         scale = np.sqrt(np.diag(matrix))
-        rows = [(i, j, matrix[i, j]) for j in range(len(matrix)) for i in range(j, len(matrix))
-                if abs(matrix[i, j]) > 1e-10 * scale[i] * scale[j]]  # smaller ones are rounding errors of zeros
-        order = f"of each blade root, platform, tip, {MODES} modes"
-        head = f"%%MatrixMarket matrix coordinate real symmetric\n% two blades: {text}\n% {order}\n"
-        text = "".join(f"{i + 1} {j + 1} {value:.16e}\n" for i, j, value in rows)
-        (files / f"blades_{kind}.mtx").write_text(f"{head}{len(matrix)} {len(matrix)} {len(rows)}\n{text}")
+        matrix[abs(matrix) <= 1e-10 * np.outer(scale, scale)] = 0  # rounding errors of zeros
+        comment = f" two blades: {text}\n of each blade root, platform, tip, {MODES} modes"
+        mmwrite(files / f"blades_{kind}.mtx", csc_array(np.tril(matrix)), comment, precision=17, symmetry="symmetric")
