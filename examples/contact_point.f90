@@ -12,7 +12,7 @@ module contact_point
   use microslip
   implicit none
   private
-  public :: contact_variables, contact_step, increment_too_long
+  public :: contact_variables, contact_stiffness, contact_step, increment_too_long
 
   ! The initialisation of an element takes much longer than a step, so each thread keeps the elements of the last parameter sets.
   ! That needs OpenMP's threadprivate memory. Compiled without OpenMP the table would be shared by all threads, so it is not used
@@ -73,6 +73,27 @@ contains
     call mslip_element_update(element, state, displacement, trial, status, force, tangent, dissipated)
     if (status == MSLIP_OK) finish = [start(1) + dissipated, displacement, trial]
   end subroutine contact_step
+
+  !> Stiffness of a sticking contact under N [N/m], a diagonal matrix. The arguments are those of a step.
+  subroutine contact_stiffness(constants, reference, directions, stiffness, status)
+    real(mslip_real), intent(in) :: constants(9)
+    integer(mslip_int), intent(in) :: reference, directions
+    real(mslip_real), intent(out) :: stiffness(:, :)
+    integer(mslip_int), intent(out) :: status
+    type(mslip_element), allocatable, target :: own
+    type(mslip_element), pointer :: element
+    real(mslip_real) :: compliance
+    integer(mslip_int) :: i
+
+    stiffness = 0
+    call find_element(constants, [reference, directions], own, element, status)
+    if (status /= MSLIP_OK) return
+    stiffness(directions + 1, directions + 1) = element%normal_stiffness
+    do i = 1, directions
+      call mslip_element_displacement(element, i - 1, 0.0_mslip_real, constants(4), status, compliance=compliance)
+      stiffness(i, i) = 1/compliance
+    end do
+  end subroutine contact_stiffness
 
   !> Errors of a trial displacement, not of the model: the program should try a shorter increment.
   pure logical function increment_too_long(status)

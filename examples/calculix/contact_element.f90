@@ -17,23 +17,19 @@
 ! The displacement is that of the second node relative to the first in these directions, which do not rotate with the structure:
 ! u along the part of the direction of sliding that is normal to the approach, w along the approach and, with two directions of
 ! sliding, v along w x u. A line contact has u across the line and v along it. The interference, negative if there is a gap, is
-! added to the approach. N is the largest normal force expected, not a load. State variables: T, N and u, w, or Tx, Ty, N and u, v,
-! w; the energy dissipated so far; the state of the law.
+! added to the approach. N is the largest normal force expected, not a load. State variables: T, N, or Tx, Ty, N; those of
+! contact_point, which are the energy dissipated so far, u, w, or u, v, w, and the state of the law.
 module contact_element
   use, intrinsic :: iso_fortran_env, only: error_unit
+  use contact_point
   use microslip
   implicit none
   private
-  public :: prepare, count_components, directions, update, fail
+  public :: count_components, directions, stick, update, fail
 
   integer, parameter, public :: wp = mslip_real
 
-  type, public :: contact_law
-    integer :: components                    !! of the displacement: tangential ones and the normal one
-    type(mslip_element) :: element
-    real(wp) :: offset(3) = 0                !! added to the displacement
-    real(wp) :: initial_stiffness(3) = 0     !! sticking, at N
-  end type contact_law
+  integer(mslip_int), parameter :: reference = MSLIP_CENTRE_POINT  ! as in results/
 
 contains
 
@@ -48,34 +44,6 @@ contains
     if (components < 2 .or. components > 3) &
       call fail(element, 'its material must be a *USER MATERIAL with 11 constants, the last being 1 or 2')
   end function count_components
-
-  !> The law of the element's material. It is initialised in every call: CalculiX calls from several threads.
-  subroutine prepare(element, kind_and_count, constants, law)
-    integer, intent(in) :: element, kind_and_count
-    real(wp), intent(in) :: constants(*)
-    type(contact_law), intent(out) :: law
-    type(mslip_parameters) :: p
-    real(wp) :: compliance
-    integer(mslip_int) :: status, i
-
-    law%components = count_components(element, kind_and_count, constants)
-    call mslip_parameters_default(p)
-    p%displacement_reference = MSLIP_CENTRE_POINT  ! as in results/
-    p%flat_half_width = constants(1)
-    p%edge_radius = constants(2)
-    p%length = constants(3)
-    p%normal_force = constants(4)
-    p%friction_coefficient = constants(5)
-    p%material = [mslip_material(constants(6), constants(7)), mslip_material(constants(8), constants(9))]
-    call mslip_element_init(p, int(law%components - 1, mslip_int), MSLIP_INPUT_APPROACH, law%element, status)
-    if (status /= MSLIP_OK) call fail(element, mslip_status_text(status))
-    law%offset(law%components) = constants(10)
-    law%initial_stiffness(law%components) = law%element%normal_stiffness
-    do i = 1, law%components - 1
-      call mslip_element_displacement(law%element, i - 1, 0.0_wp, p%normal_force, status, compliance=compliance)
-      law%initial_stiffness(i) = 1/compliance
-    end do
-  end subroutine prepare
 
   !> Unit vectors of the components: sliding, the second direction of sliding, approach.
   function directions(element, components, property, properties) result(d)
@@ -105,36 +73,41 @@ contains
     cross = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
   end function cross
 
+  !> The stiffness of the sticking contact under N.
+  subroutine stick(element, constants, stiffness)
+    integer, intent(in) :: element
+    real(wp), intent(in) :: constants(9)
+    real(wp), intent(out) :: stiffness(:, :)
+    integer(mslip_int) :: status
+
+    call contact_stiffness(constants, reference, size(stiffness, 1, mslip_int) - 1, stiffness, status)
+    if (status /= MSLIP_OK) call fail(element, mslip_status_text(status))
+  end subroutine stick
+
   !> A trial step: forces and stiffness at a displacement, from the variables of the last accepted increment to those of this
   !> attempt. `accepted` is false if the displacement is not finite or beyond the range of the law: Newton's method has diverged.
-  subroutine update(element, law, displacement, start, before, after, stiffness, accepted)
+  subroutine update(element, constants, displacement, start, before, after, stiffness, accepted)
     integer, intent(in) :: element
-    type(contact_law), intent(in) :: law
-    real(wp), intent(in) :: displacement(:), start(:), before(:)
+    real(wp), intent(in) :: constants(10), displacement(:), start(:), before(:)
     real(wp), intent(inout) :: after(:)
     real(wp), intent(out) :: stiffness(:, :)
     logical, intent(out) :: accepted
-    real(wp), dimension(size(before) - 2*law%components - 1) :: state, trial
-    real(wp) :: force(law%components), moved(law%components), dissipated
-    integer(mslip_int) :: status
-    integer :: printed
+    real(wp), dimension(size(displacement)) :: offset, force
+    real(wp) :: dissipated
+    integer(mslip_int) :: m, status
 
-    printed = 2*law%components + 1
-    status = MSLIP_OK
-    moved = displacement + law%offset(:law%components)
-    state = before(printed + 1:)
-    if (all(abs(state) <= 0)) then  ! initial state variables of CalculiX
-      if (any(abs(start) > 0)) call fail(element, 'it is displaced and has no load history (restart files of CalculiX ' // &
-        'have state variables only if the model has a *CONTACT PAIR)')
-      call mslip_element_state_init(int(law%components - 1, mslip_int), state, status)
-    end if
-    if (status == MSLIP_OK) &
-      call mslip_element_update(law%element, state, moved, trial, status, force, stiffness, dissipated)
-    accepted = all(status /= [MSLIP_BAD_DISPLACEMENT, MSLIP_LENGTH_TOO_SHORT])
+    m = size(displacement, kind=mslip_int)
+    offset = 0
+    offset(m) = constants(10)
+    ! Initial state variables of CalculiX are 0.
+    if (all(abs(before(2*m + 2:)) <= 0) .and. any(abs(start) > 0)) call fail(element, 'it is displaced and has no load ' // &
+      'history (restart files of CalculiX have state variables only if the model has a *CONTACT PAIR)')
+    call contact_step(constants(:9), reference, m - 1, start + offset, displacement + offset, &
+      before(m + 1:), after(m + 1:), force, stiffness, dissipated, status)
+    accepted = .not. increment_too_long(status)
     if (.not. accepted) return
     if (status /= MSLIP_OK) call fail(element, mslip_status_text(status))
-    after(1:printed) = [force, moved, before(printed) + dissipated]
-    after(printed + 1:) = trial
+    after(:m) = force
   end subroutine update
 
   !> Ends the program: an error of the model.
@@ -165,51 +138,45 @@ subroutine resultsmech_u1(co, kon, ipkon, lakon, ne, v, stx, elcon, nelcon, rhco
   integer :: calcul_fn, calcul_qa, nal, i, ielprop(*)
   real(wp) :: v(0:mi(2), *), vold(0:mi(2), *), vini(0:mi(2), *), fn(0:mi(2), *), elcon(0:ncmat_, ntmat_, *), qa(*), prop(*)
   real(wp) :: xstateini(nstate_, mi(1), *), xstate(nstate_, mi(1), *), xstiff(27, mi(1), *)
-  type(contact_law) :: law
-  integer :: first, second, material
+  integer :: first, second, material, m
 
   first = kon(ipkon(i) + 1)
   second = kon(ipkon(i) + 2)
   material = ielmat(1, i)
-  call prepare(i, nelcon(1, material), elcon(1, 1, material), law)
-  call evaluate(directions(i, law%components, ielprop(i), prop))
+  m = count_components(i, nelcon(1, material), elcon(1, 1, material))
+  call evaluate(directions(i, m, ielprop(i), prop))
 
 contains
 
   subroutine evaluate(d)
     implicit none
     real(wp), intent(in) :: d(:, :)
-    real(wp) :: force(size(d, 2)), stiffness(size(d, 2), size(d, 2)), nodal_force(3)
+    real(wp) :: force(m), stiffness(m, m), nodal_force(3)
     logical :: accepted
-    integer :: j
 
     if (iperturb(1) >= 2) then
-      call update(i, law, relative(v, d), relative(vini, d), xstateini(:, 1, i), xstate(:, 1, i), stiffness, accepted)
+      call update(i, elcon(1, 1, material), relative(v, d), relative(vini, d), xstateini(:, 1, i), xstate(:, 1, i), stiffness, &
+        accepted)
       if (.not. accepted) then
         qa(3) = 0.25_wp  ! requests a quarter of the increment
         return
       end if
-      force = xstate(1:size(force), 1, i)
+      force = xstate(1:m, 1, i)
     else
       ! Small vibrations about any state have the initial stiffness. So has the first iteration of a step with moving supports
       ! (-1), which requires the change of the force alone.
       if (nmethod == 1 .and. iperturb(1) /= -1) &
         call fail(i, 'the step is linear; after *FREQUENCY a static step needs NLGEOM')
-      stiffness = 0
-      do j = 1, size(force)
-        stiffness(j, j) = law%initial_stiffness(j)
-      end do
+      call stick(i, elcon(1, 1, material), stiffness)
       force = matmul(stiffness, relative(v, d))
       if (iperturb(1) == -1) force = force - matmul(stiffness, relative(vold, d))
     end if
 
     ! The matrix of CalculiX is symmetric: the tangential force follows the normal one, not the reverse, and this coupling is
     ! left to the iterations, as is the antisymmetric part of the coupling of the tangential directions.
-    associate (m => size(force))
-      stiffness(:m - 1, m) = 0
-      stiffness(m, :m - 1) = 0
-      if (icmd /= 3) xstiff(1:m**2, 1, i) = [(stiffness + transpose(stiffness))/2]
-    end associate
+    stiffness(:m - 1, m) = 0
+    stiffness(m, :m - 1) = 0
+    if (icmd /= 3) xstiff(1:m**2, 1, i) = [(stiffness + transpose(stiffness))/2]
     nodal_force = matmul(d, force)
     if (calcul_fn == 1) then
       fn(1:3, second) = fn(1:3, second) + nodal_force

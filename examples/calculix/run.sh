@@ -23,22 +23,20 @@ if [ ! -d "$source" ]; then
 fi
 
 # CalculiX as an archive, by its own makefile.
-flags='-w -O1'
-make -C "$source" ccx_2.20.a CC="$CC" FC="$FC" FFLAGS="$flags -fallow-argument-mismatch" \
-    CFLAGS="$flags -I/usr/include/spooles -DARCH=Linux -DSPOOLES -DARPACK -DMATRIXSTORAGE -DUSE_MT=1" > build/make.log 2>&1 ||
+flags='-w -O1 -I/usr/include/spooles -DARCH=Linux -DSPOOLES -DARPACK -DMATRIXSTORAGE -DUSE_MT=1'
+make -C "$source" ccx_2.20.a CC="$CC" FC="$FC" FFLAGS='-w -O1 -fallow-argument-mismatch' CFLAGS="$flags" > build/make.log 2>&1 ||
     { tail -n 20 build/make.log; exit 1; }
 
 # Linked before the archive, these routines replace those of U1.
 strict='-std=f2008 -Wall -Wextra -pedantic -Wno-unused-dummy-argument'
 (
     cd build
-    $CC -w -O1 -I/usr/include/spooles -DARCH=Linux -DSPOOLES -DARPACK -DMATRIXSTORAGE -DUSE_MT=1 \
-        -c "../$source/ccx_2.20.c" -o main.o
     # shellcheck disable=SC2086
     {
+        $CC $flags -c "../$source/ccx_2.20.c" -o main.o
         $FC -O2 -c "$prefix/include/microslip.f90" -o microslip.o
-        $FC $strict -O2 -c ../contact_element.f90 -o contact_element.o
-        $FC -fopenmp main.o contact_element.o microslip.o "../$source/ccx_2.20.a" "$prefix/lib/libmicroslip.a" \
+        $FC $strict -O2 -c ../../contact_point.f90 ../contact_element.f90
+        $FC -fopenmp main.o contact_element.o contact_point.o microslip.o "../$source/ccx_2.20.a" "$prefix/lib/libmicroslip.a" \
             -lspooles -lpthread -larpack -llapack -lblas -lm -o ccx
     }
 )
@@ -60,7 +58,7 @@ table() {
          function append(first) { for (i = first; i < first + m; i++) line = line "," ($i^2 < 1e-20 ? 0 : $i) }
          / and time /               { time = $NF }
          NF == 4 && $1 == 113       { line = time; append(5 - m) }
-         NF > 46 && $1 == 5000      { append(3 + m); append(3); print line "," $(3 + 2*m) }' "$2.dat"
+         NF > 46 && $1 == 5000      { append(4 + m); append(3); print line "," $(3 + m) }' "$2.dat"
 }
 
 for name in frequency matrices lifting rejected lifting_dynamic orbit orbit_dynamic; do job "$name"; done
