@@ -436,13 +436,10 @@ fn seconds(cell: &str, mark: char) -> Option<f64> {
     let mut words = cell.split([' ', 'T', 'Z', '+']);
     let Some(clock) = words.clone().find(|word| word.contains(':')) else { return number(words.next()?, mark) };
     let mut parts = clock.split(':').map(|part| number(&part.replace(',', "."), '.')).collect::<Option<Vec<_>>>()?;
-    if let [_, _, _, milliseconds] = &mut parts[..] {
-        *milliseconds *= 60e-3;
-    }
     if cell.ends_with('M') {
         parts[0] = parts[0] % 12.0 + if cell.ends_with("PM") { 12.0 } else { 0.0 };
     }
-    Some(parts.iter().zip([3600.0, 60.0, 1.0, 1.0 / 60.0]).map(|(part, unit)| part * unit).sum())
+    Some(parts.iter().zip([3600.0, 60.0, 1.0]).map(|(part, unit)| part * unit).sum())
 }
 
 /// The name in a cell of the header, and its unit: in brackets, or the last word after a blank or a mark if that is a unit.

@@ -81,8 +81,7 @@ pub fn fit(contact: &Contact, measurements: &[Measurement], options: &Options) -
     let (determined, neutral) = solution.determined(neutral)?;
     let fitted_shape = determined.parameters[model::SHAPE];
     let geometry = if range.is_some() { family.geometry(fitted_shape) } else { contact.geometry };
-    let fixed = |value| Estimate { value, lower: value, upper: Some(value), status: Status::Fixed };
-    let shape = shape.map(|given| if range.is_some() { shape_estimate } else { fixed(given) });
+    let shape = shape.map(|given| if range.is_some() { shape_estimate } else { verdict::fixed(given) });
     let fitted = |(one, (law, slider)): (&cycles::Loop, (&Vec<_>, &Vec<_>))| FittedLoop::new(one, law, slider);
     Ok(Report {
         friction_coefficient: friction,

@@ -490,7 +490,8 @@ fn intervals(best: &Fit, of_shapes: Vec<(Fit, Free)>, unit: f64) -> [[f64; COMBI
     [best, lower, upper]
 }
 
-fn fixed(value: f64) -> Estimate {
+/// A value that is not fitted.
+pub(crate) fn fixed(value: f64) -> Estimate {
     Estimate { value, lower: value, upper: Some(value), status: Status::Fixed }
 }
 

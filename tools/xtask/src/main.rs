@@ -9,10 +9,9 @@ use std::process::ExitCode;
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = env::args().skip(1).collect();
-    let arguments: Vec<&str> = arguments.iter().map(String::as_str).collect();
-    let result = match arguments[..] {
-        ["header"] => xtask::write_header(),
-        ["header", "--check"] => xtask::check_header(),
+    let result = match arguments.join(" ").as_str() {
+        "header" => xtask::write_header(),
+        "header --check" => xtask::check_header(),
         _ => Err("usage: xtask header [--check]".to_owned()),
     };
     match result {
