@@ -200,7 +200,7 @@ pub fn missing_parameters(is_given: impl Fn(&str) -> bool) -> Result<Vec<&'stati
 
 /// A record of displacement and tangential force, with at least one cycle. Samples in which a number is missing, NaN, or infinite are
 /// left out; in JSON it is null.
-#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Measurement {
     /// Name in messages, for example that of its file.
@@ -221,7 +221,7 @@ pub struct Measurement {
 }
 
 /// Normal force of a measurement \[N\].
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Deserialize)]
 #[serde(untagged)]
 pub enum NormalForce {
     /// The same at all samples.
@@ -241,7 +241,7 @@ fn optional_samples<'de, D: Deserializer<'de>>(source: D) -> Result<Option<Vec<f
 }
 
 /// What is fixed; a parameter without a value is fitted.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Default, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Options {
     /// Friction coefficient.
@@ -257,7 +257,7 @@ pub struct Options {
 }
 
 /// The parameter of shape that is fitted; an ellipse has none.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ShapeParameter {
     /// Half-width of the flat.

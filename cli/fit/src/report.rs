@@ -4,10 +4,10 @@ use crate::cycles::Loop;
 use crate::data::mean;
 use crate::input::{Contact, DisplacementReference, Geometry};
 use crate::model::PARAMETERS;
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 
 /// Result of a fit. All numbers are in the units of the input.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize)]
 pub struct Report {
     /// Friction coefficient \[-\].
     pub friction_coefficient: Estimate,
@@ -43,7 +43,7 @@ pub struct Report {
 }
 
 /// A parameter and its interval of 95 % confidence.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Serialize)]
 pub struct Estimate {
     /// Best value.
     pub value: f64,
@@ -56,7 +56,7 @@ pub struct Estimate {
 }
 
 /// Whether the data determine a parameter.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Status {
     /// Fixed by an option, or of a shape without that parameter.
@@ -72,7 +72,7 @@ pub enum Status {
 }
 
 /// Misfit against noise, of the loop with the largest ratio of both.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize)]
 pub struct Explanation {
     /// Whether the misfit is at most twice the noise.
     pub explained: bool,
@@ -89,7 +89,7 @@ pub struct Explanation {
 }
 
 /// A cause of residuals.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Serialize)]
 pub struct Cause {
     /// Which.
     pub kind: CauseKind,
@@ -100,7 +100,7 @@ pub struct Cause {
 }
 
 /// Kinds of causes, with the meaning of their size.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum CauseKind {
     /// Plateaus of different height: relative change of positive forces.
@@ -122,7 +122,7 @@ pub enum CauseKind {
 }
 
 /// Difference between measurement and model.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Serialize)]
 pub struct Misfit {
     /// Root mean square of the force \[N\].
     pub force_rms: f64,
@@ -133,7 +133,7 @@ pub struct Misfit {
 }
 
 /// A spring in series with a slider, fitted to the same loops.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Serialize)]
 pub struct SpringSlider {
     /// Friction coefficient \[-\].
     pub friction_coefficient: f64,
@@ -144,7 +144,7 @@ pub struct SpringSlider {
 }
 
 /// Misfit at a value of the shape, with all other parameters fitted.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Copy, Serialize)]
 pub struct ProfilePoint {
     /// Half-width of the flat over that of the contact \[-\].
     pub shape: f64,
@@ -155,7 +155,7 @@ pub struct ProfilePoint {
 }
 
 /// A measured loop and its fit; all vectors have the same length.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[derive(Debug, Clone, Serialize)]
 pub struct FittedLoop {
     /// Name of the measurement.
     pub name: String,
