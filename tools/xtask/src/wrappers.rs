@@ -159,8 +159,7 @@ impl Procedure<'_> {
         }
         let (optional, required): (Vec<&Argument>, Vec<&Argument>) =
             self.dummies().partition(|argument| is_optional(argument));
-        let names = |arguments: &[&Argument]| arguments.iter().map(|argument| self.dummy(argument)).collect::<Vec<_>>();
-        let names = [names(&required), vec!["status".to_owned()], names(&optional)].concat().join(", ");
+        let names = self.listed(|argument| self.dummy(argument));
         let mut lines = wrapped("  ", &format!("subroutine {}({names})", self.name));
         lines.extend(self.description());
         lines.extend(required.iter().flat_map(|argument| self.declaration(argument)));
@@ -189,8 +188,9 @@ impl Procedure<'_> {
             match self.rank(argument) {
                 0 => format!("out({i})%s = untouched"),
                 1 => format!("out({i})%v = spread(untouched, 1, {extents})"),
-                2 => format!("out({i})%m = reshape([real(wp) ::], [{extents}], pad=[untouched])"),
-                _ => format!("out({i})%t = reshape([real(wp) ::], [{extents}], pad=[untouched])"),
+                rank => {
+                    format!("out({i})%{} = reshape([real(wp) ::], [{extents}], pad=[untouched])", ["m", "t"][rank - 2])
+                }
             }
         };
         let outputs = self.function.arguments.iter().filter(|argument| argument.is_output());
@@ -205,15 +205,13 @@ impl Procedure<'_> {
         if self.form != Form::Advance && function.arguments.iter().any(is_new_state) {
             outputs = format!("{outputs:4}{}", if function.is_batch() { 'b' } else { 's' });
         }
-        let memory = [("state", 's'), ("workspace", 'w')].into_iter();
-        let mut memory =
-            memory.filter(|(name, _)| function.arguments.iter().any(|a| a.is_memory() && a.name().starts_with(name)));
+        let memory = function.arguments.iter().find(|argument| argument.is_memory());
+        let memory = memory.map_or(" ", |argument| &argument.name()[..1]);
         let short = self.name.trim_start_matches("mslip_");
         let one = if self.form == Form::Scalar { ", one" } else { "" };
         let flag = |name: &str, holds: bool| if holds { format!(", {name}=.true.") } else { String::new() };
         format!(
-            "procedure_info('{short}{one}', '{outputs}', '{}'{}{})",
-            memory.next().map_or(' ', |memory| memory.1),
+            "procedure_info('{short}{one}', '{outputs}', '{memory}'{}{})",
             flag("batch", function.is_batch()),
             flag("element", self.of_element())
         )
@@ -222,7 +220,7 @@ impl Procedure<'_> {
     /// The call with the arguments of the test.
     fn call(&self) -> String {
         let mut outputs = 0;
-        let mut actual = |argument: &Argument| match argument.name() {
+        let actual = |argument: &Argument| match argument.name() {
             "contact" | "element" => format!("{}s(1)", argument.name()),
             name if name.ends_with("_new") => format!("out(5)%{}", if self.rank(argument) == 2 { 'm' } else { 'v' }),
             name if argument.is_memory() => name.trim_end_matches("_old").to_owned(),
@@ -233,12 +231,18 @@ impl Procedure<'_> {
             }
             name => name.to_owned(),
         };
+        format!("call {}({})", self.name, self.listed(actual))
+    }
+
+    /// Required arguments, status, optional arguments.
+    fn listed(&self, mut text: impl FnMut(&Argument) -> String) -> String {
         let (mut required, mut optional) = (Vec::new(), Vec::new());
         for argument in self.dummies() {
             let list = if is_optional(argument) { &mut optional } else { &mut required };
-            list.push(actual(argument));
+            list.push(text(argument));
         }
-        format!("call {}({})", self.name, [required, vec!["status".to_owned()], optional].concat().join(", "))
+        required.push("status".to_owned());
+        [required, optional].concat().join(", ")
     }
 
     fn input_of_test(&self, argument: &Argument) -> &'static str {
@@ -254,10 +258,10 @@ impl Procedure<'_> {
 
     /// The call of the C function with the same arguments.
     fn call_of_c(&self) -> String {
-        let memory = |name: &str| {
-            let kind = ["states", "state", "workspace"].into_iter().find(|kind| name.starts_with(kind));
-            let is_batch = self.function.is_batch();
-            kind.map(|kind| if kind == "state" && is_batch { "states" } else { kind })
+        let memory = |name: &str| match name {
+            name if name.starts_with("workspace") => "workspace",
+            name if name.starts_with("states") || self.function.is_batch() => "states",
+            _ => "state",
         };
         let mut outputs = 0;
         let actual = |argument: &Argument| match argument.name() {
@@ -268,11 +272,11 @@ impl Procedure<'_> {
             "active" => "c_loc(active)".to_owned(),
             "failed_item" => "c_null_ptr".to_owned(),
             name if name.starts_with("n_") => format!("size({}, kind=mslip_size)", &name[2..]),
-            name if argument.is_length() => format!("size({}, 1, mslip_size)", memory(name).unwrap_or_default()),
+            name if argument.is_length() => format!("size({}, 1, mslip_size)", memory(name)),
             name if name.ends_with("_new") && self.form != Form::Advance => "address(out(5))".to_owned(),
             // Memory that is only read is an array.
             "state" => "state".to_owned(),
-            name if argument.is_memory() => format!("c_loc({})", memory(name).unwrap_or_default()),
+            name if argument.is_memory() => format!("c_loc({})", memory(name)),
             _ if argument.is_input() => {
                 let input = self.input_of_test(argument);
                 if argument.declaration.pointer && input == "scalar" { "[scalar]" } else { input }.to_owned()
@@ -369,11 +373,10 @@ impl Procedure<'_> {
         };
         let rank = self.rank(argument);
         let mut attributes = vec![kind, format!("intent({})", if is_read { "in" } else { "inout" })];
-        attributes.extend(is_optional(argument).then(|| "optional".to_owned()));
         let is_address = !is_read && declared.base == "double" || is_old_state(argument) || argument.name() == "active";
-        attributes.extend(is_address.then(|| "target".to_owned()));
-        let contiguous = rank > 0 && is_address;
-        attributes.extend(contiguous.then(|| "contiguous".to_owned()));
+        let others =
+            [("optional", is_optional(argument)), ("target", is_address), ("contiguous", is_address && rank > 0)];
+        attributes.extend(others.into_iter().filter(|(_, holds)| *holds).map(|(name, _)| name.to_owned()));
         let shape = if rank > 0 { format!("({})", vec![":"; rank].join(", ")) } else { String::new() };
         let mut comment = argument.comment.to_owned();
         if in_place {
@@ -390,21 +393,19 @@ impl Procedure<'_> {
     /// The variables, the checks of sizes, and the call.
     fn body(&self) -> Vec<String> {
         let function = self.function;
-        let letters: Vec<char> =
-            ['k', 'm', 'n'].into_iter().filter(|letter| function.letters().contains(*letter)).collect();
-        let of_form = letters.iter().filter(|_| self.form != Form::Scalar);
-        let extents: Vec<_> = of_form.filter_map(|letter| Some((*letter, self.extent(*letter)?))).collect();
+        let letters = if self.form == Form::Scalar { String::new() } else { function.letters() };
+        let extents = ['k', 'm', 'n'].into_iter().filter(|letter| letters.contains(*letter));
+        let extents: Vec<_> = extents.filter_map(|letter| Some((letter, self.extent(letter)?))).collect();
         let mut checks = Vec::new();
         let mut pointers = 0;
         let mut actual: Vec<String> = Vec::new();
         for argument in &function.arguments {
-            let name = argument.name();
             if self.form == Form::Advance && is_new_state(argument) {
                 let old = function.arguments.iter().position(is_old_state).map(|place| actual[place].clone());
                 actual.push(old.unwrap_or_default());
                 continue;
             }
-            let name = if name.ends_with("_old") { self.dummy(argument) } else { name.to_owned() };
+            let name = self.dummy(argument);
             let shape = self.shape(argument);
             let is_checked = !shape.is_empty() && !argument.is_input() && argument.declaration.pointer;
             actual.push(if is_checked {
@@ -433,7 +434,7 @@ impl Procedure<'_> {
                 // Another workspace disagrees with all arrays: the last error stays.
                 checks.insert(if of_coefficients { checks.len() } else { first + number }, check);
             }
-            if function.is_batch() && letters.contains(&'m') {
+            if function.is_batch() && letters.contains('m') {
                 checks.push(
                     "if (status == MSLIP_OK) call check_components(elements, m, n, index, active, status)".to_owned(),
                 );
@@ -495,8 +496,7 @@ impl Procedure<'_> {
         let given = function.arguments.iter().find(is_given).and_then(size);
         match letter {
             'k' => {
-                let of_element = function.arguments.iter().any(|argument| argument.declaration.base == "mslip_element");
-                let count = if of_element { "count_element_coefficients" } else { "count_coefficients" };
+                let count = if self.of_element() { "count_element_coefficients" } else { "count_coefficients" };
                 let no_item = "if (present(failed_item) .and. status /= MSLIP_OK) failed_item = 0\n";
                 let no_item = if function.is_batch() { no_item } else { "" };
                 Some(format!("call {count}(workspace, k, status)\n{no_item}if (status /= MSLIP_OK) return"))
@@ -556,7 +556,6 @@ impl Procedure<'_> {
             return format!("size({laws}, kind=mslip_size)");
         }
         match name {
-            "p" => "parameters".to_owned(),
             "n" if self.form == Form::Scalar => "1_mslip_size".to_owned(),
             "rule" => "rule_or_default(rule)".to_owned(),
             "failed_item" => "c_loc(failed)".to_owned(),
