@@ -197,27 +197,17 @@ pub fn comment_lines(indent: &str, comment: &str) -> Vec<String> {
 
 /// A statement, continued if it is too long.
 pub fn wrapped(indent: &str, statement: &str) -> Vec<String> {
-    let parts = broken(statement, WIDTH - indent.len() - 4);
-    let last = parts.len() - 1;
-    let line = |(number, part): (usize, String)| {
-        let (start, end) = (if number > 0 { "  " } else { "" }, if number < last { " &" } else { "" });
-        format!("{indent}{start}{}{end}", part.replace(UNBROKEN, " "))
-    };
-    parts.into_iter().enumerate().map(line).collect()
+    let parts = broken(statement, WIDTH - indent.len() - 4).join(&format!(" &\n{indent}  "));
+    format!("{indent}{}", parts.replace(UNBROKEN, " ")).lines().map(str::to_owned).collect()
 }
 
 /// A text, broken at blanks into lines of a width.
 pub fn broken(text: &str, width: usize) -> Vec<String> {
-    let mut lines = vec![String::new()];
+    let mut lines: Vec<String> = Vec::new();
     for word in text.split_ascii_whitespace() {
-        let line = lines.last_mut().expect("there is a line");
-        if line.is_empty() {
-            line.push_str(word);
-        } else if line.chars().count() + 1 + word.chars().count() <= width {
-            line.push(' ');
-            line.push_str(word);
-        } else {
-            lines.push(word.to_owned());
+        match lines.last_mut() {
+            Some(line) if line.chars().count() + 1 + word.chars().count() <= width => *line += &format!(" {word}"),
+            _ => lines.push(word.to_owned()),
         }
     }
     lines

@@ -110,9 +110,8 @@ fn description(function: &Function) -> Vec<String> {
     let paragraphs = function.comment.iter().filter(|text| !text.starts_with("Returns "));
     let paragraphs = paragraphs.map(|text| {
         let of_c = |sentence: &&str| ["NULL", "alias", "MSLIP_BY_"].iter().any(|word| sentence.contains(word));
-        let kept: Vec<&str> = sentences(text).into_iter().filter(|sentence| !of_c(sentence)).collect();
+        let text: String = text.split_inclusive(". ").filter(|sentence| !of_c(sentence)).collect();
         // An index is in parentheses, a unit in brackets.
-        let text = kept.join(" ");
         let mut parts = text.split('[');
         let first = parts.next().unwrap_or_default().to_owned();
         parts.fold(first, |text, part| match text.ends_with(char::is_alphanumeric) {
@@ -126,19 +125,6 @@ fn description(function: &Function) -> Vec<String> {
         lines.extend(comment_lines("    ", &paragraph));
     }
     lines
-}
-
-/// A sentence ends with a full stop before a letter that is not lower case, or a name of the interface.
-fn sentences(text: &str) -> Vec<&str> {
-    let (mut sentences, mut start) = (Vec::new(), 0);
-    for (place, _) in text.match_indices(". ") {
-        if text[place + 2..].starts_with(char::is_alphabetic) {
-            sentences.push(&text[start..=place]);
-            start = place + 2;
-        }
-    }
-    sentences.push(&text[start..]);
-    sentences
 }
 
 struct Procedure<'a> {
