@@ -63,12 +63,9 @@ fn constants(items: &[Item]) -> Vec<String> {
     for Item { text, comment } in items {
         let mut words = text.split_ascii_whitespace();
         let (Some("#define"), Some(name), Some(value)) = (words.next(), words.next(), words.next()) else { continue };
-        if name.starts_with("MSLIP_VERSION_") || value.parse::<i32>().is_err() {
-            continue;
-        }
+        let Some(value) = value.parse::<i32>().ok().filter(|_| !name.starts_with("MSLIP_VERSION_")) else { continue };
         // Indices of arrays are counted from 1.
-        let from_1 = value.parse::<i32>().map(|index| (index + 1).to_string());
-        let value = if name.starts_with("MSLIP_BY_") { from_1.as_deref().unwrap_or(value) } else { value };
+        let value = value + i32::from(name.starts_with("MSLIP_BY_"));
         // Fortran ignores case: `mslip_abi_version` is a function.
         let name = if name == "MSLIP_ABI_VERSION" { "MSLIP_MODULE_ABI_VERSION" } else { name };
         lines.extend(commented(

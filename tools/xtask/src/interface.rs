@@ -167,7 +167,7 @@ impl Function<'_> {
 }
 
 /// What `interface.txt` states of an argument of a function.
-#[derive(Clone)]
+#[derive(Clone, Default)]
 struct Fact<'a> {
     name: &'a str,
     extents: String,
@@ -250,22 +250,20 @@ fn function<'a>(
         // The status of a state is that of all states, of contacts that of a contact.
         let kind = short.split("_old").next().unwrap_or(short);
         let status = [short, kind, kind.trim_end_matches('s')].iter().find_map(|name| statuses.get(name));
-        let mut argument = Argument {
+        let is_stated = fact.is_some() || words.contains(&"by hand");
+        let Fact { extents, required, comment, .. } = fact.unwrap_or_default();
+        let argument = Argument {
             declaration: declaration.clone(),
             counted: prototype.is_counted(declaration),
-            extents: fact.as_ref().map_or(String::new(), |fact| fact.extents.clone()),
-            required: fact.as_ref().is_some_and(|fact| fact.required),
-            comment: fact.as_ref().map_or("", |fact| fact.comment),
+            extents,
+            required,
+            comment: if comment.is_empty() { common.get(common_name).copied().unwrap_or("") } else { comment },
             status: status.copied().unwrap_or("MSLIP_OK"),
         };
-        if (argument.is_input() || argument.is_output()) && fact.is_none() && !words.contains(&"by hand") {
+        if (argument.is_input() || argument.is_output()) && !is_stated {
             return Err(format!("{name}: {short} is missing"));
         }
-        if argument.comment.is_empty() {
-            argument.comment = common.get(common_name).copied().unwrap_or("");
-        }
-        let is_array = declaration.pointer && !argument.extents.is_empty();
-        if !declaration.pointer && !argument.extents.is_empty() || is_array && argument.is_memory() {
+        if !argument.extents.is_empty() && (!declaration.pointer || argument.is_memory()) {
             return Err(format!("{name}: {short} is no array of values"));
         }
         if argument.comment.is_empty() && !argument.is_length() && !words.contains(&"by hand") {
