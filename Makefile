@@ -48,29 +48,26 @@ shared: $(tree)/$(shared)
 $(tree)/$(shared): $(tree)/lib/libmicroslip.a include/microslip.h tools/shared.sh
 	tools/shared.sh $< include/microslip.h $@
 
+# Templates have the version of this one.
+copy = @mkdir -p $(@D) && sed 's/@VERSION@/$(version)/' $< > $@
+
 $(tree)/include/%: include/%
-	@mkdir -p $(@D)
-	cp $< $@
+	$(copy)
 
 $(tree)/$(docdir)/%: %
-	@mkdir -p $(@D)
-	cp $< $@
+	$(copy)
 
 $(tree)/$(docdir)/%: packaging/%
-	@mkdir -p $(@D)
-	cp $< $@
-
-$(tree)/$(pcdir)/%: packaging/%.in Cargo.toml
-	@mkdir -p $(@D)
-	sed 's/@VERSION@/$(version)/' $< > $@
+	$(copy)
 
 $(tree)/$(cmakedir)/%: packaging/%
-	@mkdir -p $(@D)
-	cp $< $@
+	$(copy)
 
 $(tree)/$(cmakedir)/%: packaging/%.in Cargo.toml
-	@mkdir -p $(@D)
-	sed 's/@VERSION@/$(version)/' $< > $@
+	$(copy)
+
+$(tree)/$(pcdir)/%: packaging/%.in Cargo.toml
+	$(copy)
 
 ## install: copy dist/ to $(DESTDIR)$(PREFIX); SHARED=1 with the shared library
 install: all $(if $(SHARED),shared)

@@ -41,7 +41,8 @@ module microslip
   !!
   !! **Errors.** `status` is `MSLIP_OK` or a positive code, explained by `mslip_status_text`. On an error no other argument
   !! is modified. Arrays whose sizes disagree give `MSLIP_BAD_ARRAY_SIZE`. Infinite values and NaN are rejected, and so is
-  !! a contact, element, state, workspace or table that was never initialised.
+  !! a contact, element, state, workspace or table that was never initialised. A library with another interface than the module
+  !! initialises none: `MSLIP_BAD_CONTACT` or `MSLIP_BAD_ELEMENT`.
   !!
   !! **Harmonics.** Fourier coefficients are in the order [c0, cos 1, sin 1, cos 2, sin 2, ...], 2H+1 of them; of an element
   !! component after component: those of the tangential one or two, then those of the normal one. A Jacobian has the derivative of
@@ -984,7 +985,8 @@ contains
       !! `MSLIP_OK`, the code of the first invalid parameter, MSLIP_LENGTH_TOO_SHORT or MSLIP_OUT_OF_RANGE; the contact
       !! is unchanged then.
 
-    status = c_contact_init(parameters, contact)
+    status = MSLIP_BAD_CONTACT
+    if (c_abi_version() == MSLIP_MODULE_ABI_VERSION) status = c_contact_init(parameters, contact)
   end subroutine mslip_contact_init
 
   subroutine mslip_contact_init_elliptic(parameters, contact, status)
@@ -996,7 +998,8 @@ contains
     integer(mslip_int), intent(out) :: status
       !! `MSLIP_OK`, the code of the first invalid parameter, or MSLIP_OUT_OF_RANGE; the contact is unchanged then.
 
-    status = c_contact_init_elliptic(parameters, contact)
+    status = MSLIP_BAD_CONTACT
+    if (c_abi_version() == MSLIP_MODULE_ABI_VERSION) status = c_contact_init_elliptic(parameters, contact)
   end subroutine mslip_contact_init_elliptic
 
   subroutine mslip_contact_check(contact, status)
@@ -1805,7 +1808,9 @@ contains
       !! `MSLIP_OK`, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_INPUT, the code of the first invalid parameter,
       !! MSLIP_LENGTH_TOO_SHORT, or MSLIP_OUT_OF_RANGE; the element is unchanged then.
 
-    status = c_element_init(parameters, directions, normal_input, element)
+    status = MSLIP_BAD_ELEMENT
+    if (c_abi_version() == MSLIP_MODULE_ABI_VERSION) status = c_element_init(parameters, directions, normal_input, &
+      element)
   end subroutine mslip_element_init
 
   subroutine mslip_element_init_elliptic(parameters, directions, normal_input, element, status)
@@ -1823,7 +1828,9 @@ contains
       !! `MSLIP_OK`, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_INPUT, the code of the first invalid parameter, or
       !! MSLIP_OUT_OF_RANGE; the element is unchanged then.
 
-    status = c_element_init_elliptic(parameters, directions, normal_input, element)
+    status = MSLIP_BAD_ELEMENT
+    if (c_abi_version() == MSLIP_MODULE_ABI_VERSION) status = c_element_init_elliptic(parameters, directions, &
+      normal_input, element)
   end subroutine mslip_element_init_elliptic
 
   subroutine mslip_element_check(element, status)

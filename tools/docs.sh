@@ -5,17 +5,13 @@
 set -eu
 
 cd "$(dirname "$0")/.."
-: "${CARGO:=cargo}"
-MSLIP_VERSION=$(sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml)
-export MSLIP_VERSION
-out=target/docs
-ford=target/tools/ford
 . tools/checks.sh
+export MSLIP_VERSION="$version"
+out=target/docs
 
 fortran() {
-    $ford/bin/python -c 'import ford' 2> /dev/null ||
-        { python3 -m venv $ford && $ford/bin/pip install --quiet --disable-pip-version-check ford==7.0.13; } || return 1
-    $ford/bin/ford docs/reference/ford.md > "$work/ford" 2>&1 || { cat "$work/ford"; return 1; }
+    pypi ford ford==7.0.13
+    target/tools/ford/bin/ford docs/reference/ford.md > "$work/ford" 2>&1 || { cat "$work/ford"; return 1; }
     ! grep 'Warning' "$work/ford"
 }
 

@@ -5,17 +5,10 @@ set -eu
 
 prefix=$(cd "$1" && pwd)
 cd "$(dirname "$0")/.."
-: "${FC:=gfortran}"
-PATH=$PATH:$PWD/target/tools/fpm/bin
+. tools/checks.sh
+pypi fpm fpm==0.12.0
+PATH=$PWD/target/tools/fpm/bin:$PATH
 
-if ! command -v fpm > /dev/null && ! { python3 -m venv target/tools/fpm &&
-    target/tools/fpm/bin/pip install --quiet --disable-pip-version-check fpm==0.12.0; }; then
-    echo 'fpm cannot be installed from PyPI'
-    exit 77
-fi
-
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
 mkdir -p "$work/client/app" "$work/client/src"
 cp packaging/clients/fpm/fpm.toml "$work/client"
 cp packaging/clients/client.f90 "$work/client/app/main.f90"

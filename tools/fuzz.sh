@@ -10,7 +10,8 @@
 set -eu
 
 cd "$(dirname "$0")/.."
-: "${CARGO:=cargo}" "${TIME:=60}" "${RUNS:=4000}" "${JOBS:=1}" "${MICROSLIP_SEED:=$(date +%s)}"
+. tools/checks.sh
+: "${TIME:=60}" "${RUNS:=4000}" "${JOBS:=1}" "${MICROSLIP_SEED:=$(date +%s)}"
 mode=
 case ${1:-} in
     --check) mode=check TIME=600 JOBS=1 ;;
@@ -25,8 +26,6 @@ RUSTC_BOOTSTRAP=1 RUSTFLAGS='-Zsanitizer=address -Cunsafe-allow-abi-mismatch=san
     -Cllvm-args=-sanitizer-coverage-pc-table -Cllvm-args=-simplifycfg-branch-fold-threshold=0' \
     $CARGO build --package microslip-fuzz --quiet --profile fuzz --locked --target "$host"
 
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
 # The library does not allocate: there are no leaks, and little freed memory to watch.
 export ASAN_OPTIONS=detect_leaks=0:quarantine_size_mb=16
 program=target/$host/fuzz/calls

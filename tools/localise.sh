@@ -6,10 +6,6 @@
 # not reach is dropped, and what it does reach becomes local to one object.
 set -eu
 
-if [ $# -ne 2 ]; then
-    echo "usage: $0 FROM.a TO.a" >&2
-    exit 2
-fi
 from=$1
 to=$2
 : "${AR:=ar}" "${LD:=ld}" "${NM:=nm}" "${OBJCOPY:=objcopy}" "${READELF:=readelf}"

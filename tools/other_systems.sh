@@ -1,100 +1,65 @@
 #!/bin/sh
-# other_systems.sh: the shared library for Windows and macOS, whose archives cannot be localised: cargo links it, and exports the
-# interface only. That of Windows is tested by Wine, in C and in Fortran, and packed into target/; that of macOS is linked by Zig,
-# and not run.
+# other_systems.sh PREFIX: packages of the compiled library for Windows and macOS, in target/, with the other files of the installation
+# at PREFIX. Archives of these systems cannot be localised, so the library is shared: a linker exports the interface only, and Rust's
+# runtime stays within. That of Windows is tested by Wine, in C and in Fortran; that of macOS is linked by LLD with the declarations
+# that Zig has of the system's library, and not run.
 set -eu
 
+prefix=$(cd "$1" && pwd)
 cd "$(dirname "$0")/.."
-: "${CARGO:=cargo}"
 . tools/checks.sh
-version=$(sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml)
-abi=$(sed -n 's/^#define MSLIP_ABI_VERSION //p' include/microslip.h)
-zig=target/tools/zig
 mingw=x86_64-w64-mingw32-
-windows=x86_64-pc-windows-gnu
-unpacked=$work/microslip-$version-windows-x86_64
+cc=${mingw}gcc
+fc=${mingw}gfortran
+emulator=wine
 WINEPREFIX=$work/wine WINEDEBUG=-all
 export WINEPREFIX WINEDEBUG
 
-# library TRIPLE [OPTION...]: the shared library, in target/TRIPLE/release.
+# library KIND TRIPLE SYSTEM [OPTION...]: what cargo builds is in $built, the installation without its library in $work/$package.
 library() {
-    triple=$1
-    shift
-    { [ -d "$(rustc --print sysroot)/lib/rustlib/$triple" ] || rustup target add "$triple"; } &&
-        "$CARGO" rustc --release --locked --package microslip --lib --crate-type cdylib --target "$triple" -- -C strip=symbols "$@"
-}
-declared() {
-    sed 's,//.*,,' include/microslip.h | tr '\n' ' ' | grep -o 'mslip_[a-z0-9_]* *(' | tr -d ' (' | sort
+    kind=$1
+    built=target/$2/release
+    package=microslip-$version-$3
+    "$CARGO" rustc --config tools/archive.toml --release --locked --package microslip --lib --crate-type "$kind" --target "$2" -- \
+        -C link-arg=-s && cp -R "$prefix" "$work/$package" && rm -r "$work/$package"/lib/libmicroslip* "$work/$package/lib/cmake"
 }
 
 # --- Windows ---
 
-pack() {
-    mkdir -p "$unpacked" && cp target/$windows/release/microslip.dll target/$windows/release/libmicroslip.dll.a \
-        include/microslip.h include/microslip.f90 LICENSE-MIT LICENSE-APACHE packaging/THIRD-PARTY.md "$unpacked" &&
-        (cd "$work" && python3 -m zipfile -c "$unpacked.zip" "${unpacked##*/}") && cp "$unpacked.zip" target/
-}
-windows_exports() {
-    declared > "$work/declared" && ${mingw}objdump -p "$unpacked/microslip.dll" |
-        sed -n '/Ordinal\/Name Pointer/,/^$/s/.*\] *//p' | grep -v Table | sort | diff "$work/declared" -
+windows() {
+    library cdylib x86_64-pc-windows-gnu windows-x86_64 && cp "$built/microslip.dll" "$built/libmicroslip.dll.a" "$work/$package/lib" && cp "$built/microslip.dll" "$work" &&
+        (cd "$work" && python3 -m zipfile -c "$package.zip" "$package") && cp "$work/$package.zip" target
 }
 # Wine 8 has no library of random numbers, which Rust's own library names, and this one does not call.
 wine_has_libraries() {
-    echo '__declspec(dllexport) int ProcessPrng(void) { return 0; }' > "$work/random.c" &&
-        ${mingw}gcc -shared "$work/random.c" -o "$unpacked/bcryptprimitives.dll" && wine wineboot -i
-}
-# windows_program COMPILER ARGUMENT...: it is built, run, and reports no failed check.
-windows_program() {
-    "$@" "$unpacked/libmicroslip.dll.a" -o "$unpacked/program.exe" || return
-    wine "$unpacked/program.exe" | tr -d '\r' | tail -n 5 > "$work/report"
-    cat "$work/report"
-    tail -n 1 "$work/report" | grep -qx '[1-9][0-9]* passed, 0 failed'
-}
-windows() {
-    check 'Windows: the exported functions are those of the header' windows_exports
-    check 'Windows: Wine' wine_has_libraries
-    # The other one needs calls of Unix.
-    for driver in layout tables; do
-        check "Windows: $driver.c" windows_program ${mingw}gcc -std=c99 -O1 -Wall -Wextra -Wpedantic -Werror -Iinclude \
-            c_tests/$driver.c
-    done
-    check 'Windows: Fortran' windows_program ${mingw}gfortran -J "$work" -static include/microslip.f90 tests/fortran/checks.f90 \
-        tests/fortran/test_microslip.f90
+    wine wineboot -i && echo '__declspec(dllexport) int ProcessPrng(void) { return 0; }' > "$work/random.c" &&
+        $cc -shared "$work/random.c" -o "$WINEPREFIX/drive_c/windows/system32/bcryptprimitives.dll"
 }
 
 # --- macOS ---
 
-# Zig has the declarations of the system's libraries, but for one that the library does not call.
-linker() {
-    { $zig/bin/python -c 'import ziglang' 2> /dev/null || { python3 -m venv $zig && $zig/bin/pip install --quiet ziglang; }; } &&
-        for processor in aarch64 x86_64; do
-            cat > "$work/link_$processor" << END
-#!/bin/sh
-for option; do
-    shift
-    [ "\$option" = -liconv ] || set -- "\$@" "\$option"
-done
-exec '$PWD/$zig/bin/python' -m ziglang cc -target $processor-macos "\$@"
-END
-            chmod +x "$work/link_$processor" || return
-        done
-}
-macos_exports() {
-    declared | sed 's/^/_/' > "$work/declared" && llvm-nm --extern-only --defined-only "target/$1/release/libmicroslip.dylib" |
-        awk '{ print $3 }' | sort | comm -23 "$work/declared" - > "$work/missing" && [ ! -s "$work/missing" ] &&
-        llvm-objdump --macho --dylibs-used "target/$1/release/libmicroslip.dylib" > "$work/used" &&
-        grep -q "@rpath/libmicroslip.$abi.dylib" "$work/used" && ! grep -vE "dylib:$|libmicroslip|/usr/lib/libSystem" "$work/used"
+# macos PROCESSOR ARCHITECTURE. LLVM 14 does not know the newest processors.
+macos() {
+    pypi zig ziglang && library staticlib "$1-apple-darwin" "macos-$1" &&
+        sed 's/arm64e\.x1/arm64/g' target/tools/zig/lib/python3*/site-packages/ziglang/lib/libc/darwin/libSystem.tbd > "$work/libSystem.tbd" &&
+        declared include/microslip.h | sed 's/^/_/' > "$work/exports" &&
+        lld -flavor darwin -dylib -arch "$2" -platform_version macos 11.0 11.0 -adhoc_codesign -dead_strip \
+            -exported_symbols_list "$work/exports" -install_name "@rpath/libmicroslip.$abi.dylib" \
+            -o "$work/$package/lib/libmicroslip.$abi.dylib" -all_load "$built/libmicroslip.a" "$work/libSystem.tbd" &&
+        ln -s "libmicroslip.$abi.dylib" "$work/$package/lib/libmicroslip.dylib" && pack "$package"
 }
 
-check 'Windows: shared library' library $windows
-check 'Windows: package' pack
-[ "$failed" -gt 0 ] || windows
-check 'macOS: linker' linker
-for processor in aarch64 x86_64; do
-    triple=$processor-apple-darwin
-    linker_variable=CARGO_TARGET_$(echo $triple | tr 'a-z-' 'A-Z_')_LINKER
-    export "$linker_variable=$work/link_$processor"
-    check "macOS, $processor: shared library" library $triple -C "link-arg=-Wl,-install_name,@rpath/libmicroslip.$abi.dylib"
-    check "macOS, $processor: functions and libraries" macos_exports $triple
+check 'Windows: package' windows
+[ "$failed" -gt 0 ] || {
+    check 'Windows: symbols' env OBJDUMP=${mingw}objdump tools/symbols.sh "$work/$package"
+    check 'Windows: Wine' wine_has_libraries
+    check 'Windows: docs/without-rust.md' page Windows "target/$package.zip"
+    # The other driver in C needs calls of Unix.
+    check 'Windows: drivers in C and Fortran, with the reference tables' drivers "$work/$package/lib/libmicroslip.dll.a" \
+        layout.c tables.c test_microslip.f90
+}
+for processor in aarch64:arm64 x86_64:x86_64; do
+    check "macOS, ${processor%:*}: package" macos "${processor%:*}" "${processor#*:}"
+    check "macOS, ${processor%:*}: symbols" tools/symbols.sh "$work/$package"
 done
 counts

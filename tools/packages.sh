@@ -4,14 +4,9 @@
 set -eu
 
 cd "$(dirname "$0")/.."
-: "${CARGO:=cargo}" "${CC:=gcc}" "${FC:=gfortran}" "${NM:=nm}"
-export CARGO CC FC
-unset MAKEFLAGS MFLAGS MAKELEVEL # not those of a make that runs this script
-
 . tools/checks.sh
+export CC FC
 
-version=$(sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml)
-abi=$(sed -n 's/^#define MSLIP_ABI_VERSION //p' include/microslip.h)
 clients=$PWD/packaging/clients
 tree=$work/microslip-$version
 static=$work/static
@@ -21,8 +16,6 @@ mkdir "$work/cargo"
 offline() {
     CARGO_HOME="$work/cargo" CARGO_NET_OFFLINE=true $isolated "$@"
 }
-isolated=
-if unshare -rn true 2> /dev/null; then isolated='unshare -rn'; fi
 
 tools/tarball.sh "$tree.tar.gz"
 tar -xzf "$tree.tar.gz" -C "$work"
@@ -43,24 +36,18 @@ reproducible() {
 check 'the tarball is reproducible' reproducible
 
 # Clients of an installed copy.
-needs() { # PROGRAM: the shared library of microslip that it loads, if any
-    readelf -d "$1" | sed -n 's/.*(NEEDED).*\[\(libmicroslip.*\)\]/\1/p'
-}
 make_client() { # PREFIX SHARED-LIBRARY
     rm -rf "$work/clients" && cp -R "$clients" "$work/clients" && make -C "$work/clients/make" PREFIX="$1" FC="$FC" CC="$CC" &&
         "$work/clients/make/client_c" && "$work/clients/make/client_fortran" && [ "$(needs "$work/clients/make/client_c")" = "$2" ]
 }
 check 'make' make_client "$static" ''
-# shellcheck disable=SC2046  # flags are a list
-pkg_config_client() { # PREFIX
-    export PKG_CONFIG_PATH="$1/lib/pkgconfig" && mkdir -p "$work/pkg" &&
-        [ "$(pkg-config --modversion microslip)" = "$version" ] &&
-        $CC "$clients/client.c" -o "$work/pkg/client_c" $(pkg-config --cflags --libs --static microslip) &&
-        $FC -J "$work/pkg" "$1/include/microslip.f90" "$clients/client.f90" -o "$work/pkg/client_fortran" \
-            $(pkg-config --libs --static microslip) &&
-        LD_LIBRARY_PATH=$1/lib "$work/pkg/client_c" && LD_LIBRARY_PATH=$1/lib "$work/pkg/client_fortran"
+check 'pkg-config' clients "$static"
+other_interface() {
+    sed 's/\(MSLIP_MODULE_ABI_VERSION = \).*/\10/' "$static/include/microslip.f90" > "$work/other.f90" &&
+        $FC -J "$work" "$work/other.f90" tests/fortran/checks.f90 tests/fortran/other_interface.f90 "$static/lib/libmicroslip.a" -lm \
+            -o "$work/other" && "$work/other" | grep -x '4 passed, 0 failed'
 }
-check 'pkg-config' pkg_config_client "$static"
+check 'Fortran: a library of another interface is rejected' other_interface
 readme_program() { # LANGUAGE COMPILER PREFIX SHARED-LIBRARY: the program in README.md, built with the commands in README.md
     rm -rf "$work/readme" && tools/snippets.sh README.md "$work/readme" &&
         mv "$work"/readme/snippet_*."$1" "$work/readme/first_contact.$1" &&
@@ -108,23 +95,8 @@ check 'Meson' meson_client
 shared=$work/shared
 so=libmicroslip.so.$abi
 check 'the shared library can be installed' offline make -C "$tree" install PREFIX="$shared" SHARED=1
-check 'its soname has the ABI version' \
-    sh -c "readelf -d '$shared/lib/libmicroslip.so' | grep -q 'SONAME.*\[$so\]'"
-exports() {
-    sed 's,//.*,,' include/microslip.h | tr '\n' ' ' | grep -o 'mslip_[a-z0-9_]* *(' | tr -d ' (' | sed "s/\$/@@MSLIP_$abi/" |
-        sort > "$work/declared"
-    $NM -D --defined-only "$shared/lib/$so" | awk '$2 != "A" { print $3 }' | sort | diff "$work/declared" -
-}
-check 'it exports the functions of the header, with the ABI version' exports
-loads_libc_and_libm() {
-    readelf -d "$shared/lib/$so" | sed -n 's/.*(NEEDED).*\[\(.*\)\]/\1/p' > "$work/needed" &&
-        ! grep -vE '^(libm|libc|ld-linux.*)\.so\.' "$work/needed"
-}
-check 'it loads only the C and the mathematical library' loads_libc_and_libm
-shared_client() {
-    pkg_config_client "$shared" && [ "$(needs "$work/pkg/client_c")" = "$so" ] && [ "$(needs "$work/pkg/client_fortran")" = "$so" ]
-}
-check 'pkg-config, shared library' shared_client
+check 'symbols' tools/symbols.sh "$shared"
+check 'pkg-config, shared library' clients "$shared" "$so"
 check 'make, shared library' make_client "$shared" "$so"
 check 'README: gcc, shared library' readme_program c gcc "$shared" "$so"
 check 'README: gfortran, shared library' readme_program f90 gfortran "$shared" "$so"

@@ -8,8 +8,7 @@
 set -eu
 
 cd "$(dirname "$0")/.."
-: "${PYTHON:=python3}" "${CARGO:=cargo}"
-export CARGO
+: "${PYTHON:=python3}"
 tools=$PWD/target/tools/python
 target=${TARGET:-}
 wheels=$PWD/target${target:+/$target}/python
@@ -19,26 +18,13 @@ PIP_QUIET=1
 export PIP_DISABLE_PIP_VERSION_CHECK PIP_QUIET
 . tools/checks.sh
 
-version=$(sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml)
-
-# A wheel is built from the crates of Cargo.lock without a network, in a namespace without one if the system permits that.
-isolated=
-if unshare -rn true 2> /dev/null; then isolated='unshare -rn'; fi
-tools() {
-    "$tools/bin/python" -c 'import maturin, cffi, ziglang' 2> /dev/null ||
-        { "$PYTHON" -m venv "$tools" && "$tools/bin/pip" install 'maturin>=1.9.2,<2' 'cffi>=1.15' ziglang; }
-}
+# A wheel is built from the crates of Cargo.lock without a network.
 # shellcheck disable=SC2086  # a list
 wheel() {
     rm -rf "$wheels" && { "$CARGO" fetch --locked --offline || "$CARGO" fetch --locked; } &&
         (cd python && PATH="$tools/bin:$PATH" CARGO_NET_OFFLINE=true $isolated \
             maturin build --release --zig --compatibility manylinux2014 ${target:+--target $target} --out "$wheels") &&
         "$PYTHON" -m zipfile -e "$wheels/microslip-$version-py3-none-"*.whl "$work/wheel"
-}
-# The newest symbol version of glibc that the library needs.
-glibc() {
-    newest=$(readelf --wide --dyn-syms "$work/wheel/microslip/_native/"*.so | grep -o 'GLIBC_[0-9.]*' | sort -Vu | tail -n 1)
-    [ "$(printf '%s\n' "$newest" GLIBC_2.17 | sort -V | tail -n 1)" = GLIBC_2.17 ]
 }
 licences() {
     tools/notices.sh check && for file in LICENSE-APACHE LICENSE-MIT THIRD-PARTY.md; do
@@ -112,12 +98,12 @@ if [ "${1:-}$target" = '' ]; then
     counts
     exit
 fi
-check 'build tools' tools
+check 'build tools' pypi python 'maturin>=1.9.2,<2' 'cffi>=1.15' ziglang
 check 'wheel' wheel
 [ "$failed" -eq 0 ] || { counts; exit; }
 check 'licences in the wheel' licences
+check 'the wheel needs glibc 2.17 at most' glibc "$work/wheel/microslip/_native/"*.so
 if [ -n "$target" ]; then
-    check 'the wheel needs glibc 2.17 at most' glibc
     check "environment of $target" emulated_environment "$work/python"
     core "$work/python"
     counts
@@ -128,7 +114,6 @@ check 'pip install ./python without cargo' without_cargo
 core "$work/python"
 [ "${1:-}" = all ] || { counts; exit; }
 check 'CalculiX: its results are those of the library' "$work/python/bin/python" examples/calculix/compare.py examples/calculix/results
-check 'the wheel needs glibc 2.17 at most' glibc
 
 # others [every]: the oldest and the newest interpreter, or every one, of pyenv or on PATH, that can make environments
 # and is another than PYTHON.

@@ -7,17 +7,12 @@ set -eu
 cd "$(dirname "$0")/.."
 . tools/checks.sh
 
-version=$(sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml)
 tarball=$PWD/target/microslip-$version.tar.gz
 url=${1:-file://$tarball}
 recipes=target/recipes
 tools=target/tools/recipes
 
-$tools/bin/python -c 'import rattler_build, ruamel.yaml' 2> /dev/null || { python3 -m venv $tools &&
-    $tools/bin/pip install --quiet --disable-pip-version-check py-rattler-build==0.73.0 ruamel.yaml; } || {
-    echo 'rattler-build cannot be installed from PyPI'
-    exit 77
-}
+pypi recipes py-rattler-build==0.73.0 ruamel.yaml
 
 tools/tarball.sh "$tarball"
 sum=$(sha256sum "$tarball" | cut -d ' ' -f 1)

@@ -6,23 +6,26 @@ cd "$(dirname "$0")/.."
 . tools/steps.sh
 
 url=${1:-}
-version=$(sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml)
 publish=$PWD/target/publish
 
 committed() {
     git diff HEAD --stat --exit-code
 }
+# Of the toolchain that this directory uses.
+standard_libraries() {
+    for triple in aarch64-unknown-linux-gnu x86_64-pc-windows-gnu aarch64-apple-darwin x86_64-apple-darwin; do
+        [ -d "$(rustc --print target-libdir --target $triple)" ] || rustup target add $triple || return
+    done
+}
 # The reference is tested where it is unpacked.
 reference() {
     site=microslip-$version-reference
-    tools/docs.sh &&
-        tar --create --directory target --transform "s,^docs,$site," --sort=name docs | gzip -9n > "$publish/$site.tar.gz" &&
-        tar -xzf "$publish/$site.tar.gz" -C "$work" && python3 docs/reference/site.py "$work/$site"
+    tools/docs.sh && cp -R target/docs "$work/$site" && pack "$site" && rm -r "${work:?}/$site" &&
+        tar -xzf "target/$site.tar.gz" -C "$work" && python3 docs/reference/site.py "$work/$site"
 }
 collect() {
-    cp "target/microslip-$version.tar.gz" "target/microslip-$version-windows-x86_64.zip" target/python/*.whl \
-        target/aarch64-unknown-linux-gnu/python/*.whl "$publish" &&
-        cp -R target/recipes "$publish" && (cd "$publish" && sha256sum ./*.* > SHA256SUMS && cat SHA256SUMS)
+    cp target/microslip-"$version"[.-]* target/python/*.whl target/aarch64-unknown-linux-gnu/python/*.whl "$publish" &&
+        cp -R target/recipes "$publish" && (cd "$publish" && sha256sum -- *.* > SHA256SUMS && cat SHA256SUMS)
 }
 
 packages() {
@@ -33,13 +36,18 @@ packages() {
 }
 wheels_and_platforms() {
     step 'wheel, by every Python' tools/python.sh all every
-    step 'aarch64: library, wheel' tools/aarch64.sh "$prefix"
-    step 'shared library of other systems' tools/other_systems.sh
+    step 'wheel for aarch64' env TARGET=aarch64-unknown-linux-gnu tools/python.sh
+    step 'Linux on aarch64' tools/linux.sh "$prefix" aarch64
+    for cpu in x86-64 x86-64-v3; do
+        step "Linux on $cpu" tools/linux.sh "$prefix" x86_64 $cpu
+    done
+    step 'Windows and macOS' tools/other_systems.sh "$prefix"
 }
 
 tools/dependencies.sh check release
 step 'all is committed' committed
-rm -rf "$publish"
+step 'Rust for other systems' standard_libraries
+rm -rf "$publish" target/microslip-*
 mkdir -p "$publish"
 step 'library: build, install, move' install_and_move
 together packages wheels_and_platforms

@@ -5,9 +5,7 @@ set -eu
 
 prefix=$(cd "$1" && pwd)
 cd "$(dirname "$0")/.."
-: "${CARGO:=cargo}" "${NM:=nm}"
-export CARGO
-unset MAKEFLAGS MFLAGS MAKELEVEL # not those of a make that runs this script
+: "${NM:=nm}"
 . tools/checks.sh
 
 # A configuration in a folder above the source.

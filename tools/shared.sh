@@ -3,22 +3,16 @@
 # declares, under the version of the interface, and its soname is its name.
 set -eu
 
-if [ $# -ne 3 ]; then
-    echo "usage: $0 FROM.a HEADER TO.so.VERSION" >&2
-    exit 2
-fi
 from=$1
 header=$2
 to=$3
 : "${CC:=cc}"
-
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+. tools/checks.sh
 
 {
     echo "MSLIP_${to##*.} {"
     echo 'global:'
-    sed 's,//.*,,' "$header" | tr '\n' ' ' | grep -o 'mslip_[a-z0-9_]* *(' | tr '(' ';'
+    declared "$header" | sed 's/$/;/'
     echo 'local: *;'
     echo '};'
 } > "$work/exports"

@@ -1,18 +1,16 @@
 # shellcheck shell=sh
 # steps.sh, to be sourced by test.sh and check.sh: `step` runs a command, `together` runs functions side by side, `summary` ends the script.
 
-: "${CARGO:=cargo}" "${CC:=gcc}" "${CXX:=g++}" "${FC:=gfortran}"
-export CARGO CC CXX FC
+. tools/checks.sh
+: "${CXX:=g++}"
+export CC CXX FC
 # The seed of all random tests.
 : "${MICROSLIP_SEED:=1}"
 export MICROSLIP_SEED
 # One compilation of the library serves all tests and tools: of fewer packages, crates that they share have other features.
 # shellcheck disable=SC2034  # for the scripts that source this one
 workspace='--locked --workspace --exclude microslip-fuzz'
-unset MAKEFLAGS MFLAGS MAKELEVEL CARGO_TARGET_DIR # of what runs the script, not of what it runs; programs are in target/
-
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+unset CARGO_TARGET_DIR # programs are in target/
 : > "$work/counts"
 
 # step NAME COMMAND...: counts the tests that the command reports (cargo's "test result:" or "N passed, N failed"), or itself as one; exit
@@ -69,25 +67,15 @@ install_and_move() {
     make install PREFIX=/opt/microslip DESTDIR="$work/stage" && mv "$work/stage/opt/microslip" "$prefix"
 }
 
-# What a client passes to its compiler.
-flags() {
-    pkg-config --cflags --libs --static microslip
-}
-
-# build COMPILER-AND-FLAGS SOURCE PROGRAM [LIBRARY...]
-build() {
-    compiler=$1 source=$2 program=$3
-    shift 3
-    # shellcheck disable=SC2046,SC2086  # flags are lists
-    $compiler "$source" -o "$program" $(flags) "$@"
-}
-
 # A program of a document prints its result in the document.
+# shellcheck disable=SC2046,SC2086  # flags are lists
 snippet() {
     case $1 in
-        *.c) build "$CC -std=c99 -Wall -Wextra -Wpedantic -Werror -O1" "$1" "$work/snippet" ;;
-        *.f90) build "$FC -J $work $prefix/include/microslip.f90" "$1" "$work/snippet" ;;
-    esac && "$work/snippet" > "$work/snippet.txt" && diff "${1%.*}.txt" "$work/snippet.txt"
+        *.c) compiler="$CC -std=c99 -Wall -Wextra -Wpedantic -Werror -O1" ;;
+        *.f90) compiler="$FC -J $work $prefix/include/microslip.f90" ;;
+    esac
+    $compiler "$1" -o "$work/snippet" $(pkg-config --cflags --libs --static microslip) && "$work/snippet" > "$work/snippet.txt" &&
+        diff "${1%.*}.txt" "$work/snippet.txt"
 }
 
 # programs_of_documents LANGUAGE...

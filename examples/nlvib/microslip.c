@@ -230,6 +230,7 @@ static void harmonic_force(int outputs, mxArray **result, int n, const mxArray *
 void mexFunction(int outputs, mxArray *result[], int n, const mxArray *arguments[])
 {
     char command[32];
+    require(mslip_abi_version() == MSLIP_ABI_VERSION, "header and library have different interfaces");
     require(n >= 1 && mxIsChar(arguments[0]) && mxGetString(arguments[0], command, sizeof command) == 0,
             "the first argument is a command");
     mexAtExit(free_workspace);

@@ -51,7 +51,6 @@ contains
     integer(mslip_int) :: status
     integer :: i
 
-    if (mslip_abi_version() /= MSLIP_MODULE_ABI_VERSION) call fail('libmicroslip and the module are of different versions')
     self%items = items
     self%basis = series_basis(harmonics, samples)
     do i = 1, size(items)

@@ -1,4 +1,4 @@
-! Client in Fortran: checks that module and library agree, and computes a force.
+! Client in Fortran: computes a force. A module that does not agree with the library initialises no contact.
 program client
   use microslip
   implicit none
@@ -19,6 +19,5 @@ program client
 
   ! In gross slip the force is mu N: 0.5 times 800 N, a product without rounding.
   if (any(force /= 400)) error stop 'the force of gross slip is not mu N'
-  if (mslip_abi_version() /= MSLIP_MODULE_ABI_VERSION) error stop 'module and library have different interfaces'
   print '(2a)', 'microslip ', mslip_version()
 end program client

@@ -36,6 +36,8 @@ from ._parameters import read_parameters
 
 __version__: str = ffi.string(lib.mslip_version()).decode()
 ABI_VERSION: int = lib.mslip_abi_version()
+if ABI_VERSION != lib.MSLIP_ABI_VERSION:
+    raise ImportError("package and library of microslip have different interfaces")
 
 CENTRE_POINT = 0
 RIGID_STRIP = 1

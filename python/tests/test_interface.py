@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import copy
+import importlib
 import pickle
 import re
 import threading
+from types import SimpleNamespace
 
 import microslip
 import numpy as np
@@ -52,6 +54,15 @@ def test_status_codes_and_constants_are_those_of_the_header():
     for text, name in re.findall(r"// (.*)\n#define MSLIP_(\w+) \d+", HEADER):
         if name in microslip.Status.__members__:
             assert microslip.status_text(microslip.Status[name]) == text
+
+
+def test_library_of_another_interface(monkeypatch):
+    with monkeypatch.context() as patch:
+        other = SimpleNamespace(mslip_version=microslip.lib.mslip_version, mslip_abi_version=lambda: 0, MSLIP_ABI_VERSION=6)
+        patch.setattr("microslip._core.lib", other)
+        with pytest.raises(ImportError, match="different interfaces"):
+            importlib.reload(microslip)
+    importlib.reload(microslip)
 
 
 def test_errors():

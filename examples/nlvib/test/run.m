@@ -179,6 +179,7 @@ function errors()
     rejected('a column for each component', force(element, 64, none));
     rejected('displacement', force(contact, 64, [0; NaN; 0]));
     rejected('no command contacts', @() microslip('contacts', p));
+    rejected('different interfaces', @() other_header('contact', p));
     check('an error leaves the workspace usable', norm(microslip('harmonic_force', contact, 64, zeros(3, 1))), 0);
 end
 

@@ -454,6 +454,13 @@ impl Procedure<'_> {
             lines.push("    status = MSLIP_OK".to_owned());
         }
         lines.extend(checks.iter().flat_map(|check| wrapped("    ", check)));
+        // A library of another interface initialises nothing.
+        let is_init = |object: &&str| self.function.name.starts_with(&format!("mslip_{object}_init"));
+        if let Some(object) = ["contact", "element"].into_iter().find(is_init) {
+            lines.push(format!("    status = MSLIP_BAD_{}", object.to_uppercase()));
+            lines.extend(wrapped("    ", &format!("if (c_abi_version() == MSLIP_MODULE_ABI_VERSION) {call}")));
+            return lines;
+        }
         let is_checked = of_workspace || !checks.is_empty();
         lines.extend(wrapped("    ", &format!("{}{call}", if is_checked { "if (status == MSLIP_OK) " } else { "" })));
         if of_index {
