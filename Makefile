@@ -46,7 +46,7 @@ $(tree)/lib/libmicroslip.a: $(sources) tools/archive.sh tools/archive.toml tools
 shared: $(tree)/$(shared)
 
 $(tree)/$(shared): $(tree)/lib/libmicroslip.a include/microslip.h tools/shared.sh
-	tools/shared.sh $< include/microslip.h $@
+	tools/shared.sh $< $@
 
 # Templates have the version of this one.
 copy = @mkdir -p $(@D) && sed 's/@VERSION@/$(version)/' $< > $@

@@ -1,20 +1,17 @@
 #!/bin/sh
-# shared.sh FROM.a HEADER TO.so.VERSION: make a shared library of the localised archive. It exports what the header
+# shared.sh FROM.a TO.so.VERSION: make a shared library of the localised archive. It exports what the header
 # declares, under the version of the interface, and its soname is its name.
 set -eu
 
 from=$1
-header=$2
-to=$3
+to=$2
 : "${CC:=cc}"
 . tools/checks.sh
 
 {
-    echo "MSLIP_${to##*.} {"
-    echo 'global:'
-    declared "$header" | sed 's/$/;/'
-    echo 'local: *;'
-    echo '};'
+    echo "MSLIP_$abi { global:"
+    declared include/microslip.h | sed 's/$/;/'
+    echo 'local: *; };'
 } > "$work/exports"
 
 # Nothing may stay undefined but what the mathematical library and the C library have, and all is bound at the start: the
