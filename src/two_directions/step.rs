@@ -125,6 +125,8 @@ pub(crate) struct Released {
 }
 
 impl Released {
+    /// Not inlined: the compiler would divide by what is beside its quotients in the vector registers of a caller, too.
+    #[inline(never)]
     pub fn new(limit: PerAxis<f64>, fall: f64, trial: PerAxis<f64>) -> Released {
         let ratio = by_axis(|axis| trial[axis] / limit[axis].max(LEAST));
         let length = length(ratio);
