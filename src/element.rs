@@ -83,9 +83,9 @@ pub struct Element {
     load_of_shift: Table,
     /// M at the middle of each quarter of `load_of_shift`.
     potential: Quarters<f64>,
-    /// For two directions: S along y = `lateral[0]` S + `lateral[1]` N, and (1 - `lateral[0]`) S of the layer unless that is a constant
-    /// times N, and a number that two shapes hardly share.
+    /// For two directions: S along y is `lateral[0]` S + `lateral[1]` N, plus (1 - `lateral[0]`) S of a layer that is not linear.
     lateral: [f64; 2],
+    /// Hash of the shape and its load, by which a state detects another element.
     pub(crate) key: f64,
 }
 
@@ -413,27 +413,13 @@ impl Element {
         &self.shape
     }
 
-    /// Checks an approach or a normal force.
-    #[inline(always)]
-    pub(crate) fn check_normal(&self, is_approach: bool, value: f64) -> Result<(), Error> {
-        let (is_allowed, largest, error) = if is_approach {
-            (abs_le(value, MAX_DISPLACEMENT), self.largest_approach, Error::BadDisplacement)
-        } else {
-            (in_0_to(MAX_DISPLACEMENT, value), self.largest_load, Error::BadNormalForce)
-        };
-        match (is_allowed, le(value, largest)) {
-            (true, true) => Ok(()),
-            (true, false) => Err(Error::LengthTooShort),
-            (false, _) => Err(error),
-        }
-    }
-
     /// Checks a normal approach.
     /// Errors: `BadDisplacement` unless it is finite and at most 1e150 in magnitude; `LengthTooShort` if the contact would become
     /// too wide for its length.
     #[inline(always)]
     pub fn check_approach(&self, approach: f64) -> Result<(), Error> {
-        self.check_normal(true, approach)
+        let is_allowed = abs_le(approach, MAX_DISPLACEMENT);
+        check_normal(is_allowed, le(approach, self.largest_approach), Error::BadDisplacement)
     }
 
     /// Checks a normal force.
@@ -441,7 +427,14 @@ impl Element {
     /// too wide for its length.
     #[inline(always)]
     pub fn check_normal_force(&self, normal_force: f64) -> Result<(), Error> {
-        self.check_normal(false, normal_force)
+        let is_allowed = in_0_to(MAX_DISPLACEMENT, normal_force);
+        check_normal(is_allowed, le(normal_force, self.largest_load), Error::BadNormalForce)
+    }
+
+    /// Checks the normal component of a displacement, an approach or a normal force.
+    #[inline(always)]
+    pub(crate) fn check_input(&self, input: f64) -> Result<(), Error> {
+        if self.by_approach() { self.check_approach(input) } else { self.check_normal_force(input) }
     }
 
     /// Whether an input that was checked closes the contact.
@@ -521,7 +514,7 @@ impl Element {
         }
     }
 
-    /// From the shape; 0 where N and S are proportional.
+    /// The curvature from the shape, beyond the table; 0 where N and S are proportional.
     #[inline(never)]
     fn curvature_outside(&self, shift: f64) -> f64 {
         if shift <= self.smallest(Quantity::Shift) {
@@ -581,3 +574,13 @@ fn key_of(values: &[f64]) -> f64 {
 }
 
 const _: () = assert!(size_of::<Element>() <= 15_000);
+
+/// The outcome of the checks of a normal component: whether it is allowed, and whether the contact is narrow enough for its length.
+#[inline(always)]
+fn check_normal(is_allowed: bool, is_narrow: bool, error: Error) -> Result<(), Error> {
+    match (is_allowed, is_narrow) {
+        (true, true) => Ok(()),
+        (true, false) => Err(Error::LengthTooShort),
+        (false, _) => Err(error),
+    }
+}

@@ -52,10 +52,9 @@ macro_rules! of_shapes {
         impl Size {$(
             $(#[$comment])*
             pub fn $name(&self $(, $argument: $type)*) -> $result {
-                if self.kind == HERTZ_ELLIPSE {
-                    hertz_ellipse::$name(self $(, $argument)*)
-                } else {
-                    rounded_flat::$name(self $(, $argument)*)
+                match self.kind {
+                    HERTZ_ELLIPSE => hertz_ellipse::$name(self $(, $argument)*),
+                    _ => rounded_flat::$name(self $(, $argument)*),
                 }
             }
         )*}
@@ -154,8 +153,10 @@ pub(crate) struct Shape {
     pressure_scale: f64,
     /// The largest size for which the laws hold; 0 unless set by an element.
     pub largest: f64,
-    /// The half-width under the normal force of the parameters \[m\], and the size with lengths over it.
-    pub reference: (f64, Size),
+    /// The half-width under the normal force of the parameters \[m\].
+    pub reference_half_width: f64,
+    /// The size under this force, with lengths over its half-width.
+    pub reference_size: Size,
     /// E* \[Pa\].
     pub composite_modulus: f64,
     pub layer: LayerCompliance,
@@ -166,7 +167,7 @@ pub(crate) const LARGEST: f64 = f64::from_bits((1023 + 498) << 52);
 
 impl Shape {
     fn size(&self, leg: f64) -> Size {
-        Size::new(self.reference.1.kind, self.flat, leg / self.unit)
+        Size::new(self.reference_size.kind, self.flat, leg / self.unit)
     }
 
     /// Half-width s \[m\]; for an ellipse the semi-axis x.
@@ -187,7 +188,7 @@ impl Shape {
     /// dU/dN or dS/dN of a half-width in units of the sizes, without the layer \[m/N\].
     fn own_compliance(&self, [scale, offset]: [f64; 2], half_width: f64) -> f64 {
         let reciprocal = self.length / half_width.max(TINY * self.length).max(TINY);
-        scale * (self.reference.1.kernel().value(reciprocal) + offset)
+        scale * (self.reference_size.kernel().value(reciprocal) + offset)
     }
 
     /// The compliance of one direction (0: normal, 1: x, 2: y) as a multiple of that of another one and a constant \[m/N\].
@@ -287,7 +288,7 @@ impl Shape {
 
     /// The size under a normal force \[N\], and d(leg²)/dN \[m²/N\].
     pub fn size_under(&self, load: f64) -> [f64; 2] {
-        let size = self.reference.1.at_load(self.flat, load / self.load_scale);
+        let size = self.reference_size.at_load(self.flat, load / self.load_scale);
         [self.unit * size.leg, quotient(0.5, self.load_scale * size.psi) * self.unit * self.unit]
     }
 
@@ -303,7 +304,7 @@ impl Shape {
         if quantity == Quantity::Load || value <= 0.0 {
             return self.at_load(value.max(0.0));
         }
-        let (of, (half_width, size)) = (self.of(quantity), self.reference);
+        let (of, half_width, size) = (self.of(quantity), self.reference_half_width, self.reference_size);
         let near = |compliance: f64| self.unit * size.near_shift(self.flat, value / (self.load_scale * compliance));
         let unloaded = self.layer.unloaded(quantity);
         if size.is_power_law() && unloaded <= 0.0 {
@@ -336,6 +337,6 @@ impl Shape {
         let point = SurfacePoint::new(x, half_width, self.flat);
         let squares = ((to - from) / unit) * ((to + from) / unit);
         let legs = [from / unit, to / unit, squares];
-        self.pressure_scale * unit * self.reference.1.pressure(self.flat / unit, legs, &point)
+        self.pressure_scale * unit * self.reference_size.pressure(self.flat / unit, legs, &point)
     }
 }

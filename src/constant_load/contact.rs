@@ -36,7 +36,7 @@ pub struct Contact {
     tag: u64,
     /// Displacement for a shift of 1 \[m\].
     pub(crate) displacement_scale: f64,
-    /// Its inverse; 0 without friction.
+    /// 1 over the number before; 0 without friction.
     pub(crate) per_displacement_scale: f64,
     /// Stiffness for a compliance of 1 \[N/m\].
     pub(crate) stiffness_scale: f64,
@@ -81,7 +81,7 @@ impl Contact {
             return Ok(contact);
         }
         let shape = parameters.shape()?;
-        let (half_width, composite_modulus) = (shape.reference.0, contact.composite_modulus);
+        let (half_width, composite_modulus) = (shape.reference_half_width, contact.composite_modulus);
         (contact.half_width, contact.flat_half_width) = (half_width, flat_half_width.abs());
         contact.pressure_scale = normal_force / length / half_width;
         contact.stiffness_scale = 0.5 * PI * composite_modulus * length;
@@ -89,7 +89,7 @@ impl Contact {
         let compliance = shape.full_stick();
         let scale = contact.stiffness_scale;
         let (layer, under_load) = LayerCompliance::relative(&parameters.layer, normal_force, scale, compliance)?;
-        contact.zones = StickZones::new(shape.reference.1, compliance, layer);
+        contact.zones = StickZones::new(shape.reference_size, compliance, layer);
         contact.set_friction(normal_force, under_load, [half_width, edge_radius, length, composite_modulus])?;
         Ok(contact)
     }
@@ -109,7 +109,7 @@ impl Contact {
         contact.pressure_scale = normal_force / semi_axis_x / semi_axis_y;
         let (layer, under_load) =
             LayerCompliance::relative(&parameters.layer, normal_force, contact.stiffness_scale, 1.0)?;
-        contact.zones = StickZones::new(shape.reference.1, 1.0, layer);
+        contact.zones = StickZones::new(shape.reference_size, 1.0, layer);
         // The radius of the sphere with this semi-axis.
         in_range(&[semi_axis_x, semi_axis_x, semi_axis_x, composite_modulus], &[normal_force])?;
         let radius = 4.0 / 3.0 * (semi_axis_x * (semi_axis_x * (semi_axis_x * composite_modulus / normal_force)));

@@ -24,7 +24,7 @@ mod uniform_sampling;
 
 use crate::constant_load::contact::Contact;
 use crate::error::Error;
-use crate::fourier::workspace::{HEADER, Layout, Size};
+use crate::fourier::workspace::{HEADER, Layout, SamplingSize};
 
 pub use crate::fourier::HarmonicOutput;
 
@@ -41,7 +41,7 @@ impl Rule {
     /// Number of doubles in a workspace for the given number of harmonics and of samples, or nodes, per period; 0 if these are not
     /// allowed.
     pub fn workspace_length(self, harmonics: usize, samples: usize) -> usize {
-        let size = Size { harmonics, samples, periods: 0 };
+        let size = SamplingSize { harmonics, samples, periods: 0 };
         match self {
             Rule::UniformSampling => uniform_sampling::UniformWorkspace::length_or_zero(size),
             Rule::EventDriven => event_driven::EventWorkspace::length_or_zero(size),
@@ -52,7 +52,7 @@ impl Rule {
     /// Errors: `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24;
     /// `WorkspaceTooShort`.
     pub fn workspace_init(self, harmonics: usize, samples: usize, workspace: &mut [f64]) -> Result<(), Error> {
-        let size = Size { harmonics, samples, periods: 0 };
+        let size = SamplingSize { harmonics, samples, periods: 0 };
         match self {
             Rule::UniformSampling => uniform_sampling::UniformWorkspace::init(size, workspace),
             Rule::EventDriven => event_driven::EventWorkspace::init(size, workspace),
@@ -63,7 +63,7 @@ impl Rule {
 /// Rule, size and number of doubles of an initialised workspace, from its header.
 ///
 /// Errors: `BadWorkspace` if uninitialised.
-pub(crate) fn workspace_size(header: &[f64; HEADER]) -> Result<(Rule, Size, usize), Error> {
+pub(crate) fn workspace_size(header: &[f64; HEADER]) -> Result<(Rule, SamplingSize, usize), Error> {
     let (rule, (size, length)) = if event_driven::EventWorkspace::KIND.is_tag(header[0]) {
         (Rule::EventDriven, event_driven::EventWorkspace::read(header)?)
     } else {
@@ -92,7 +92,7 @@ impl<'a> Workspace<'a> {
 
     /// A workspace of this rule and size, which were read from its header.
     /// Errors: `BadWorkspace` if too short.
-    pub(crate) fn of_size(rule: Rule, size: Size, memory: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
+    pub(crate) fn of_size(rule: Rule, size: SamplingSize, memory: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
         Ok(Workspace(match rule {
             Rule::UniformSampling => {
                 ByRule::UniformSampling(uniform_sampling::UniformWorkspace::of_size(size, memory)?)

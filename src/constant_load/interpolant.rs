@@ -24,7 +24,7 @@ use crate::shape::stick_zone::{LoadPoint, StickZones};
 /// Fraction of x_s that the first polynomial covers.
 pub(crate) const INNER_FRACTION: f64 = 0.4;
 
-/// The same with a layer that bends the curve strongly beyond: with 0.5 fewer curves converge.
+/// The fraction of the first polynomial if a layer bends the curve strongly: with 0.5 fewer curves converge.
 pub(crate) const KNEE_FRACTION: f64 = 0.55;
 
 /// Number of dyadic intervals of √ρ and of its fourth root.

@@ -1,4 +1,4 @@
-//! A smooth, monotone function on (0, ∞) as polynomials on quarters of an octave, found by the exponent and two leading bits of
+//! A smooth, monotone function on (0, ∞) as polynomials on quarters of dyadic intervals, found by the exponent and two leading bits of
 //! the mantissa of the argument: neither a root nor a logarithm is evaluated.
 //!
 //! `f(x) = x p(t)` with one polynomial p for each quarter and t in [-1, 1) the position in it. The functions of a contact are
@@ -15,12 +15,12 @@ use crate::shape::series::{ORDER, Series};
 /// Coefficients of a quarter.
 const TERMS: usize = 12;
 /// Octaves below the largest argument.
-const OCTAVES: usize = 12;
+const DYADIC_INTERVALS: usize = 12;
 /// Bits of the mantissa that choose the quarter.
 const BITS: u32 = 2;
 const QUARTERS: usize = 1 << BITS;
-const SHIFT: u32 = 52 - BITS;
-const PIECES: usize = OCTAVES * QUARTERS + 1;
+const INDEX_BITS: u32 = 52 - BITS;
+const QUARTER_COUNT: usize = DYADIC_INTERVALS * QUARTERS + 1;
 
 const EXPONENT_OF_1: u64 = 0x3ff << 52;
 /// Half-lengths in the unit of the mantissa: t = 8 (m - 1) - 1 for the part m of the mantissa below the leading bits.
@@ -29,11 +29,11 @@ const POSITION: f64 = 8.0;
 /// A value for each quarter of a table.
 #[repr(transparent)]
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Quarters<T>(pub [T; PIECES]);
+pub(super) struct Quarters<T>(pub [T; QUARTER_COUNT]);
 
 impl<T: Copy + Default> Default for Quarters<T> {
     fn default() -> Self {
-        Quarters([T::default(); PIECES])
+        Quarters([T::default(); QUARTER_COUNT])
     }
 }
 
@@ -62,12 +62,12 @@ impl Table {
         largest: f64,
         series_about: &mut dyn FnMut(f64) -> [Series; K],
     ) {
-        let base = (largest.to_bits() >> SHIFT).saturating_sub(PIECES as u64 - 1);
+        let base = (largest.to_bits() >> INDEX_BITS).saturating_sub(QUARTER_COUNT as u64 - 1);
         let mut tables = tables.map(|table| {
             table.base = base;
             table.quarters.0.iter_mut()
         });
-        for number in base..base + PIECES as u64 {
+        for number in base..base + QUARTER_COUNT as u64 {
             let [middle, half_length] = middle_and_half_length(number);
             for (series, quarters) in series_about(middle).iter().zip(&mut tables) {
                 quarters.next().into_iter().for_each(|quarter| *quarter = economized(series, middle, half_length));
@@ -79,8 +79,8 @@ impl Table {
     #[inline(always)]
     pub fn position(&self, x: f64) -> Option<Position> {
         let bits = x.to_bits();
-        let index = (bits >> SHIFT).wrapping_sub(self.base) as usize;
-        (index < PIECES).then_some(Position { index, t: position_in(x) })
+        let index = (bits >> INDEX_BITS).wrapping_sub(self.base) as usize;
+        (index < QUARTER_COUNT).then_some(Position { index, t: position_in(x) })
     }
 
     /// y and, if requested, dy/dx at some arguments; `None` if one is outside.
@@ -88,7 +88,7 @@ impl Table {
     pub fn values<const SLOPES: bool, const L: usize>(&self, x: &[f64; L]) -> Option<([f64; L], [f64; L])> {
         let mut rows = [&[0.0; TERMS]; L];
         for (row, x) in rows.iter_mut().zip(x) {
-            *row = self.quarters.0.get((x.to_bits() >> SHIFT).wrapping_sub(self.base) as usize)?;
+            *row = self.quarters.0.get((x.to_bits() >> INDEX_BITS).wrapping_sub(self.base) as usize)?;
         }
         // With the blocks P0, P1 and P2 of four coefficients: the cubics P0 + t⁴ P1 + t⁸ P2, and P1 + 2 t⁴ P2.
         let [mut cubics, mut by_blocks] = [[[0.0; 4]; L]; 2];
@@ -128,7 +128,7 @@ impl Table {
     /// The smallest argument inside.
     #[inline(always)]
     pub fn smallest(&self) -> f64 {
-        f64::from_bits(self.base << SHIFT)
+        f64::from_bits(self.base << INDEX_BITS)
     }
 
     /// y'' at four monotone arguments; `None` if one is outside. The quarter of an earlier call is kept.
@@ -136,7 +136,7 @@ impl Table {
     pub fn four_curvatures(&self, x: &[f64; 4], quarter: &mut Curvature) -> Option<[f64; 4]> {
         let &[first, .., last] = x;
         quarter.enter(self, first)?;
-        if quarter.number == last.to_bits() >> SHIFT {
+        if quarter.number == last.to_bits() >> INDEX_BITS {
             return Some(quarter.values(x));
         }
         let mut values = [0.0; 4];
@@ -175,13 +175,13 @@ fn mantissa(x: f64, bits: u32) -> f64 {
 /// t.
 #[inline(always)]
 fn position_in(x: f64) -> f64 {
-    POSITION * mantissa(x, SHIFT) - (POSITION + 1.0)
+    POSITION * mantissa(x, INDEX_BITS) - (POSITION + 1.0)
 }
 
 /// Middle and half-length of the quarter with this exponent and leading bits.
 fn middle_and_half_length(number: u64) -> [f64; 2] {
-    let lower = f64::from_bits(number << SHIFT);
-    let half_length = 0.5 * (f64::from_bits((number + 1) << SHIFT) - lower);
+    let lower = f64::from_bits(number << INDEX_BITS);
+    let half_length = 0.5 * (f64::from_bits((number + 1) << INDEX_BITS) - lower);
     [lower + half_length, half_length]
 }
 
@@ -197,7 +197,7 @@ pub(crate) struct Curvature {
 }
 
 impl Curvature {
-    /// Of no quarter yet. The sign of the zeros keeps compilers from an instruction that valgrind does not know.
+    /// The position in no quarter yet. The sign of the zeros keeps compilers from an instruction that valgrind does not know.
     pub const fn new() -> Curvature {
         Curvature { number: 0, powers: [-0.0; TERMS], per_half_length: 0.0 }
     }
@@ -205,7 +205,7 @@ impl Curvature {
     /// Changes to the quarter in which x lies.
     #[inline(always)]
     fn enter(&mut self, table: &Table, x: f64) -> Option<()> {
-        let number = x.to_bits() >> SHIFT;
+        let number = x.to_bits() >> INDEX_BITS;
         if number != self.number {
             let c = table.quarters.0.get(number.wrapping_sub(table.base) as usize)?;
             let scaled = POSITION * mantissa(x, 52);
@@ -289,7 +289,7 @@ mod tests {
                 while let Some(([load], _)) = table.values::<true, 1>(&[x]) {
                     worst = worst.max((load / shape.load(at(x)) - 1.0).abs());
                     // The lower end, then another quarter.
-                    let low = f64::from_bits(x.to_bits() >> SHIFT << SHIFT);
+                    let low = f64::from_bits(x.to_bits() >> INDEX_BITS << INDEX_BITS);
                     x = if x > low { low } else { 0.97 * x };
                 }
             }

@@ -1,8 +1,8 @@
 //! Batches of contacts and of elements: all items are checked, in order, before the first output is written.
 
 use super::pointers::{
-    self, call, check_alignment, check_input, check_length, input, item, output, outputs, place, requested, set,
-    state_input, with_law,
+    self, call, check_alignment, check_input, check_length, input, item, optional_output, output, outputs, requested,
+    set, state_input, with_law,
 };
 use super::{mslip_contact, mslip_element};
 use crate::constant_load::ConstantLoad;
@@ -67,7 +67,7 @@ pub(super) unsafe fn update_one<L: Law>(
 
 /// Writes the bound on the error of the force in a state.
 pub(super) unsafe fn state_error<L: Law>(n: usize, state: *const f64, error: *mut f64) -> Result<(), Error> {
-    let (state, error) = (state_input(n, state)?, place(error)?);
+    let (state, error) = (state_input(n, state)?, optional_output(error)?);
     L::check_header(state)?;
     set(error, || L::force_error(state));
     Ok(())
@@ -120,7 +120,7 @@ impl From<Error> for Failure {
 /// The status of a batch of n items. On an error, `failed_item` is the item at fault, or n if the error is not the error of an item.
 unsafe fn call_batch(n: usize, failed_item: *mut size_t, batch: impl FnOnce() -> Result<(), Failure>) -> i32 {
     call(|| {
-        let failed_item = place(failed_item)?;
+        let failed_item = optional_output(failed_item)?;
         batch().map_err(|failure| {
             set(failed_item, || failure.item.unwrap_or(n));
             failure.error
@@ -223,7 +223,7 @@ unsafe fn update<L: Law>(
     }
     let [force, tangent, dissipated] = outputs;
     for (i, law, displacement) in items.with(|i| displacement.get(i)) {
-        prefetch::<4>(states_old.wrapping_add((i + AHEAD) * state_length));
+        prefetch::<4>(states_old.wrapping_add((i + PREFETCH_DISTANCE) * state_length));
         let outputs = [
             item_of(force.cast::<L::Vector>(), i).cast(),
             item_of(tangent.cast::<L::Tangent>(), i).cast(),
@@ -242,7 +242,7 @@ fn item_of<T>(output: *mut T, i: usize) -> *mut T {
 
 /// Items from the one that is computed, and from the one that is checked, to the one whose state is fetched from main memory: about
 /// as many as an access takes.
-const AHEAD: usize = 16;
+const PREFETCH_DISTANCE: usize = 16;
 const CHECKED_AHEAD: usize = 32;
 
 /// Fetches the first cache lines of a state, its tag or also its first reversals or knots: the hardware does not, because states

@@ -4,7 +4,7 @@ use crate::constant_load::contact::Contact;
 use crate::error::Error;
 use crate::face::divide;
 use crate::ffi::mslip_contact;
-use crate::ffi::pointers::{self, call, each, input, item, output, outputs, place, set, sum};
+use crate::ffi::pointers::{self, call, each, input, item, optional_output, output, outputs, set, sum};
 use crate::limits::{check_displacement, check_positions};
 use crate::numerics::total::Total;
 use crate::parameters::PARAMETERS;
@@ -64,7 +64,7 @@ unsafe fn initialise<P>(
     construct: impl FnOnce(&P) -> Result<Contact, Error>,
 ) -> i32 {
     call(|| {
-        let (parameters, contact) = (item(parameters)?, place(contact.cast())?.ok_or(Error::NullPointer)?);
+        let (parameters, contact) = (item(parameters)?, optional_output(contact.cast())?.ok_or(Error::NullPointer)?);
         *contact = construct(parameters)?;
         contact.checksum = sum(contact).wrapping_neg();
         Ok(())

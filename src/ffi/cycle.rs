@@ -3,7 +3,7 @@
 use crate::constant_load::complex_stiffness::{check_amplitude, requested, write_values};
 use crate::constant_load::equivalents;
 use crate::ffi::mslip_contact;
-use crate::ffi::pointers::{self, call, each, input, output, outputs, place, set};
+use crate::ffi::pointers::{self, call, each, input, optional_output, output, outputs, set};
 use libc::size_t;
 
 /// Hysteresis loop of the displacement amplitude cos(t), amplitude in \[m\]: displacement\[n\] \[m\] and force\[n\] \[N\] at n uniformly
@@ -88,7 +88,8 @@ pub unsafe extern "C" fn mslip_jenkins_equivalent(
     slip_force: *mut f64,
 ) -> i32 {
     call(|| {
-        let (contact, stiffness, slip_force) = (pointers::contact(contact)?, place(stiffness)?, place(slip_force)?);
+        let (contact, stiffness, slip_force) =
+            (pointers::contact(contact)?, optional_output(stiffness)?, optional_output(slip_force)?);
         let slider = equivalents::jenkins(contact, amplitude)?;
         set(stiffness, || slider.stiffness);
         set(slip_force, || slider.slip_force);
@@ -115,7 +116,7 @@ pub unsafe extern "C" fn mslip_iwan_equivalent(
         // Before arrays of that length are assumed.
         equivalents::check_count(n)?;
         let (contact, outputs, force_error) =
-            (pointers::contact(contact)?, outputs([stiffness, slip_force], n)?, place(force_error)?);
+            (pointers::contact(contact)?, outputs([stiffness, slip_force], n)?, optional_output(force_error)?);
         let mut places = each(0..n, outputs).map(|(_, places)| places);
         let error = equivalents::iwan(contact, n, |slider| {
             let [stiffness, slip_force] = places.next().unwrap_or_default();

@@ -2,7 +2,9 @@
 
 use super::batch::{path, state_error, update_one};
 use super::mslip_element;
-use super::pointers::{self, call, each, input, item, memory, outputs, place, set, state_input, sum, with_law};
+use super::pointers::{
+    self, call, each, input, item, memory, optional_output, outputs, set, state_input, sum, with_law,
+};
 use crate::element::{Components, Directions, Element, NormalInput, NormalPoint};
 use crate::error::Error;
 use crate::law::Law;
@@ -28,7 +30,8 @@ unsafe fn initialise<P>(
 ) -> i32 {
     call(|| {
         // The element may be uninitialised, and is written before it is read.
-        let (parameters, element) = (item(parameters)?, place(element.cast::<Element>())?.ok_or(Error::NullPointer)?);
+        let (parameters, element) =
+            (item(parameters)?, optional_output(element.cast::<Element>())?.ok_or(Error::NullPointer)?);
         let directions = directions_of(directions)?;
         let input = [NormalInput::Approach, NormalInput::Force].into_iter().find(|input| *input as i32 == normal_input);
         init(element, parameters, (directions, input.ok_or(Error::BadNormalInput)?))?;

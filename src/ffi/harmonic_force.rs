@@ -2,12 +2,12 @@
 
 use super::batch::{Items, element_harmonic_forces, mslip_batch_harmonic_force};
 use super::element::directions_of;
-use super::pointers::{self, call, input, memory, output, place, set, with_law};
+use super::pointers::{self, call, input, memory, optional_output, output, set, with_law};
 use super::{mslip_contact, mslip_element};
 use crate::constant_load::harmonic_force::{self, HarmonicOutput, Rule, harmonic_sensitivity, workspace_size};
 use crate::element::Directions;
 use crate::error::Error;
-use crate::fourier::workspace::{Layout, Size};
+use crate::fourier::workspace::{Layout, SamplingSize};
 use crate::law::Law;
 use crate::parameters::PARAMETERS;
 use core::ptr;
@@ -60,7 +60,8 @@ pub unsafe extern "C" fn mslip_harmonic_workspace_size(
 ) -> i32 {
     call(|| {
         let header = pointers::workspace_header(workspace)?;
-        let (harmonics, samples, rule) = (place(harmonics)?, place(samples)?, place(rule)?);
+        let (harmonics, samples, rule) =
+            (optional_output(harmonics)?, optional_output(samples)?, optional_output(rule)?);
         let (found, size, _) = workspace_size(&header)?;
         set(harmonics, || size.harmonics);
         set(samples, || size.samples);
@@ -87,7 +88,7 @@ pub extern "C" fn mslip_element_workspace_length(
     samples: size_t,
     rule: i32,
 ) -> size_t {
-    let size = Size { harmonics, samples, periods: 0 };
+    let size = SamplingSize { harmonics, samples, periods: 0 };
     let length = |directions| with_law!(directions, L => <L as Law>::Workspace::length_or_zero(size));
     check_element_rule(directions, rule).map_or(0, length)
 }
@@ -111,7 +112,7 @@ pub unsafe extern "C" fn mslip_element_workspace_init(
     call(|| {
         let directions = check_element_rule(directions, rule)?;
         let memory = memory(workspace_length, workspace)?;
-        let size = Size { harmonics, samples, periods };
+        let size = SamplingSize { harmonics, samples, periods };
         with_law!(directions, L => <L as Law>::Workspace::init(size, memory))
     })
 }
@@ -130,8 +131,9 @@ pub unsafe extern "C" fn mslip_element_workspace_size(
     periods: *mut size_t,
 ) -> i32 {
     call(|| {
-        let (directions, harmonics, samples) = (place(directions)?, place(harmonics)?, place(samples)?);
-        let (rule, periods) = (place(rule)?, place(periods)?);
+        let (directions, harmonics, samples) =
+            (optional_output(directions)?, optional_output(harmonics)?, optional_output(samples)?);
+        let (rule, periods) = (optional_output(rule)?, optional_output(periods)?);
         let (found, size, _) = pointers::element_workspace_size(workspace)?;
         set(directions, || found as i32);
         set(harmonics, || size.harmonics);

@@ -10,7 +10,7 @@ use crate::constant_load::contact::Contact;
 use crate::constant_load::harmonic_force::{Workspace, workspace_size};
 use crate::element::{Directions, Element};
 use crate::error::Error;
-use crate::fourier::workspace::{HEADER, Layout, Size};
+use crate::fourier::workspace::{HEADER, Layout, SamplingSize};
 use crate::law::Law;
 use core::{ptr, slice};
 
@@ -67,7 +67,7 @@ pub unsafe fn output<'a, T>(pointer: *mut T, n: usize) -> Result<Option<&'a mut 
 }
 
 /// An output of one value; `None` if it is not requested.
-pub unsafe fn place<'a, T>(pointer: *mut T) -> Result<Option<&'a mut T>, Error> {
+pub unsafe fn optional_output<'a, T>(pointer: *mut T) -> Result<Option<&'a mut T>, Error> {
     check_alignment(pointer)?;
     Ok(pointer.as_mut())
 }
@@ -151,7 +151,7 @@ pub unsafe fn workspace<'a>(pointer: *mut f64) -> Result<Workspace<'a>, Error> {
 }
 
 /// Directions and size of a workspace of elements, and its number of doubles, from its header.
-pub unsafe fn element_workspace_size(pointer: *const f64) -> Result<(Directions, Size, usize), Error> {
+pub unsafe fn element_workspace_size(pointer: *const f64) -> Result<(Directions, SamplingSize, usize), Error> {
     let header = workspace_header(pointer)?;
     let read_as = |directions| {
         with_law!(directions, L => {

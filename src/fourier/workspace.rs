@@ -18,13 +18,13 @@ pub(crate) type Blocks = [[f64; 4]];
 
 /// Number of harmonics H, of samples or nodes per period, and of periods applied before the returned one, 0 for the default.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Size {
+pub(crate) struct SamplingSize {
     pub harmonics: usize,
     pub samples: usize,
     pub periods: usize,
 }
 
-impl Size {
+impl SamplingSize {
     /// 2H + 1.
     pub fn coefficients(&self) -> usize {
         2 * self.harmonics + 1
@@ -40,35 +40,35 @@ pub(crate) trait Layout<'a>: Sized {
     const PERIODS: usize = 1;
 
     /// Upper bound on the number of rows over all orders up to 2H.
-    fn max_rows(size: Size) -> usize {
+    fn max_rows(size: SamplingSize) -> usize {
         2 * size.samples + 16
     }
 
     /// Takes the parts.
-    fn take(size: Size, parts: &mut Parts<'a>) -> Self;
+    fn take(size: SamplingSize, parts: &mut Parts<'a>) -> Self;
 
     /// Fills the tables, in memory that is all zeros.
     fn fill(&mut self);
 
     /// Number of doubles in a workspace of a checked size, including the header.
-    fn length(size: Size) -> usize {
+    fn length(size: SamplingSize) -> usize {
         let mut parts = Parts::new(&mut []);
         Self::take(size, &mut parts);
         HEADER + parts.doubles
     }
 
     /// Number of doubles in a workspace; 0 if the size is not allowed.
-    fn length_or_zero(size: Size) -> usize {
+    fn length_or_zero(size: SamplingSize) -> usize {
         Self::check_size(size).map_or(0, Self::length)
     }
 
     /// A size with its number of periods.
     /// Errors: `BadHarmonics` unless 1 <= H <= 2^24, `BadSamples` unless 2H < samples <= 2^24, `BadPeriods` for more than 65536 periods.
-    fn check_size(size: Size) -> Result<Size, Error> {
+    fn check_size(size: SamplingSize) -> Result<SamplingSize, Error> {
         const LARGEST: usize = 1 << 24;
         const MOST_PERIODS: usize = 1 << 16;
-        let Size { harmonics, samples, periods } = size;
-        let size = Size { periods: if periods == 0 { Self::PERIODS } else { periods }, ..size };
+        let SamplingSize { harmonics, samples, periods } = size;
+        let size = SamplingSize { periods: if periods == 0 { Self::PERIODS } else { periods }, ..size };
         if !(1..=LARGEST).contains(&harmonics) {
             return Err(Error::BadHarmonics);
         }
@@ -88,14 +88,14 @@ pub(crate) trait Layout<'a>: Sized {
 
     /// Initialises a workspace.
     /// Errors: `WorkspaceTooShort`, and those of [`Layout::check_size`].
-    fn init(size: Size, workspace: &'a mut [f64]) -> Result<(), Error> {
+    fn init(size: SamplingSize, workspace: &'a mut [f64]) -> Result<(), Error> {
         let size = Self::check_size(size)?;
         let length = Self::length(size);
         let memory = workspace.get_mut(..length).ok_or(Error::WorkspaceTooShort)?;
         memory.fill(0.0);
         let (header, buffers) = memory.split_first_chunk_mut::<HEADER>().ok_or(Error::WorkspaceTooShort)?;
         Self::take(size, &mut Parts::new(buffers)).fill();
-        let Size { harmonics, samples, periods } = size;
+        let SamplingSize { harmonics, samples, periods } = size;
         let [tag, counts @ ..] = header;
         *tag = Self::KIND.tag();
         counts.copy_from(&[harmonics, samples, periods, length].map(stored));
@@ -103,7 +103,7 @@ pub(crate) trait Layout<'a>: Sized {
     }
 
     /// Size and number of doubles of an initialised workspace, from its header.
-    fn read(&[tag, harmonics, samples, periods, length, ..]: &[f64; HEADER]) -> Result<(Size, usize), Error> {
+    fn read(&[tag, harmonics, samples, periods, length, ..]: &[f64; HEADER]) -> Result<(SamplingSize, usize), Error> {
         let counts = [harmonics, samples, periods, length].map(count);
         let [Some(harmonics), Some(samples), Some(periods @ 1..), Some(length)] = counts else {
             return Err(Error::BadWorkspace);
@@ -111,7 +111,7 @@ pub(crate) trait Layout<'a>: Sized {
         if !Self::KIND.is_tag(tag) {
             return Err(Error::BadWorkspace);
         }
-        let size = Self::check_size(Size { harmonics, samples, periods }).map_err(|_| Error::BadWorkspace)?;
+        let size = Self::check_size(SamplingSize { harmonics, samples, periods }).map_err(|_| Error::BadWorkspace)?;
         Ok((size, length))
     }
 
@@ -124,7 +124,7 @@ pub(crate) trait Layout<'a>: Sized {
 
     /// A workspace of this size, which was read from its header.
     /// Errors: `BadWorkspace` if too short.
-    fn of_size(size: Size, workspace: &'a mut [f64]) -> Result<Self, Error> {
+    fn of_size(size: SamplingSize, workspace: &'a mut [f64]) -> Result<Self, Error> {
         let buffers = workspace.get_mut(HEADER..).ok_or(Error::BadWorkspace)?;
         let (length, mut parts) = (buffers.len(), Parts::new(buffers));
         let taken = Self::take(size, &mut parts);

@@ -175,8 +175,8 @@ fn cut(
     let [to_side, to_other] = match (falling > 0.0, rising > 0.0) {
         (true, true) => shares([inner.xi - xi, eta - inner.eta], [falling, rising]),
         // A slip zone, the common case, is parallel to one side: the table that follows need not wait for a division.
-        (true, false) => [0.0, BEYOND],
-        _ => [BEYOND, 0.0],
+        (true, false) => [0.0, PAST_END],
+        _ => [PAST_END, 0.0],
     };
     let slope = outer.slope_from(inner, mu);
     if to_side == to_other {
@@ -213,7 +213,7 @@ fn cut(
 }
 
 /// Beyond the end of a piece.
-const BEYOND: f64 = 2.0;
+const PAST_END: f64 = 2.0;
 
 /// Shares of a piece up to both sides of the quadrant, by its lengths in both coordinates.
 #[cold]
@@ -221,7 +221,7 @@ const BEYOND: f64 = 2.0;
 fn shares(distances: [f64; 2], lengths: [f64; 2]) -> [f64; 2] {
     // Compilers may divide before they compare, so what is divided is chosen: a distance over a subnormal length overflows.
     let share = |distance: f64, length: f64| {
-        let (numerator, denominator) = if length >= distance { (distance, length) } else { (BEYOND, 1.0) };
+        let (numerator, denominator) = if length >= distance { (distance, length) } else { (PAST_END, 1.0) };
         numerator / denominator
     };
     [share(distances[0], lengths[0]), share(distances[1], lengths[1])]

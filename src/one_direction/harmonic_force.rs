@@ -23,7 +23,7 @@ use crate::error::Error;
 use crate::fourier::folded::{FoldedFourier, sample_length};
 use crate::fourier::rows::{OuterProducts, Rows, row_blocks};
 use crate::fourier::sampled_jacobian::Assembly;
-use crate::fourier::workspace::{Layout, Parts, Size};
+use crate::fourier::workspace::{Layout, Parts, SamplingSize};
 use crate::fourier::{largest_of, normalise, work};
 use crate::limits::check_coefficients;
 use crate::numerics::total::{Stack, Total};
@@ -35,19 +35,19 @@ use samples::{EvaluatedPart, Samples};
 
 /// Number of doubles in a workspace for the given number of harmonics and of samples per period; 0 if these are not allowed.
 pub fn workspace_length(harmonics: usize, samples: usize) -> usize {
-    OneDirectionWorkspace::length_or_zero(Size { harmonics, samples, periods: 0 })
+    OneDirectionWorkspace::length_or_zero(SamplingSize { harmonics, samples, periods: 0 })
 }
 
 /// Initialises a workspace: tables for the given harmonics and samples, and scratch memory.
 /// Errors: `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24; `WorkspaceTooShort`.
 pub fn workspace_init(harmonics: usize, samples: usize, workspace: &mut [f64]) -> Result<(), Error> {
-    OneDirectionWorkspace::init(Size { harmonics, samples, periods: 0 }, workspace)
+    OneDirectionWorkspace::init(SamplingSize { harmonics, samples, periods: 0 }, workspace)
 }
 
 /// An opened workspace.
 #[derive(Debug)]
 pub struct OneDirectionWorkspace<'a> {
-    size: Size,
+    size: SamplingSize,
     fourier: FoldedFourier<'a>,
     samples: Samples<'a>,
     path: PeriodicPath<'a>,
@@ -77,8 +77,8 @@ impl<'a> Layout<'a> for OneDirectionWorkspace<'a> {
         self.sensitivity.rows.fill();
     }
 
-    fn take(size: Size, parts: &mut Parts<'a>) -> OneDirectionWorkspace<'a> {
-        let Size { harmonics, samples: count, .. } = size;
+    fn take(size: SamplingSize, parts: &mut Parts<'a>) -> OneDirectionWorkspace<'a> {
+        let SamplingSize { harmonics, samples: count, .. } = size;
         // At most one knot, piece and run per sample, and a few more.
         let capacity = count + 4;
         let fourier = FoldedFourier::take(parts, count, 2 * harmonics);
@@ -225,9 +225,7 @@ impl OneDirectionWorkspace<'_> {
         let (tangential, input) = displacement.split_at_checked(self.coefficients()).ok_or(Error::BadArraySize)?;
         let mean = input.first().copied().unwrap_or(0.0);
         let amplitude: f64 = input.iter().skip(1).map(|value| value.abs()).sum();
-        if (element.by_approach() || mean >= amplitude)
-            && element.check_normal(element.by_approach(), mean + amplitude).is_ok()
-        {
+        if (element.by_approach() || mean >= amplitude) && element.check_input(mean + amplitude).is_ok() {
             return Ok(());
         }
         self.press(element, tangential, input, false).map(|_| ())
@@ -267,7 +265,7 @@ impl OneDirectionWorkspace<'_> {
         if least < -rounding {
             return Err(Error::BadNormalForce);
         }
-        element.check_normal(element.by_approach(), largest.max(0.0))?;
+        element.check_input(largest.max(0.0))?;
         motion.open = !element.is_closed(largest);
         if motion.open {
             return Ok(motion);

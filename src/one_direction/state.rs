@@ -83,7 +83,7 @@ impl Law for OneDirection {
 
     fn check_step(element: &Element, &[displacement, input]: &[f64; 2]) -> Result<(), Error> {
         check_displacement(displacement)?;
-        element.check_normal(element.by_approach(), input)
+        element.check_input(input)
     }
 
     fn state_check(state: &[f64]) -> Result<(), Error> {

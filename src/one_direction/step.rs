@@ -19,9 +19,9 @@ pub(crate) struct Header {
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Crossing {
     pub displacement: f64,
-    /// Parts of the path before and behind it, by which it moves with the end and with the start of the path.
-    pub fraction: f64,
-    pub rest: f64,
+    /// Parts of the path before and after it: by these it moves with the end and with the start of the path.
+    pub before: f64,
+    pub after: f64,
     /// Change of the displacement over that of the approach; 0 with the force as input, at whose open end the crossing is.
     pub slope: f64,
 }
@@ -29,13 +29,13 @@ pub(crate) struct Crossing {
 impl Crossing {
     /// Between two displacements, of which one closes the contact.
     pub fn between(element: &Element, [u0, w0]: [f64; 2], [u1, w1]: [f64; 2]) -> Crossing {
-        let fraction = element.crossing(w0, w1);
-        let displacement = u0 + fraction * (u1 - u0);
+        let before = element.crossing(w0, w1);
+        let displacement = u0 + before * (u1 - u0);
         if !element.by_approach() {
-            return Crossing { displacement, fraction, rest: 1.0 - fraction, slope: 0.0 };
+            return Crossing { displacement, before, after: 1.0 - before, slope: 0.0 };
         }
         let distance = w1 - w0;
-        Crossing { displacement, fraction, rest: w1 / distance, slope: (u1 - u0) / distance }
+        Crossing { displacement, before, after: w1 / distance, slope: (u1 - u0) / distance }
     }
 }
 
@@ -105,8 +105,8 @@ fn opening_or_closing(
         diagram::step(element, &mut touching, displacement, &normal);
     if touching.sticks {
         // The start of the path moves with its end.
-        by_input += by_displacement * crossing.slope * crossing.fraction;
-        by_displacement *= crossing.rest;
+        by_input += by_displacement * crossing.slope * crossing.before;
+        by_displacement *= crossing.after;
     }
     step.force[0] = force;
     (step.tangent[0], step.tangent[2]) = (by_displacement, by_input);

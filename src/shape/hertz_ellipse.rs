@@ -63,7 +63,8 @@ impl Geometry for EllipticParameters {
             load_scale: normal_force,
             compliances: [normal, tangential, lateral].map(|scale| [scale, 0.0]),
             pressure_scale: 4.0 / PI * (normal_force / (semi_axis_x * semi_axis_y) / semi_axis_x),
-            reference: (semi_axis_x, Size::new(HERTZ_ELLIPSE, 0.0, 1.0)),
+            reference_half_width: semi_axis_x,
+            reference_size: Size::new(HERTZ_ELLIPSE, 0.0, 1.0),
             composite_modulus,
             ..Shape::default()
         })

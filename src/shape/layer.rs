@@ -177,14 +177,14 @@ impl LayerCompliance {
         Ok((relative, under_load))
     }
 
-    /// z.
-    pub fn lost(&self, load: Complement) -> f64 {
+    /// z: the load that the layer alone would have to lose for the same shift.
+    pub fn consumed(&self, load: Complement) -> f64 {
         load.consumed * self.softness(load.remaining)
     }
 
     /// λ2.
     pub fn increase(&self, load: Complement) -> f64 {
-        self.compliance(1.0) * (self.stiffening * self.lost(load))
+        self.compliance(1.0) * (self.stiffening * self.consumed(load))
     }
 
     /// dλ2/dτ and its derivative.
@@ -205,7 +205,7 @@ impl LayerCompliance {
         let y = self.stiffening * self.softness(1.0) * load.consumed;
         // [(2-y) ln(1/(1-y)) - 2y]/y³, with ln(1/(1-y)) = ln(1 + z N/N_c) = 2 artanh(y/(2-y)).
         let factor = if y > 0.6 {
-            ((2.0 - y) * (self.stiffening * self.lost(load)).ln_1p() - 2.0 * y) / (y * y * y)
+            ((2.0 - y) * (self.stiffening * self.consumed(load)).ln_1p() - 2.0 * y) / (y * y * y)
         } else {
             2.0 * artanh_remainder(y / (2.0 - y)) / ((2.0 - y) * (2.0 - y))
         };
@@ -214,17 +214,17 @@ impl LayerCompliance {
 
     /// `∫ t dλ2`.
     pub fn first_moment(&self, load: Complement) -> f64 {
-        self.stiffening * self.potential(self.lost(load))
+        self.stiffening * self.potential(self.consumed(load))
     }
 
     /// The derivative of a force over μN by the compliance under N at a fixed displacement, given the compliance of the contact at this
     /// force.
-    pub fn share_of_compliance(&self, load: Complement, of_contact: f64) -> f64 {
-        -self.extent(self.lost(load)) * (1.0 + self.stiffening) / (of_contact + self.compliance(load.remaining))
+    pub fn slope_by_compliance(&self, load: Complement, of_contact: f64) -> f64 {
+        -self.extent(self.consumed(load)) * (1.0 + self.stiffening) / (of_contact + self.compliance(load.remaining))
     }
 
     /// The parts of the layer in the derivatives by N, of the same layer under another load, and by μ.
-    pub fn shares(&self, load: Complement, of_contact: f64) -> [f64; 2] {
+    pub fn slopes_by_load_and_friction(&self, load: Complement, of_contact: f64) -> [f64; 2] {
         [self.increase(load), self.first_moment(load)].map(|part| part / (of_contact + self.compliance(load.remaining)))
     }
 }

@@ -145,7 +145,7 @@ pub fn gamma(size: &Size, load: f64) -> f64 {
     }
 }
 
-/// From an initial guess with an error of at most 3 %. Each iteration raises the error to its fourth power.
+/// The size under a load, from an initial guess with an error of at most 3 %. Each iteration raises the error to its fourth power.
 pub fn at_load(size: &Size, flat: f64, load: f64) -> Size {
     let mut now = Size::new(ROUNDED_FLAT, flat, near_shift(size, flat, load));
     for _ in 0..4 {
@@ -248,8 +248,8 @@ impl Geometry for Parameters {
         let Parameters { edge_radius, length, normal_force, .. } = *self;
         let pair = Pair::new(&self.material);
         let modulus = pair.composite_modulus;
-        let reference = size_under_load(self, modulus)?;
-        let slenderness = length / reference.0;
+        let (reference_half_width, reference_size) = size_under_load(self, modulus)?;
+        let slenderness = length / reference_half_width;
         let [normal, tangential] = match self.displacement_reference {
             CENTRE_POINT => [0.0; 2],
             // The kernels of Boussinesq and of Cerruti have the same mean over a rigid patch if ν = 0.
@@ -271,18 +271,19 @@ impl Geometry for Parameters {
             load_scale,
             compliances: [[scale, -normal], [scale, chi - tangential], [lateral * scale, along]],
             pressure_scale: 4.0 / PI * (load_scale / length),
-            reference,
+            reference_half_width,
+            reference_size,
             composite_modulus: modulus,
             ..Shape::default()
         };
         if slenderness <= 0.5 || shape.full_stick() <= 0.0 {
             return Err(Error::LengthTooShort);
         }
-        in_range(&[normal_force], &[length, reference.0])?;
+        in_range(&[normal_force], &[length, reference_half_width])?;
         Ok(shape)
     }
 
-    /// That at which the smallest Λ is 1/16; all vanish near s = 2L.
+    /// The size at which the smallest Λ is 1/16; all vanish near s = 2L.
     fn largest_size(&self, shape: &Shape, directions: usize) -> Result<f64, Error> {
         // The load at b = 2L.
         in_range(&[self.length, self.length, self.length, shape.composite_modulus], &[self.edge_radius])?;
@@ -301,7 +302,7 @@ const SMALLEST_COMPLIANCE: f64 = 1.0 / 16.0;
 impl Shape {
     /// Λ of Eq. 10: that of b.
     pub fn full_stick(&self) -> f64 {
-        (self.length / self.reference.0).ln() + self.of(Quantity::Shift)[1]
+        (self.length / self.reference_half_width).ln() + self.of(Quantity::Shift)[1]
     }
 }
 

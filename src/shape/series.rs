@@ -55,10 +55,10 @@ impl Shape {
     /// N, U and S about a size with leg > 0 as functions of one of them.
     pub fn series(&self, leg: f64, argument: Quantity) -> [Series; 3] {
         if self.layer.is_none() {
-            return self.reference.1.series(self, leg, argument);
+            return self.reference_size.series(self, leg, argument);
         }
         // As functions of the load N (1 + ν).
-        let [load, mut approach, mut shift] = self.reference.1.series(self, leg, Quantity::Load);
+        let [load, mut approach, mut shift] = self.reference_size.series(self, leg, Quantity::Load);
         for (k, term) in self.layer.series(self.load(leg)).iter().enumerate() {
             approach[k] += self.layer.normal * term;
             shift[k] += self.layer.tangential * term;

@@ -268,7 +268,7 @@ impl StickZones {
             return self.small_load.at_load(load, self.slip_shift);
         }
         let mut zone = self.zone(&self.size_under(load.remaining), load.remaining * self.load, load.remaining);
-        zone.shift.consumed += self.layer.shift(self.layer.lost(load));
+        zone.shift.consumed += self.layer.shift(self.layer.consumed(load));
         let vanishes = load.remaining <= 0.0 && self.b.flat <= 0.0;
         StickZone { compliance_increase: if vanishes { f64::INFINITY } else { zone.compliance_increase }, ..zone }
     }

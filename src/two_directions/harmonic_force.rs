@@ -24,7 +24,7 @@ use super::tangent::{
 };
 use crate::element::{Element, Normal};
 use crate::error::Error;
-use crate::fourier::workspace::{Layout, Parts, Size, record};
+use crate::fourier::workspace::{Layout, Parts, SamplingSize, record};
 use crate::fourier::{angle, work};
 use crate::limits::check_coefficients;
 use crate::numerics::guard::quotient;
@@ -36,7 +36,7 @@ pub use crate::fourier::HarmonicOutput;
 
 /// Number of doubles in a workspace for the given number of harmonics and of samples per period; 0 if these are not allowed.
 pub fn workspace_length(harmonics: usize, samples: usize) -> usize {
-    TwoDirectionsWorkspace::length_or_zero(Size { harmonics, samples, periods: 0 })
+    TwoDirectionsWorkspace::length_or_zero(SamplingSize { harmonics, samples, periods: 0 })
 }
 
 /// Initialises a workspace: tables for the given harmonics and samples, the number of periods before the one that counts (0: the
@@ -44,7 +44,7 @@ pub fn workspace_length(harmonics: usize, samples: usize) -> usize {
 /// Errors: `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24, `BadPeriods` for more
 /// than 65536; `WorkspaceTooShort`.
 pub fn workspace_init(harmonics: usize, samples: usize, periods: usize, workspace: &mut [f64]) -> Result<(), Error> {
-    TwoDirectionsWorkspace::init(Size { harmonics, samples, periods }, workspace)
+    TwoDirectionsWorkspace::init(SamplingSize { harmonics, samples, periods }, workspace)
 }
 
 /// Samples of a cycle of the highest harmonic, at least, in the periods that are advanced by fewer. With half of them a sticking core may keep
@@ -76,7 +76,7 @@ record! {
 /// An opened workspace.
 #[derive(Debug)]
 pub struct TwoDirectionsWorkspace<'a> {
-    size: Size,
+    size: SamplingSize,
     /// Values of `[1, cos t, sin t, ...]`, sample after sample.
     basis: &'a mut [f64],
     samples: &'a mut [Sample],
@@ -93,11 +93,11 @@ impl<'a> Layout<'a> for TwoDirectionsWorkspace<'a> {
     /// A vibration relaxes static shear over many periods: the table of `periods` in the guide has the errors.
     const PERIODS: usize = 3;
 
-    fn max_rows(size: Size) -> usize {
+    fn max_rows(size: SamplingSize) -> usize {
         8 * size.samples + 256
     }
 
-    fn take(size: Size, parts: &mut Parts<'a>) -> TwoDirectionsWorkspace<'a> {
+    fn take(size: SamplingSize, parts: &mut Parts<'a>) -> TwoDirectionsWorkspace<'a> {
         // One column for each coefficient of the motion, in whole blocks.
         let (columns, sums) = (COLUMNS * size.coefficients().div_ceil(BLOCK), 2 * size.coefficients());
         TwoDirectionsWorkspace {
@@ -141,9 +141,7 @@ impl<'a> TwoDirectionsWorkspace<'a> {
         let input = displacement.get(2 * self.coefficients()..).unwrap_or(&[]);
         let mean = input.first().copied().unwrap_or(0.0);
         let amplitude: f64 = input.iter().skip(1).map(|value| value.abs()).sum();
-        if (element.by_approach() || mean >= amplitude)
-            && element.check_normal(element.by_approach(), mean + amplitude).is_ok()
-        {
+        if (element.by_approach() || mean >= amplitude) && element.check_input(mean + amplitude).is_ok() {
             return Ok(());
         }
         self.synthesise(element, displacement)
@@ -165,7 +163,7 @@ impl<'a> TwoDirectionsWorkspace<'a> {
                 }
                 *input = input.max(0.0);
             }
-            element.check_normal(element.by_approach(), *input)?;
+            element.check_input(*input)?;
         }
         Ok(())
     }
@@ -421,7 +419,7 @@ struct SteadyState {
 /// inlined: its frame is not that of a call with one direction.
 #[inline(never)]
 fn integrate_periods(element: &Element, workspace: &mut TwoDirectionsWorkspace, derivatives: bool) -> SteadyState {
-    let Size { samples: count, harmonics, periods } = workspace.size;
+    let SamplingSize { samples: count, harmonics, periods } = workspace.size;
     let (largest, top) = first_of_largest_load(workspace);
     if !(element.friction_coefficient > 0.0 && element.is_closed(top)) {
         for sample in &mut *workspace.samples {

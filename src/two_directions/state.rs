@@ -77,7 +77,7 @@ impl Law for TwoDirections {
     fn check_step(element: &Element, &[u, v, input]: &[f64; 3]) -> Result<(), Error> {
         check_displacement(u)?;
         check_displacement(v)?;
-        element.check_normal(element.by_approach(), input)
+        element.check_input(input)
     }
 
     fn state_check(state: &[f64]) -> Result<(), Error> {

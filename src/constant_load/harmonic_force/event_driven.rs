@@ -26,7 +26,7 @@ use crate::constant_load::steady_state::SteadyState;
 use crate::fourier::folded::{FoldedFourier, sample_length};
 use crate::fourier::rows::row_blocks;
 use crate::fourier::sampled_jacobian::Assembly;
-use crate::fourier::workspace::{Blocks, Layout, Parts, Size};
+use crate::fourier::workspace::{Blocks, Layout, Parts, SamplingSize};
 use crate::fourier::{complete_half_wave, normalise};
 use crate::numerics::total::Total;
 use crate::parameters::PARAMETERS;
@@ -36,12 +36,12 @@ use core::f64::consts::PI;
 /// Points of the search grid: an even number, at least sixteen per period of the highest harmonic. Three reversals within two grid
 /// steps h may be taken for one: the width of the missed loop is `h⁴/24` times the fourth derivative, at most a thousandth of the
 /// amplitude.
-fn grid_points(size: Size) -> usize {
+fn grid_points(size: SamplingSize) -> usize {
     (size.samples.max(16 * size.harmonics) + 1) & !1
 }
 
 /// Capacity for reversals: a displacement has at most 2H per period; more are due to rounding.
-fn most_reversals(size: Size) -> usize {
+fn most_reversals(size: SamplingSize) -> usize {
     4 * size.harmonics + 8
 }
 
@@ -75,7 +75,7 @@ struct Buffers<'a> {
 impl<'a> Layout<'a> for EventWorkspace<'a> {
     const KIND: Kind = Kind::EventDriven;
 
-    fn max_rows(size: Size) -> usize {
+    fn max_rows(size: SamplingSize) -> usize {
         grid_points(size) + most_reversals(size) + PANEL
     }
 
@@ -83,7 +83,7 @@ impl<'a> Layout<'a> for EventWorkspace<'a> {
         self.buffers.grid.fourier.fill();
     }
 
-    fn take(size: Size, parts: &mut Parts<'a>) -> EventWorkspace<'a> {
+    fn take(size: SamplingSize, parts: &mut Parts<'a>) -> EventWorkspace<'a> {
         let (points, row, reversals) = (grid_points(size), row_blocks(size.harmonics), most_reversals(size));
         let buffers = Buffers {
             harmonics: size.harmonics,

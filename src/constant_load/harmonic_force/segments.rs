@@ -4,7 +4,7 @@
 //! the onset of gross slip has a singularity there, a power of the cube root of the distance; its nodes are those of the cube root.
 
 use super::motion::{Motion, harmonics};
-use crate::fourier::workspace::{Parts, Size};
+use crate::fourier::workspace::{Parts, SamplingSize};
 use crate::numerics::lanes::Lanes;
 use crate::numerics::quadrature::{MAX_GAUSS_BLOCKS, gauss_rule};
 use crate::numerics::total::Total;
@@ -77,7 +77,7 @@ pub(super) struct NodalFourier<'a> {
 
 impl<'a> NodalFourier<'a> {
     /// For orders up to 2H.
-    pub fn take(parts: &mut Parts<'a>, size: Size) -> NodalFourier<'a> {
+    pub fn take(parts: &mut Parts<'a>, size: SamplingSize) -> NodalFourier<'a> {
         let rows = parts.take_blocks(4 * size.harmonics * MAX_GAUSS_BLOCKS).blocks_mut().blocks_mut();
         NodalFourier { nodes_per_period: size.samples, rows }
     }

@@ -13,7 +13,7 @@ use crate::constant_load::steady_state::SteadyState;
 use crate::fourier::folded::FoldedFourier;
 use crate::fourier::rows::{OuterProducts, Rows, row_blocks};
 use crate::fourier::sampled_jacobian::Assembly;
-use crate::fourier::workspace::{Layout, Parts, Size, padded};
+use crate::fourier::workspace::{Layout, Parts, SamplingSize, padded};
 use crate::fourier::{largest_of, normalise};
 use crate::numerics::total::{Stack, Total};
 use crate::parameters::{PARAMETERS, Sensitivity};
@@ -22,7 +22,7 @@ use crate::tag::Kind;
 /// An opened workspace.
 #[derive(Debug)]
 pub(super) struct UniformWorkspace<'a> {
-    size: Size,
+    size: SamplingSize,
     fourier: FoldedFourier<'a>,
     /// The stack of reversals of the law.
     reversals: &'a mut [Reversal],
@@ -41,8 +41,8 @@ impl<'a> Layout<'a> for UniformWorkspace<'a> {
         self.terms.rows.fill();
     }
 
-    fn take(size: Size, parts: &mut Parts<'a>) -> UniformWorkspace<'a> {
-        let Size { harmonics, samples: count, .. } = size;
+    fn take(size: SamplingSize, parts: &mut Parts<'a>) -> UniformWorkspace<'a> {
+        let SamplingSize { harmonics, samples: count, .. } = size;
         // One reversal and one branch per sample, and one more.
         let capacity = count + 1;
         let fourier = FoldedFourier::take(parts, count, 2 * harmonics);

@@ -2,7 +2,7 @@
 
 use crate::element::Element;
 use crate::numerics::total::Total;
-use crate::one_direction::harmonic_force::runs::{Place, Run};
+use crate::one_direction::harmonic_force::runs::{PieceEnd, Run};
 use crate::one_direction::harmonic_force::samples::Samples;
 
 /// Arrays of the tangential forces.
@@ -21,9 +21,9 @@ pub(super) struct Forces<'a> {
 
 impl Forces<'_> {
     /// `[N, T]` at the end of a piece.
-    fn at_place(&self, samples: &Samples, place: Place) -> [f64; 2] {
-        let sample = place.sample();
-        if place.is_end() {
+    fn at_piece_end(&self, samples: &Samples, end: PieceEnd) -> [f64; 2] {
+        let sample = end.sample();
+        if end.is_end() {
             [samples.load.or_zero(sample), self.force.or_zero(sample)]
         } else {
             self.last_cut.get(sample).copied().unwrap_or([0.0; 2])
@@ -51,7 +51,7 @@ impl Forces<'_> {
         let friction_coefficient = element.friction_coefficient;
         for run in runs {
             let range = run.samples();
-            let inner = self.at_place(samples, run.inner);
+            let inner = self.at_piece_end(samples, run.inner);
             let loads = run.part_of(samples.load);
             let forces = self.force.part_mut(range.clone());
             let mu = run.sign * friction_coefficient;
@@ -83,7 +83,7 @@ impl Forces<'_> {
 fn stick(samples: &Samples, run: &Run, mu: f64, slopes: &mut [f64], inner: [f64; 2], forces: &mut [f64]) {
     let [mut load_before, mut force_before] = inner;
     let before = samples.before(run.samples().start);
-    let [mut xi_before, mut eta_before] = if run.inner == Place::CENTRE {
+    let [mut xi_before, mut eta_before] = if run.inner == PieceEnd::CENTRE {
         [run.parameter; 2]
     } else {
         [samples.xi.or_zero(before), samples.eta.or_zero(before)]

@@ -62,12 +62,12 @@ record! {
 impl Piece {
     /// The part with D = 0.
     const NEVER: u64 = 0;
-    /// By slip, forwards or backwards.
+    /// The force was made by slip, forwards or backwards.
     const FORWARDS: u64 = 1;
     const BACKWARDS: u64 = 2;
-    /// By sticking, between two samples.
+    /// The force was made by sticking, between two samples.
     const BY_STICKING: u64 = 3;
-    /// By sticking, since the contact closed after the sample before.
+    /// The force was made by sticking, since the contact closed after the sample before.
     const SINCE_CLOSING: u64 = 4;
 
     fn is_stuck(&self) -> bool {
@@ -343,8 +343,8 @@ impl<const N: usize> Gathering<'_, N> {
             let inner = (before, &difference, [1.0, -slope * samples.shift_slope.or_zero(before)]);
             ([own, inner, own], 2)
         } else {
-            let Crossing { fraction, rest, slope, .. } = closing(samples, element, sample);
-            let [inner, outer] = [rest, fraction].map(|share| [share, -share * slope]);
+            let Crossing { before: to_crossing, after, slope, .. } = closing(samples, element, sample);
+            let [inner, outer] = [after, to_crossing].map(|share| [share, -share * slope]);
             ([own, (before, &difference, inner), (sample, &difference, outer)], 3)
         };
         for (sample, row, factors) in parts.into_iter().take(count) {

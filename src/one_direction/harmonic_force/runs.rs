@@ -15,23 +15,23 @@ record! {
     /// End of a piece of the diagram: 0 for the centre of the contact; otherwise twice the number of samples up to one, and one more
     /// for the whole contact than for the boundary of the slip zone.
     #[derive(PartialEq, Default)]
-    pub(super) struct Place {
+    pub(super) struct PieceEnd {
         code: u64,
     }
 }
 
-impl Place {
+impl PieceEnd {
     /// The centre of the contact.
-    pub const CENTRE: Place = Place { code: 0 };
+    pub const CENTRE: PieceEnd = PieceEnd { code: 0 };
 
     /// The whole contact at a sample.
-    fn end(sample: usize) -> Place {
-        Place { code: 2 * sample as u64 + 3 }
+    fn end(sample: usize) -> PieceEnd {
+        PieceEnd { code: 2 * sample as u64 + 3 }
     }
 
     /// The boundary of the slip zone at a sample.
-    fn cut(sample: usize) -> Place {
-        Place { code: 2 * sample as u64 + 2 }
+    fn cut(sample: usize) -> PieceEnd {
+        PieceEnd { code: 2 * sample as u64 + 2 }
     }
 
     pub fn is_end(self) -> bool {
@@ -54,7 +54,7 @@ record! {
         count: u64,
         /// Number of knots that stay, and the last of these.
         kept: u64,
-        pub inner: Place,
+        pub inner: PieceEnd,
         /// Slip: index of the first packed boundary.
         packed: u64,
         /// Slip: +1 or -1. Stuck: 1.
@@ -97,17 +97,17 @@ record! {
     pub(super) struct RunKnot {
         xi: f64,
         eta: f64,
-        place: Place,
+        end: PieceEnd,
     }
 }
 
 impl RunKnot {
     const fn centre(displacement: f64) -> RunKnot {
-        RunKnot { xi: displacement, eta: displacement, place: Place::CENTRE }
+        RunKnot { xi: displacement, eta: displacement, end: PieceEnd::CENTRE }
     }
 
     /// The far end of the part with D = 0.
-    const CORE: RunKnot = RunKnot { xi: -1e200, eta: 1e200, place: Place::CENTRE };
+    const CORE: RunKnot = RunKnot { xi: -1e200, eta: 1e200, end: PieceEnd::CENTRE };
 }
 
 /// A walk along samples: the stack of knots, and the runs and packed boundaries so far.
@@ -187,7 +187,7 @@ impl PeriodicPath<'_> {
             && x < last.xi
             && y > last.eta
         {
-            last = RunKnot { xi: x, eta: y, place: Place::end(sample) };
+            last = RunKnot { xi: x, eta: y, end: PieceEnd::end(sample) };
             self.knots.push(last);
             sample += 1;
         }
@@ -195,7 +195,7 @@ impl PeriodicPath<'_> {
             kind: Run::STUCK,
             count: (self.knots.depth - kept) as u64,
             kept: kept as u64,
-            inner: inner.place,
+            inner: inner.end,
             sign: 1.0,
             parameter: inner.xi,
             ..Run::default()
@@ -214,7 +214,7 @@ impl PeriodicPath<'_> {
         };
         let last = first + later(moving).zip(later(inputs)).take_while(continues).count();
         self.knots.push(RunKnot::centre(moving.or_zero(last)));
-        self.knots.push(RunKnot { xi: xi.or_zero(last), eta: eta.or_zero(last), place: Place::end(last) });
+        self.knots.push(RunKnot { xi: xi.or_zero(last), eta: eta.or_zero(last), end: PieceEnd::end(last) });
         Run { kind: Run::GROSS_SLIP, count: (last + 1 - first) as u64, sign, ..Run::default() }
     }
 
@@ -249,13 +249,13 @@ impl PeriodicPath<'_> {
         }
         let [x, y] = last;
         let [cut, end] = [[x, last_cut], [x, y]].map(|[x, y]| if is_forward { [x, y] } else { [-y, -x] });
-        self.knots.push(RunKnot { xi: cut[0], eta: cut[1], place: Place::cut(sample - 1) });
-        self.knots.push(RunKnot { xi: end[0], eta: end[1], place: Place::end(sample - 1) });
+        self.knots.push(RunKnot { xi: cut[0], eta: cut[1], end: PieceEnd::cut(sample - 1) });
+        self.knots.push(RunKnot { xi: end[0], eta: end[1], end: PieceEnd::end(sample - 1) });
         Run {
             kind: Run::SLIP,
             count: (sample - first) as u64,
             kept: kept as u64,
-            inner: inner.place,
+            inner: inner.end,
             sign,
             parameter: slope(falling, rising),
             ..Run::default()

@@ -21,8 +21,8 @@ pub(crate) const RETAINED_TERMS: usize = 20;
 type SeriesTerms = PolynomialRows<{ RETAINED_TERMS / 4 }>;
 
 // The factors f_m of integrals of τᵐ.
-const COMPLIANCE: SeriesTerms = rows(&tabulate!(RETAINED_TERMS, |m| 1.0 / (m + 1) as f64));
-const SHIFT: SeriesTerms = rows(&tabulate!(RETAINED_TERMS, |m| 1.0 / ((m + 1) * (m + 2)) as f64));
+const COMPLIANCE_FACTORS: SeriesTerms = rows(&tabulate!(RETAINED_TERMS, |m| 1.0 / (m + 1) as f64));
+const SHIFT_FACTORS: SeriesTerms = rows(&tabulate!(RETAINED_TERMS, |m| 1.0 / ((m + 1) * (m + 2)) as f64));
 const DISSIPATION: SeriesTerms = rows(&tabulate!(RETAINED_TERMS, |m| 4.0 / ((m + 2) * (m + 3)) as f64));
 const D_DISSIPATION: SeriesTerms = rows(&tabulate!(RETAINED_TERMS, |m| 4.0 / (m + 2) as f64));
 
@@ -48,7 +48,7 @@ impl SmallLoadSeries {
             coefficient
         });
         let mut series = SmallLoadSeries { compliance, half_shift: 0.0, curvature: rows(&curvature) };
-        series.half_shift = 0.5 * compliance + 0.25 * series.sum(&SHIFT, 0.5);
+        series.half_shift = 0.5 * compliance + 0.25 * series.sum(&SHIFT_FACTORS, 0.5);
         series
     }
 
@@ -76,7 +76,7 @@ impl SmallLoadSeries {
 
     /// λ = ∫ h'' dt and ∫ t h'' dt from 0 to τ.
     pub fn moments(&self, tau: f64) -> [f64; 2] {
-        [self.sum(&COMPLIANCE, tau) * tau, 0.25 * self.sum(&D_DISSIPATION, tau) * tau * tau]
+        [self.sum(&COMPLIANCE_FACTORS, tau) * tau, 0.25 * self.sum(&D_DISSIPATION, tau) * tau * tau]
     }
 
     /// W and dW/dτ at τ.
@@ -89,8 +89,8 @@ impl SmallLoadSeries {
     /// The stick zone at a load τ <= 1/2.
     pub fn at_load(&self, load: Complement, slip_shift: f64) -> StickZone {
         let consumed =
-            self.compliance * load.consumed + self.sum(&SHIFT, load.consumed) * load.consumed * load.consumed;
-        let compliance_increase = self.sum(&COMPLIANCE, load.consumed) * load.consumed;
+            self.compliance * load.consumed + self.sum(&SHIFT_FACTORS, load.consumed) * load.consumed * load.consumed;
+        let compliance_increase = self.sum(&COMPLIANCE_FACTORS, load.consumed) * load.consumed;
         StickZone {
             load,
             shift: Complement { consumed, remaining: slip_shift - consumed },
@@ -106,7 +106,7 @@ impl SmallLoadSeries {
         let second_derivative = 2.0 * self.initial_curvature() * shift.consumed;
         let mut tau = 2.0 * shift.consumed / (linear + (linear * linear + second_derivative).sqrt());
         let mut compliance_increase = 0.0;
-        let [compliance, shift_terms] = [&COMPLIANCE, &SHIFT].map(|factors| self.terms(factors));
+        let [compliance, shift_terms] = [&COMPLIANCE_FACTORS, &SHIFT_FACTORS].map(|factors| self.terms(factors));
         for _ in 0..5 {
             // λ/τ and its derivative give λ and h''.
             let (compliance, change) = polynomial::value_and_slope(&compliance, tau);
