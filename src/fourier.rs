@@ -12,7 +12,6 @@ pub(crate) mod workspace;
 
 use crate::error::Error;
 use crate::limits::check_coefficients;
-use crate::numerics::lanes::Lanes;
 use crate::numerics::total::Total;
 use core::f64::consts::PI;
 
@@ -42,10 +41,16 @@ impl HarmonicOutput<'_> {
     }
 }
 
-/// The largest of some values times a factor, without those beyond the last block of four.
-pub(crate) fn largest_of(factor: f64, values: &[f64]) -> f64 {
-    let blocks = values.blocks::<4>().iter();
-    blocks.fold(Lanes([f64::MIN; 4]), |largest, block| largest.larger(factor * Lanes(*block))).largest()
+/// The largest of a function of some values, without those beyond the last block of four.
+pub(crate) fn largest_of(values: &[f64], of: fn(f64) -> f64) -> f64 {
+    let mut lanes = [f64::MIN; 4];
+    for block in values.blocks::<4>() {
+        for k in 0..4 {
+            let value = of(block[k]);
+            lanes[k] = if value > lanes[k] { value } else { lanes[k] };
+        }
+    }
+    lanes.into_iter().fold(f64::MIN, f64::max)
 }
 
 /// `2π order sample/samples`; the number of periods is reduced to its fraction before the multiplication by π.

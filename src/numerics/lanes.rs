@@ -35,22 +35,6 @@ impl<const L: usize> Lanes<L> {
         self.map(f64::sqrt)
     }
 
-    /// The largest lane.
-    #[inline(always)]
-    pub fn largest(self) -> f64 {
-        self.0.into_iter().fold(f64::MIN, f64::max)
-    }
-
-    /// The larger one in each lane.
-    #[inline(always)]
-    pub fn larger(self, other: Self) -> Self {
-        let mut values = self.0;
-        for k in 0..L {
-            values[k] = if other.0[k] > values[k] { other.0[k] } else { values[k] };
-        }
-        Lanes(values)
-    }
-
     #[inline(always)]
     pub fn max(self, least: f64) -> Self {
         self.map(|value| value.max(least))

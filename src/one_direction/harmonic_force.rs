@@ -261,7 +261,7 @@ impl OneDirectionWorkspace<'_> {
             return Ok(motion);
         }
         fourier.synthesise(input, samples.input);
-        let [least, largest] = [-largest_of(-1.0, samples.input), largest_of(1.0, samples.input)];
+        let [least, largest] = [-largest_of(samples.input, |input| -input), largest_of(samples.input, |input| input)];
         if least < -rounding {
             return Err(Error::BadNormalForce);
         }

@@ -148,8 +148,7 @@ fn sample(count: usize, fourier: &FoldedFourier, displacement: &[f64], samples: 
     let half_wave = count.is_multiple_of(2) && only_odd_orders;
     let length = if half_wave { count / 2 } else { count };
     // The first of these samples with the largest magnitude, which no sample exceeds.
-    let all = samples.part(..padded(length));
-    let largest = largest_of(1.0, all).max(largest_of(-1.0, all));
+    let largest = largest_of(samples.part(..padded(length)), f64::abs);
     let farthest = samples.iter().position(|value| value.abs() == largest).unwrap_or(0);
     FarthestPart { farthest, length, half_wave }
 }

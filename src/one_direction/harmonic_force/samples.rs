@@ -2,7 +2,6 @@
 
 use super::MotionKind;
 use crate::element::Element;
-use crate::numerics::lanes::Lanes;
 use crate::numerics::total::Total;
 
 /// Arrays over the samples of a period, continued periodically to whole blocks of four.
@@ -87,17 +86,26 @@ impl Samples<'_> {
     ///   At the sample where that is attained everything beyond is slip zone.
     pub fn enter_steady_state(&mut self, element: &Element, motion: MotionKind) -> EvaluatedPart {
         let mu = element.friction_coefficient;
-        // Of ξ and of -η.
-        let [mut largest, mut opposite] = [Lanes([f64::MIN; 4]); 2];
-        let blocks = self.displacement.blocks::<4>().iter().zip(self.shift.blocks::<4>());
-        for ((displacement, shift), (xi, eta)) in blocks.zip(self.xi.blocks_mut().iter_mut().zip(self.eta.blocks_mut()))
-        {
-            let (displacement, limit) = (Lanes(*displacement), mu * Lanes(*shift));
-            let (x, y) = (displacement - limit, displacement + limit);
-            (largest, opposite) = (largest.larger(x), opposite.larger(-y));
-            (*xi, *eta) = (*x, *y);
+        let (mut largest, mut smallest) = ([f64::MIN; 4], [f64::MAX; 4]);
+        let blocks = self
+            .displacement
+            .blocks::<4>()
+            .iter()
+            .zip(self.shift.blocks::<4>())
+            .zip(self.xi.blocks_mut::<4>())
+            .zip(self.eta.blocks_mut::<4>());
+        for (((displacement, shift), xi), eta) in blocks {
+            let (displacement, shift, [mut x, mut y]) = (*displacement, *shift, [[0.0; 4]; 2]);
+            for k in 0..4 {
+                let limit = mu * shift[k];
+                (x[k], y[k]) = (displacement[k] - limit, displacement[k] + limit);
+                largest[k] = if x[k] > largest[k] { x[k] } else { largest[k] };
+                smallest[k] = if y[k] < smallest[k] { y[k] } else { smallest[k] };
+            }
+            (*xi, *eta) = (x, y);
         }
-        let (largest, smallest) = (largest.largest(), -opposite.largest());
+        let largest = largest.into_iter().fold(f64::MIN, f64::max);
+        let smallest = smallest.into_iter().fold(f64::MAX, f64::min);
         let first = |values: &[f64], value: f64| values.iter().position(|v| *v == value).unwrap_or(0);
         let opens = !element.is_closed(motion.least_input);
         let start = if opens {
