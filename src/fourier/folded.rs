@@ -1,9 +1,9 @@
 //! Fourier synthesis and sums over uniformly spaced samples, folded by symmetry.
 //!
 //! With `t = 2π n/samples`, cosines keep and sines change their sign under n -> samples - n. If their number is even, moreover,
-//! even orders keep and odd orders change their sign under n -> n + samples/2. So four (two if it is odd or 4) partial series over
-//! the positions 0 <= n <= samples/4 (samples/2) give all samples, and four folded sums of the samples give all Fourier sums. All
-//! blocks of four positions are inside the arrays.
+//! even orders keep and odd orders change their sign under n -> n + samples/2. So four partial series over
+//! the positions 0 <= n <= samples/4 give all samples, and four folded sums of the samples give all Fourier sums. An odd number, and 4,
+//! are not folded. All blocks of four positions are inside the arrays.
 //!
 //! Arrays of samples have [`sample_length`] values: some beyond the period, where they are continued periodically.
 
@@ -20,14 +20,14 @@ pub(crate) fn sample_length(samples: usize) -> usize {
     padded(samples + 1)
 }
 
-/// Whether the samples are folded twice, to a quarter of the period.
-fn folds_twice(samples: usize) -> bool {
+/// Whether the samples are folded to a quarter of the period.
+fn folds(samples: usize) -> bool {
     samples.is_multiple_of(2) && samples > 4
 }
 
 /// Blocks of four positions.
 fn position_blocks(samples: usize) -> usize {
-    let positions = if folds_twice(samples) { samples / 4 + 1 } else { samples / 2 + 1 };
+    let positions = if folds(samples) { samples / 4 + 1 } else { samples };
     positions.div_ceil(4)
 }
 
@@ -36,10 +36,11 @@ const SYMMETRIES: usize = 4;
 
 /// Weight of a position in the folded sums: 1/2 if a fold maps its samples onto themselves, 0 beyond the last position.
 fn weight(n: usize, samples: usize) -> f64 {
-    let unfolded = if folds_twice(samples) { 4 * n } else { 2 * n };
-    if n == 0 || unfolded == samples {
+    let folds = folds(samples);
+    let unfolded = if folds { 4 * n } else { n };
+    if folds && (n == 0 || unfolded == samples) {
         0.5
-    } else if unfolded > samples {
+    } else if unfolded >= samples {
         0.0
     } else {
         1.0
@@ -103,7 +104,7 @@ impl<'a> FoldedFourier<'a> {
                 odd_cosines += a * Lanes(rows[0]);
                 odd_sines += b * Lanes(rows[1]);
             }
-            if folds_twice(samples) {
+            if folds(samples) {
                 let (even, odd) = (even_cosines + even_sines, odd_cosines + odd_sines);
                 let (even_mirrored, odd_mirrored) = (even_cosines - even_sines, odd_cosines - odd_sines);
                 store(values, 0, block, even + odd);
@@ -111,9 +112,7 @@ impl<'a> FoldedFourier<'a> {
                 store_reversed(values, half, block, even_mirrored - odd_mirrored);
                 store_reversed(values, samples, block, even_mirrored + odd_mirrored);
             } else {
-                let (cosines, sines) = (even_cosines + odd_cosines, even_sines + odd_sines);
-                store(values, 0, block, cosines + sines);
-                store_reversed(values, samples, block, cosines - sines);
+                store(values, 0, block, (even_cosines + odd_cosines) + (even_sines + odd_sines));
             }
         }
         continue_periodically(values, samples);
@@ -185,18 +184,16 @@ impl<'a> FoldedFourier<'a> {
         let [here, opposite] = [upwards(0), upwards(half)];
         let [mirrored, mirrored_opposite] = [downwards(samples), downwards(half)];
         for (block, (weights, folded)) in self.weights.iter().zip(self.folded.iter_mut()).enumerate() {
-            let (Some(a), Some(b)) = (here.get(block), mirrored.iter().nth_back(block)) else { return };
-            if folds_twice(samples) {
-                let (Some(c), Some(d)) = (opposite.get(block), mirrored_opposite.iter().nth_back(block)) else {
-                    return;
-                };
+            let Some(a) = here.get(block) else { return };
+            if folds(samples) {
+                let opposite = opposite.get(block);
+                let [b, d] = [mirrored, mirrored_opposite].map(|mirrored| mirrored.iter().nth_back(block));
+                let (Some(b), Some(c), Some(d)) = (b, opposite, d) else { return };
                 let [a, b, c, d] = [*a, reversed(*b), *c, reversed(*d)].map(Lanes);
                 let (e, o, em, om) = (a + c, a - c, b + d, b - d);
                 *folded = [o + om, o - om, e + em, e - em].map(|sum| (Lanes(*weights) * sum).0);
             } else {
-                let [a, b] = [*a, reversed(*b)].map(Lanes);
-                let [cosines, sines] = [a + b, a - b].map(|sum| (Lanes(*weights) * sum).0);
-                *folded = [cosines, sines, cosines, sines];
+                *folded = [(Lanes(*weights) * Lanes(*a)).0; SYMMETRIES];
             }
         }
     }
