@@ -90,11 +90,11 @@ pub fn iwan(contact: &Contact, sliders: usize, mut emit: impl FnMut(SpringSlider
         (0..sliders).for_each(|_| emit(SpringSlider { stiffness: 0.0, slip_force: 0.0 }));
         return Ok(0.0);
     }
-    let curve = Curve::new(contact.stick_zones());
+    let zones = contact.stick_zones();
     let (mut low, mut high) = (1e-18_f64, 1.0_f64);
     for _ in 0..100 {
         let error = (low * high).sqrt();
-        if curve.reaches_slip(error, sliders) {
+        if reaches_slip(zones, error, sliders) {
             high = error;
         } else {
             low = error;
@@ -103,22 +103,21 @@ pub fn iwan(contact: &Contact, sliders: usize, mut emit: impl FnMut(SpringSlider
             break;
         }
     }
-    let mut side = curve.side(&Corner::ZERO, high);
+    let (mut slope, mut corner) = side(zones, &Corner::default(), high);
     for _ in 0..sliders {
-        let corner = side.end;
-        let next = if corner.force < 1.0 { curve.side(&corner, high) } else { Side { slope: 0.0, end: corner } };
-        let stiffness = (side.slope - next.slope).max(0.0);
+        let next = if corner.force < 1.0 { side(zones, &corner, high) } else { (0.0, corner) };
+        let stiffness = (slope - next.0).max(0.0);
         emit(SpringSlider {
             stiffness: stiffness * contact.stiffness_scale,
             slip_force: stiffness * corner.shift * contact.slip_force,
         });
-        side = next;
+        (slope, corner) = next;
     }
     Ok(high)
 }
 
 /// A corner of the curve of the sliders: shift, and force over mu N.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 struct Corner {
     shift: f64,
     force: f64,
@@ -126,76 +125,48 @@ struct Corner {
     on_curve: f64,
 }
 
-impl Corner {
-    const ZERO: Corner = Corner { shift: 0.0, force: 0.0, on_curve: 0.0 };
+/// Shift and tangent stiffness of the monotonic curve at a force over mu N.
+fn shift_and_slope(zones: &StickZones, force: f64) -> (f64, f64) {
+    let zone = zones.at_load(Complement { consumed: force, remaining: 1.0 - force });
+    (zone.shift.consumed, 1.0 / zones.compliance(&zone))
 }
 
-/// A side of the curve of the sliders: slope and end.
-#[derive(Debug, Clone, Copy)]
-struct Side {
-    slope: f64,
-    end: Corner,
-}
-
-/// The monotonic curve in nondimensional form.
-struct Curve<'a> {
-    zones: &'a StickZones,
-    /// Tangent stiffness just before gross slip.
-    last_slope: f64,
-}
-
-impl<'a> Curve<'a> {
-    fn new(zones: &'a StickZones) -> Curve<'a> {
-        Curve { zones, last_slope: 1.0 / zones.compliance(&zones.at_load(Complement::of_remaining(0.0))) }
-    }
-
-    /// Shift and tangent stiffness at a force over mu N.
-    fn shift_and_slope(&self, force: f64) -> (f64, f64) {
-        let zone = self.zones.at_load(Complement { consumed: force, remaining: 1.0 - force });
-        (zone.shift.consumed, 1.0 / self.zones.compliance(&zone))
-    }
-
-    /// The side from a corner: tangent to the curve lowered by the error, up to the curve raised by it or to mu N.
-    fn side(&self, from: &Corner, error: f64) -> Side {
-        let slip = self.zones.slip_shift;
-        let lowered = |force: f64, shift: f64, slope: f64| force - error - from.force - slope * (shift - from.shift);
-        let distance = |force: f64| {
-            let (shift, slope) = self.shift_and_slope(force);
-            lowered(force, shift, slope)
-        };
-        // The point of tangency: before gross slip, or at its onset.
-        let (tangency, slope) = if lowered(1.0, slip, self.last_slope) > 0.0 {
-            let force = root(distance, from.on_curve, 1.0);
-            (force, self.shift_and_slope(force).1)
-        } else {
-            (1.0, (1.0 - error - from.force).max(0.0) / (slip - from.shift).max(f64::MIN_POSITIVE))
-        };
-        let line = |shift: f64| from.force + slope * (shift - from.shift);
-        let above = |force: f64| line(self.shift_and_slope(force).0) - force - error;
-        if tangency < 1.0 && above(1.0) > 0.0 {
-            let on_curve = root(above, tangency, 1.0);
-            if on_curve + error < 1.0 {
-                return Side {
-                    slope,
-                    end: Corner { shift: self.shift_and_slope(on_curve).0, force: on_curve + error, on_curve },
-                };
-            }
+/// Slope and end of the side from a corner: tangent to the curve lowered by the error, up to the curve raised by it or to mu N.
+fn side(zones: &StickZones, from: &Corner, error: f64) -> (f64, Corner) {
+    let line = |slope: f64, shift: f64| from.force + slope * (shift - from.shift);
+    let above_tangent = |force: f64| {
+        let (shift, slope) = shift_and_slope(zones, force);
+        force - error - line(slope, shift)
+    };
+    // The point of tangency: before gross slip, or at its onset.
+    let (tangency, slope) = if above_tangent(1.0) > 0.0 {
+        let force = root(above_tangent, from.on_curve, 1.0);
+        (force, shift_and_slope(zones, force).1)
+    } else {
+        (1.0, (1.0 - error - from.force).max(0.0) / (zones.slip_shift - from.shift).max(f64::MIN_POSITIVE))
+    };
+    let above = |force: f64| line(slope, shift_and_slope(zones, force).0) - force - error;
+    if tangency < 1.0 && above(1.0) > 0.0 {
+        let on_curve = root(above, tangency, 1.0);
+        if on_curve + error < 1.0 {
+            let (shift, _) = shift_and_slope(zones, on_curve);
+            return (slope, Corner { shift, force: on_curve + error, on_curve });
         }
-        let shift = from.shift + (1.0 - from.force) / slope.max(f64::MIN_POSITIVE);
-        Side { slope, end: Corner { shift, force: 1.0, on_curve: 1.0 } }
     }
+    let shift = from.shift + (1.0 - from.force) / slope.max(f64::MIN_POSITIVE);
+    (slope, Corner { shift, force: 1.0, on_curve: 1.0 })
+}
 
-    /// Whether the given number of sides reaches mu N.
-    fn reaches_slip(&self, error: f64, sides: usize) -> bool {
-        let mut corner = Corner::ZERO;
-        for _ in 0..sides {
-            corner = self.side(&corner, error).end;
-            if corner.force >= 1.0 {
-                return true;
-            }
+/// Whether the given number of sides reaches mu N.
+fn reaches_slip(zones: &StickZones, error: f64, sides: usize) -> bool {
+    let mut corner = Corner::default();
+    for _ in 0..sides {
+        (_, corner) = side(zones, &corner, error);
+        if corner.force >= 1.0 {
+            return true;
         }
-        false
     }
+    false
 }
 
 /// The root between `low`, at which the function is <= 0, and `high`, at which it is >= 0: regula falsi; if an end is kept twice in a

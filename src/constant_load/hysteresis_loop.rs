@@ -19,8 +19,7 @@ impl Contact {
     /// Errors: `BadAmplitude` if the amplitude is not finite, negative, or beyond 1e150.
     pub fn hysteresis_loop(&self, amplitude: f64) -> Result<HysteresisLoop<'_>, Error> {
         check_amplitude(amplitude)?;
-        let top = if self.is_frictionless() { 0.0 } else { self.response(amplitude).force };
-        Ok(HysteresisLoop { contact: self, amplitude, top })
+        Ok(HysteresisLoop { contact: self, amplitude, top: self.response(amplitude).force })
     }
 }
 
@@ -33,14 +32,11 @@ impl HysteresisLoop<'_> {
 
     /// Force \[N\] at that instant.
     pub fn force(&self, i: usize, n: usize) -> f64 {
-        let (contact, (sign, phase)) = (self.contact, half_cycle(i, n));
-        if contact.is_frictionless() {
-            return 0.0;
-        }
+        let (sign, phase) = half_cycle(i, n);
         // The distance from a reversal is amplitude (1 - cos t) = 2 amplitude sin²(t/2); the monotonic curve is evaluated at half of it.
         let sine = (PI * phase).sin();
         // In gross slip the branch reaches -mu N before its end, exactly: both forces are mu N.
-        sign * (self.top - 2.0 * contact.response(self.amplitude * sine * sine).force)
+        sign * (self.top - 2.0 * self.contact.response(self.amplitude * sine * sine).force)
     }
 }
 

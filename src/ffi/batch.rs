@@ -106,8 +106,8 @@ pub(super) unsafe fn path<L: Law>(
 }
 
 /// An error of a batch and, if it is the error of an item, its number.
-pub(super) struct Failure {
-    pub error: Error,
+struct Failure {
+    error: Error,
     item: Option<usize>,
 }
 
@@ -130,7 +130,7 @@ unsafe fn call_batch(n: usize, failed_item: *mut size_t, batch: impl FnOnce() ->
 
 /// Items of a batch: their contacts or elements, and the flags of the active items.
 #[derive(Clone, Copy)]
-pub(super) struct Items<'a, T> {
+struct Items<'a, T> {
     n: usize,
     laws: &'a [T],
     index: Option<&'a [i32]>,
@@ -138,10 +138,6 @@ pub(super) struct Items<'a, T> {
 }
 
 impl<'a, T: Copy> Items<'a, T> {
-    pub unsafe fn one(law: *const T) -> Result<Items<'a, T>, Error> {
-        Items::new(1, 1, law, ptr::null(), ptr::null())
-    }
-
     #[inline(never)]
     unsafe fn new(
         n: usize,
@@ -418,22 +414,12 @@ pub unsafe extern "C" fn mslip_batch_element_harmonic_force(
     failed_item: *mut size_t,
 ) -> i32 {
     call_batch(n, failed_item, || {
-        let items = Items::new(n, n_elements, elements.cast(), index, active)?;
-        element_harmonic_forces(items, workspace, displacement, [force, jacobian, dissipated, drift])
-    })
-}
-
-/// Harmonic forces of all active elements.
-pub(super) unsafe fn element_harmonic_forces(
-    items: Items<Element>,
-    workspace: *mut f64,
-    displacement: *const f64,
-    outputs: [*mut f64; 4],
-) -> Result<(), Failure> {
-    let (directions, size, extent) = pointers::element_workspace_size(workspace)?;
-    let memory = output(workspace, extent)?.ok_or(Error::BadWorkspace)?;
-    let one = (directions as usize + 1) * size.coefficients();
-    with_law!(directions, L => {
-        harmonic_forces::<L>(items, &mut <L as Law>::Workspace::of_size(size, memory)?, one, displacement, outputs)
+        let items = Items::new(n, n_elements, elements.cast::<Element>(), index, active)?;
+        let (directions, size, extent) = pointers::element_workspace_size(workspace)?;
+        let memory = output(workspace, extent)?.ok_or(Error::BadWorkspace)?;
+        let (one, outputs) = ((directions as usize + 1) * size.coefficients(), [force, jacobian, dissipated, drift]);
+        with_law!(directions, L => {
+            harmonic_forces::<L>(items, &mut <L as Law>::Workspace::of_size(size, memory)?, one, displacement, outputs)
+        })
     })
 }

@@ -1,6 +1,6 @@
 //! Harmonic balance: workspaces and harmonic force.
 
-use super::batch::{Items, element_harmonic_forces, mslip_batch_harmonic_force};
+use super::batch::{mslip_batch_element_harmonic_force, mslip_batch_harmonic_force};
 use super::element::directions_of;
 use super::pointers::{self, call, input, memory, optional_output, output, set, with_law};
 use super::{mslip_contact, mslip_element};
@@ -177,11 +177,21 @@ pub unsafe extern "C" fn mslip_element_harmonic_force(
     dissipated: *mut f64,
     drift: *mut f64,
 ) -> i32 {
-    let outputs = [force, jacobian, dissipated, drift];
-    call(|| {
-        let items = Items::one(element.cast())?;
-        element_harmonic_forces(items, workspace, displacement, outputs).map_err(|failure| failure.error)
-    })
+    let (all, no_item) = (ptr::null(), ptr::null_mut());
+    mslip_batch_element_harmonic_force(
+        1,
+        1,
+        element,
+        all,
+        all,
+        workspace,
+        displacement,
+        force,
+        jacobian,
+        dissipated,
+        drift,
+        no_item,
+    )
 }
 
 /// Harmonic force in steady state (the second of two periods from the initial, unloaded state), by alternating frequency/time (AFT)
