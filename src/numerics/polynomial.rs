@@ -25,40 +25,20 @@ pub(crate) fn sum<'a>(rows: impl DoubleEndedIterator<Item = [f64; 4]> + 'a, x: f
     even + odd * x
 }
 
-/// Value and derivative at x. Each vector is a pair of an even and an odd power.
+/// Value and derivative at x.
 #[inline(always)]
 pub(crate) fn value_and_slope<const R: usize>(rows: &PolynomialRows<R>, x: f64) -> (f64, f64) {
-    let square = x * x;
-    let step = square * square;
-    let ([mut low, mut high], [mut low_slope, mut high_slope]) = ([Lanes::<2>::ZERO; 2], [Lanes::<2>::ZERO; 2]);
-    for (n, [zero, one, two, three]) in rows.iter().rev().enumerate() {
-        if n > 0 {
-            (low_slope, high_slope) =
-                if n > 1 { (low_slope * step + low, high_slope * step + high) } else { (low, high) };
-            (low, high) = (low * step, high * step);
-        }
-        let (first, second) = (Lanes([*zero, *one]), Lanes([*two, *three]));
-        (low, high) = if n > 0 { (low + first, high + second) } else { (first, second) };
-    }
-    let sums = low + high * square;
-    let slopes = low_slope + high_slope * square;
-    // Chain rule: the sums are polynomials in x² and x⁴.
-    let rates = high * (2.0 * x) + slopes * (4.0 * (square * x));
-    let ([even, odd], [even_rate, odd_rate]) = (*sums, *rates);
-    (even + odd * x, odd + (even_rate + odd_rate * x))
+    let (value, slope) = values_and_slopes::<R, 1, true>(rows, Lanes([x]));
+    (value[0], slope[0])
 }
 
-/// [`value_and_slope`] at L places, with the same bits. Without slopes these are 0.
+/// Values and derivatives at L places, the bits of which do not depend on L. Without slopes these are 0.
 #[inline(always)]
 pub(crate) fn values_and_slopes<const R: usize, const L: usize, const SLOPES: bool>(
     rows: &PolynomialRows<R>,
     x: Lanes<L>,
 ) -> (Lanes<L>, Lanes<L>) {
     let zero = Lanes([0.0; L]);
-    if L == 1 {
-        let (value, slope) = value_and_slope(rows, x.0[0]);
-        return (Lanes([value; L]), Lanes([slope; L]));
-    }
     let square = x * x;
     let step = square * square;
     // Sums of every fourth power, and their derivatives by x⁴.
