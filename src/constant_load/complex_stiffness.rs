@@ -27,6 +27,7 @@ use crate::numerics::fp_class::in_0_to;
 use crate::numerics::lanes::Lanes;
 use crate::numerics::polynomial::PolynomialRows;
 use crate::numerics::quadrature::gauss_even;
+use crate::numerics::total::Total;
 use core::f64::consts::PI;
 
 /// Complex stiffness at one displacement amplitude.
@@ -100,8 +101,8 @@ pub(crate) type StiffnessOutputs<'a> = [Option<&'a mut [f64]>; 4];
 /// Writes what is requested of K' and K'' as value i of each output.
 pub(crate) fn write_values([real, imaginary]: [ValueAndSlope; 2], i: usize, outputs: &mut StiffnessOutputs) {
     for (output, value) in outputs.iter_mut().zip([real.0, imaginary.0, real.1, imaginary.1]) {
-        if let Some(place) = output.as_deref_mut().and_then(|values| values.get_mut(i)) {
-            *place = value;
+        if let Some(values) = output {
+            values.set(i, value);
         }
     }
 }

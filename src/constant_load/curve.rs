@@ -99,16 +99,6 @@ impl CurvePoint<'_> {
         }
     }
 
-    fn response(&self) -> Response {
-        match &self.known_by {
-            KnownBy::StickZone(zone) => {
-                Response { force: self.contact.force_of(zone), stiffness: self.contact.stiffness_of(zone) }
-            }
-            KnownBy::Displacement(displacement) => self.contact.response(*displacement),
-            KnownBy::GrossSlip => Response { force: self.contact.slip_force, stiffness: 0.0 },
-        }
-    }
-
     /// Tangential force T \[N\].
     pub fn force(&self) -> f64 {
         self.force_and_stiffness().0
@@ -131,7 +121,14 @@ impl CurvePoint<'_> {
 
     /// [`force`](CurvePoint::force) and [`stiffness`](CurvePoint::stiffness).
     pub fn force_and_stiffness(&self) -> (f64, f64) {
-        let Response { force, stiffness } = self.response();
+        let (force, stiffness) = match &self.known_by {
+            KnownBy::StickZone(zone) => (self.contact.force_of(zone), self.contact.stiffness_of(zone)),
+            KnownBy::Displacement(displacement) => {
+                let Response { force, stiffness } = self.contact.response(*displacement);
+                (force, stiffness)
+            }
+            KnownBy::GrossSlip => (self.contact.slip_force, 0.0),
+        };
         (self.sign * force, stiffness)
     }
 

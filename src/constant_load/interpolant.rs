@@ -211,12 +211,10 @@ fn interpolate(compliance: f64, unit: f64, at: &mut dyn FnMut(f64) -> LoadPoint,
     });
     let decrease = Interpolant::<TERMS>::osculating(&tangents);
     let stiffness = unit / (compliance + first.unwrap_or(0.0));
-    let mut integral = rows(&decrease.integral().powers_from_middle().map(|coefficient| -stiffness * coefficient));
-    if let Some([constant, linear, square, _]) = integral.first_mut() {
-        // The mean of z²/2 over the points is 1/4.
-        *constant += sum * (2.0 / TERMS as f64) - 0.25 * stiffness;
-        *linear += 3.0 * stiffness;
-        *square += 0.5 * stiffness;
-    }
+    let mut integral: Polynomial =
+        rows(&decrease.integral().powers_from_middle().map(|coefficient| -stiffness * coefficient));
+    // The mean of z²/2 over the points is 1/4.
+    let parabola = [sum * (2.0 / TERMS as f64) - 0.25 * stiffness, 3.0 * stiffness, 0.5 * stiffness, 0.0];
+    integral[0] = (Lanes(integral[0]) + Lanes(parabola)).0;
     (integral, decrease.is_converged(tolerance * (3.0 - decrease.mean())))
 }

@@ -252,7 +252,7 @@ fn economized(series: &Series, middle: f64, half_length: f64) -> [f64; TERMS] {
         }
     }
     let mut economized = [0.0; TERMS];
-    economized.iter_mut().zip(&q).for_each(|(kept, coefficient)| *kept = *coefficient);
+    economized.copy_from(&q);
     economized
 }
 

@@ -219,9 +219,7 @@ fn reversed([a, b, c, d]: [f64; 4]) -> [f64; 4] {
 
 /// Stores a block upwards from a value, after the given number of blocks.
 fn store(values: &mut [f64], from: usize, before: usize, block: Four) {
-    if let Some(place) = values.get_mut(from..).and_then(|values| values.blocks_mut().get_mut(before)) {
-        *place = block.0;
-    }
+    values.part_mut(from..).blocks_mut().set(before, block.0);
 }
 
 /// Stores a block downwards from a value, after the given number of blocks.

@@ -67,7 +67,7 @@ impl<'a> Assembly<'a> {
             let (order, is_sine) = (index.div_ceil(2), index % 2 == 0 && index > 0);
             let from = |order: usize| self.pairs.part(order..);
             let Some((constant, rows)) = column.split_first_mut() else { continue };
-            let [cosine, sine] = from(order + harmonics).first().copied().unwrap_or_default();
+            let [cosine, sine] = from(order + harmonics).or_zero(0);
             *constant = if is_sine { sine } else { cosine };
             let (sums, differences) = (from(harmonics + 1 + order), from(harmonics + 1 - order.min(harmonics)));
             for ((row, [c, s]), [d, t]) in rows.blocks_mut::<2>().iter_mut().zip(sums).zip(differences) {
@@ -111,7 +111,7 @@ impl<'a> Assembly<'a> {
                 None => [1.0; 2],
             };
             let factors = [even, odd, odd, even].map(|repeated| 2.0 * weight * repeated);
-            let constant = column.first().copied().unwrap_or(0.0);
+            let constant = column.or_zero(0);
             let (blocks, rest) = column.as_chunks_mut::<4>();
             if let Some(last) = product.get(blocks.len()) {
                 rest.iter_mut().zip(last).zip(factors).for_each(|((value, last), factor)| *value += factor * last);
@@ -120,9 +120,7 @@ impl<'a> Assembly<'a> {
                 let ([a, b, c, d], [e, f, g, h]) = (*block, *product);
                 *block = [a + factors[0] * e, b + factors[1] * f, c + factors[2] * g, d + factors[3] * h];
             }
-            if let (Some(first), Some([product, ..])) = (column.first_mut(), product.first()) {
-                *first = constant + 0.5 * factors[0] * product;
-            }
+            column.set(0, constant + 0.5 * factors[0] * product.or_zero(0)[0]);
         }
     }
 }

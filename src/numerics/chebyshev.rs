@@ -106,7 +106,7 @@ impl<const N: usize> Interpolant<N> {
 
     /// Coefficient of T_0: the mean of the values at the points.
     pub fn mean(&self) -> f64 {
-        self.0.first().copied().unwrap_or(0.0)
+        self.0.or_zero(0)
     }
 
     /// The coefficients of T_0, T_1, ...
@@ -118,7 +118,7 @@ impl<const N: usize> Interpolant<N> {
     /// dropped: its integral would exceed the degree.
     pub fn integral(&self) -> Interpolant<TERMS> {
         let mut padded = [0.0; TERMS + 1];
-        padded.iter_mut().zip(&self.0).take(TERMS - 1).for_each(|(target, coefficient)| *target = *coefficient);
+        padded.copy_from(self.0.part(..TERMS - 1));
         padded[0] *= 2.0;
         let mut integral = [0.0; TERMS];
         for n in 1..TERMS {

@@ -275,10 +275,7 @@ impl Polygon<'_> {
             self.error += change.abs();
             knot.force += change;
         }
-        if let Some(place) = self.knots.get_mut(self.used) {
-            *place = knot.into();
-            self.used += 1;
-        }
+        self.used += usize::from(self.knots.set(self.used, knot.into()));
     }
 
     /// Removes the knot, the centre excepted, whose removal changes later forces least, and returns the change of the force beyond it.
@@ -309,11 +306,8 @@ impl Polygon<'_> {
         }
         let outer = self.knots.part_mut(removed..self.used);
         for index in 1..outer.len() {
-            if let Some(&[xi, eta, load, force]) = outer.get(index)
-                && let Some(place) = outer.get_mut(index - 1)
-            {
-                *place = [xi, eta, load, force + least];
-            }
+            let [xi, eta, load, force] = outer.or_zero(index);
+            outer.set(index - 1, [xi, eta, load, force + least]);
         }
         self.used -= 1;
         least

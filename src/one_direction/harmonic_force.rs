@@ -223,7 +223,7 @@ impl OneDirectionWorkspace<'_> {
     pub(crate) fn check(&mut self, element: &Element, displacement: &[f64]) -> Result<(), Error> {
         check_coefficients(displacement)?;
         let (tangential, input) = displacement.split_at_checked(self.coefficients()).ok_or(Error::BadArraySize)?;
-        let mean = input.first().copied().unwrap_or(0.0);
+        let mean = input.or_zero(0);
         let amplitude: f64 = input.iter().skip(1).map(|value| value.abs()).sum();
         if (element.by_approach() || mean >= amplitude) && element.check_input(mean + amplitude).is_ok() {
             return Ok(());

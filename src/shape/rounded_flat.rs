@@ -205,11 +205,11 @@ pub fn series(_: &Size, shape: &Shape, leg: f64, argument: Quantity) -> [Series;
         let compliance_growth = compliance_1.quotient_term(growth, &half_width_2, per_half_width_2, k);
         let per_order = PER_ORDER[k];
         if by_load {
-            set(&mut shift, k + 1, per_order * load_1.product_term(&compliance, k));
+            shift.set(k + 1, per_order * load_1.product_term(&compliance, k));
         }
-        set(&mut load, k + 1, per_order * load_growth);
-        set(&mut size, k + 1, per_order * size_growth);
-        set(&mut compliance, k + 1, per_order * compliance_growth);
+        load.set(k + 1, per_order * load_growth);
+        size.set(k + 1, per_order * size_growth);
+        compliance.set(k + 1, per_order * compliance_growth);
         size_reversed.set(k + 1, per_order * size_growth);
         angle.set(k + 1, per_order * angle_growth);
     }
@@ -223,11 +223,6 @@ pub fn series(_: &Size, shape: &Shape, leg: f64, argument: Quantity) -> [Series;
 
 /// 1/(k + 1).
 const PER_ORDER: [f64; ORDER] = tabulate!(ORDER, |k| 1.0 / (k + 1) as f64);
-
-/// Sets a coefficient that the next round requires, if there is one.
-fn set(series: &mut Series, k: usize, value: f64) {
-    series.set(k, value);
-}
 
 impl Geometry for Parameters {
     fn checked(&self) -> Result<Common, Error> {

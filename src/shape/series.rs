@@ -1,5 +1,6 @@
 //! N, U and S as Taylor series of one of them about a size, for the tables of elements.
 
+use crate::numerics::lanes::Lanes;
 use crate::numerics::total::Total;
 use crate::shape::{Quantity, Shape};
 
@@ -33,11 +34,9 @@ impl Reversed {
     pub fn product_term(&self, other: &Series, k: usize) -> f64 {
         let reversed =
             self.0.get((ORDER - 1).wrapping_sub(k)..).and_then(<[f64]>::first_chunk).unwrap_or(&[0.0; ORDER]);
-        let mut sums = [0.0; 4];
-        for (one, two) in other.blocks::<4>().iter().zip(reversed.blocks::<4>()) {
-            for lane in 0..4 {
-                sums[lane] += one[lane] * two[lane];
-            }
+        let mut sums = Lanes::<4>::ZERO;
+        for (one, two) in other.blocks().iter().zip(reversed.blocks()) {
+            sums += Lanes(*one) * Lanes(*two);
         }
         (sums[0] + sums[1]) + (sums[2] + sums[3])
     }
@@ -86,16 +85,12 @@ fn inverse_powers(y: &Series) -> [Series; ORDER] {
         // Orders of ν², ν³, ... need lower orders of ν only.
         let mut sum = if order == 1 { y[0] } else { 0.0 };
         for (power, coefficient) in y.iter().enumerate().take(order + 1).skip(2) {
-            let product = powers.get(power - 1).map_or(0.0, |below| inverse.product_term(below, order));
-            if let Some(place) = powers.get_mut(power).and_then(|power| power.get_mut(order)) {
-                *place = product;
-            }
+            let product = inverse.product_term(&powers.or_zero(power - 1), order);
+            powers.as_flattened_mut().set(ORDER * power + order, product);
             sum -= coefficient * product;
         }
         inverse.set(order, sum * per_slope);
-        if let Some(place) = powers[1].get_mut(order) {
-            *place = sum * per_slope;
-        }
+        powers[1].set(order, sum * per_slope);
     }
     powers
 }

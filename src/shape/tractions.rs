@@ -66,7 +66,7 @@ pub(crate) fn pressure(_: &Size, flat: f64, [from, to, squares]: [f64; 3], point
     if closed.abs() >= CANCELLATION_LIMIT * (upper_size + lower_size) {
         return closed;
     }
-    let root_inside = |leg: f64| (leg * leg - outside).max(0.0).sqrt();
+    let root_inside = |leg: f64| root(leg * leg - outside);
     let squares = if from > edge { squares } else { to * to - edge * edge };
     if outside < 0.0 {
         gauss(squares / (to + start), |step| {
@@ -100,7 +100,7 @@ fn outside(flat: f64, point: &SurfacePoint) -> f64 {
 fn antiderivative(flat: f64, leg: f64, point: &SurfacePoint) -> (f64, f64) {
     let Size { half_width: c, psi, .. } = Size::new(ROUNDED_FLAT, flat, leg);
     let outside = outside(flat, point);
-    let root_inside = (leg * leg - outside).max(0.0).sqrt();
+    let root_inside = root(leg * leg - outside);
     let sum = (leg + root_inside).max(TINY);
     let c = c.max(TINY);
     let decrease = leg * leg / (c * (flat + c)) - point.past_flat * leg / (c * sum);

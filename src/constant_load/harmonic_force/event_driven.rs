@@ -130,7 +130,7 @@ pub(super) fn harmonic_force(
         *dissipated = if half_wave_symmetric { 2.0 * energy } else { energy };
     }
     if let Some(force) = force {
-        force.iter_mut().zip(buffers.force.iter()).for_each(|(force, sum)| *force = *sum);
+        force.copy_from(buffers.force);
         complete(force, half_wave_symmetric);
     }
     if let Some(jacobian) = jacobian {
@@ -230,13 +230,12 @@ impl Period<'_, '_, '_> {
     /// Integrates a constant displacement.
     fn integrate_constant(&mut self, buffers: &mut Buffers, span: f64) {
         self.now = self.law.begin(self.motion.mean);
-        if let (Some(force), Some(stiffness)) = (buffers.force.first_mut(), buffers.assembly.sums.first_mut()) {
-            (*force, *stiffness) = (span * self.now.force, span * self.now.stiffness);
-        }
+        buffers.force.set(0, span * self.now.force);
+        buffers.assembly.sums.set(0, span * self.now.stiffness);
         if let Some(sums) = &mut self.sensitivity {
             let derivatives = self.law.sensitivity(self.motion.mean);
             for (column, derivative) in sums.chunks_exact_mut(buffers.coefficients()).zip(derivatives) {
-                column.iter_mut().take(1).for_each(|mean| *mean = span * derivative);
+                column.set(0, span * derivative);
             }
         }
     }

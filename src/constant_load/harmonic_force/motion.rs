@@ -72,12 +72,8 @@ impl<'a> Motion<'a> {
         let searched = if half_wave_symmetric { half } else { 2 * half };
         // A rate of 0 counts as positive. Under half-wave symmetry the rate at π is minus that at 0: if it is exactly 0 and positive
         // before π, it has to count as negative at π, or the reversal there is missed.
-        if half_wave_symmetric
-            && rate.first() == Some(&0.0)
-            && half.checked_sub(1).and_then(|last| rate.get(last)).is_some_and(|rate| *rate > 0.0)
-            && let Some(opposite) = rate.get_mut(half)
-        {
-            *opposite = -f64::MIN_POSITIVE;
+        if half_wave_symmetric && rate.or_zero(0) == 0.0 && rate.or_zero(half.wrapping_sub(1)) > 0.0 {
+            rate.set(half, -f64::MIN_POSITIVE);
         }
         let step = PI / half.max(1) as f64;
         let mut search = ReversalSearch { motion: self, instants, count: 0 };
@@ -132,10 +128,7 @@ impl ReversalSearch<'_> {
             (sign * rate, sign * second)
         });
         let [displacement, ..] = self.motion.derivatives(t);
-        if let Some(instant) = self.instants.get_mut(self.count) {
-            *instant = Instant { t, displacement };
-            self.count += 1;
-        }
+        self.count += usize::from(self.instants.set(self.count, Instant { t, displacement }));
     }
 
     /// Adds two reversals if the rate times `sign`, positive at `low` and `high`, has a negative minimum between them.

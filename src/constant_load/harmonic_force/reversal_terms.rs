@@ -10,7 +10,7 @@
 
 use crate::fourier::rows::{OuterProducts, RowStrips, Rows, Strip, StripTerms, add_scaled, row_blocks, with_strips};
 use crate::fourier::workspace::{Blocks, record};
-use crate::numerics::total::Total;
+use crate::numerics::total::{Total, Zero};
 
 record! {
     /// Consecutive samples on a branch.
@@ -84,8 +84,8 @@ impl<const N: usize> ReversalStack<'_, N> {
 
     fn push(&mut self, sample: usize, stiffness: f64) {
         let sample = self.in_period(sample);
-        if let (Some(entry), Some(sums)) = (self.entries.get_mut(self.depth), self.sums.get_mut(self.depth)) {
-            (*entry, *sums) = (Entry { sample: sample as u64, stiffness }, [[[0.0; 4]; N]; 2]);
+        if self.entries.set(self.depth, Entry { sample: sample as u64, stiffness }) {
+            self.sums.set(self.depth, Zero::zero());
             self.depth += 1;
         }
     }
@@ -95,11 +95,7 @@ impl<const N: usize> ReversalStack<'_, N> {
         while self.depth > depth {
             self.depth -= 1;
             let top = self.depth;
-            let (Some(&Entry { sample, stiffness }), Some(&[covered, mut y])) =
-                (self.entries.get(top), self.sums.get(top))
-            else {
-                return;
-            };
+            let (Entry { sample, stiffness }, [covered, mut y]) = (self.entries.or_zero(top), self.sums.or_zero(top));
             add_scaled(&mut y, stiffness, &covered);
             if let Some(phi) = self.rows.phi.get(sample as usize) {
                 self.terms.push([y], phi);

@@ -102,7 +102,7 @@ impl<'a> NodalFourier<'a> {
                 let at_nodes = displacement.map(&functions);
                 let by_function: [_; K] = core::array::from_fn(|k| at_nodes.map(|node| node[k]));
                 for (values, value) in values.iter_mut().zip(by_function) {
-                    values.iter_mut().skip(block).take(1).for_each(|place| *place = value);
+                    values.set(block, value);
                 }
             }
             for (values, sums) in values.iter().zip(&mut sums).filter(|(_, sums)| !sums.is_empty()) {
@@ -148,9 +148,8 @@ fn fill_rows(
         let mut u = Lanes([motion.mean; 4]);
         let mut pairs = motion.pairs.iter();
         for ([cosines, sines], [c, s]) in rows.iter_mut().take(orders).zip(harmonics) {
-            if let (Some(cosines), Some(sines)) = (cosines.get_mut(block), sines.get_mut(block)) {
-                (*cosines, *sines) = (*c, *s);
-            }
+            cosines.set(block, *c);
+            sines.set(block, *s);
             if let Some(&[a, b]) = pairs.next() {
                 u += a * c + b * s;
             }

@@ -17,15 +17,12 @@ impl<'a> ReversalSensitivities<'a> {
 
     /// Stores the derivatives at the reversal that the present branch leaves.
     pub fn store(&mut self, law: &SteadyState, sensitivity: Sensitivity) {
-        if let Some(place) = law.branch().depth.checked_sub(1).and_then(|index| self.0.get_mut(index)) {
-            *place = sensitivity;
-        }
+        self.0.set(law.branch().depth.wrapping_sub(1), sensitivity);
     }
 
     /// The derivatives at a displacement on the present branch.
     pub fn sensitivity(&self, law: &SteadyState, displacement: f64) -> Sensitivity {
-        let start = law.branch().depth.checked_sub(1).and_then(|index| self.0.get(index));
-        let (start, along) = (start.copied().unwrap_or_default(), law.sensitivity(displacement));
+        let (start, along) = (self.0.or_zero(law.branch().depth.wrapping_sub(1)), law.sensitivity(displacement));
         core::array::from_fn(|parameter| start[parameter] + along[parameter])
     }
 }

@@ -70,8 +70,9 @@ impl Forces<'_> {
                     for ((force, &load), &cut_load) in forces.iter_mut().zip(loads).zip(cuts) {
                         *force = inner_force + slope * (cut_load - inner_load) + mu * (load - cut_load);
                     }
-                    if let (Some(&cut_load), Some(place)) = (cuts.last(), self.last_cut.get_mut(range.end - 1)) {
-                        *place = [cut_load, inner_force + slope * (cut_load - inner_load)];
+                    if let Some(&cut_load) = cuts.last() {
+                        let force = inner_force + slope * (cut_load - inner_load);
+                        self.last_cut.set(range.end - 1, [cut_load, force]);
                     }
                 }
             }
