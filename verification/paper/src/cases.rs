@@ -5,7 +5,7 @@
 use microslip::constant_load::{ConstantLoad, Law, masing, state};
 use microslip::element::{Directions, Element, NormalInput};
 use microslip::{Contact, CurvePoint, EllipticParameters, Material, Parameters};
-use reference::law::load_of_size;
+use reference::family::load_of_size;
 use reference::{Input, Reference};
 use std::f64::consts::PI;
 

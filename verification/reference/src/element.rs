@@ -78,7 +78,7 @@ impl Element {
 
     /// The size of zero load.
     fn touch(&self) -> Size {
-        Size::zero(self.family.bits)
+        self.family.size(&self.real(0.0))
     }
 
     pub fn size_of_input(&self, input: &Real) -> Size {
@@ -313,7 +313,9 @@ impl Element {
                 return march;
             }
             let to_inner = &lambda + (&inner.shift - &edge.shift) / &way;
-            let mut next = to_inner.clone().min(&one);
+            // A step that returns to a reversal ends there.
+            let returns = (&to_inner - &one).exponent() < ROUNDING - self.family.bits as i32;
+            let mut next = if returns { one.clone() } else { to_inner.clone().min(&one) };
             let overtaken = (way > rise).then(|| &lambda + (&edge.shift - &outer.shift) / (&rise - &way));
             next = overtaken.iter().fold(next, Real::min);
             let next_edge = if next == to_inner { inner } else { at_shift(&edge.shift + (&next - &lambda) * &way) };

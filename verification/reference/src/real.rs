@@ -47,11 +47,15 @@ impl Real {
         self.0.is_zero()
     }
 
+    pub fn is_finite(&self) -> bool {
+        self.0.is_finite()
+    }
+
     pub fn is_positive(&self) -> bool {
         self.0.cmp0() == Some(Ordering::Greater)
     }
 
-    unary!(sqrt cbrt abs ln exp atan acosh square);
+    unary!(sqrt cbrt abs ln ln_1p exp acosh square);
 
     pub fn atan2(&self, x: &Real) -> Real {
         Real(self.0.clone().atan2(&x.0))

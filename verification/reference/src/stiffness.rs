@@ -38,9 +38,8 @@ pub fn real_part(contact: &Reference, x: &Real) -> [Real; 2] {
         if !rest.is_positive() || !share.is_positive() {
             return [law.real(0.0), law.real(0.0)]; // rounding at the ends
         }
-        let rate = law.load_rate(&point);
-        let root = (&share * &rest).sqrt();
-        [&root * &rate, (&rest - &share) * share * rate / root]
+        let (rate, root) = (&point.load_rate, (&share * &rest).sqrt());
+        [&root * rate, (&rest - &share) * share * rate / root]
     });
     let factor = 4.0 / Real::pi(law.bits) / x;
     let real = 2.0 * &factor * root_sum;

@@ -6,7 +6,7 @@ use microslip::parameters::{CENTRE_POINT, RIGID_STRIP};
 use microslip::{EllipticParameters, Layer, Material, Parameters};
 use rand::rngs::SmallRng;
 use rand::{Rng, SeedableRng};
-use reference::law::load_of_size;
+use reference::family::load_of_size;
 use reference::{Input, Reference};
 use std::f64::consts::PI;
 
