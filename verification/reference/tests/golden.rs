@@ -3,7 +3,7 @@
 #[path = "../../../tests/golden/table.rs"]
 mod table;
 
-use microslip::{EllipticParameters, Material, Parameters};
+use microslip::{EllipticParameters, Layer, Material, Parameters};
 use reference::element::Element;
 use reference::family::{Family, Given};
 use reference::harmonic::sampled;
@@ -153,6 +153,13 @@ fn shape(row: &Row) -> Input {
     let body = |e, nu| Material { young_modulus: row[e], poisson_ratio: row[nu] };
     let material = [body("E1", "nu1"), body("E2", "nu2")];
     let friction_coefficient = if row.has("mu") { row["mu"] } else { 0.5 };
+    let layer = if row.has("c_t") {
+        let [normal_compliance, tangential_compliance, stiffening_load, reference_load] =
+            ["c_n", "c_t", "N_c", "N_layer"].map(|name| row[name]);
+        Layer { normal_compliance, tangential_compliance, stiffening_load, reference_load }
+    } else {
+        Layer::none()
+    };
     if row["a"].is_nan() {
         let [semi_axis_x, semi_axis_y, normal_force] = ["semi_x", "semi_y", "N_ref"].map(|name| row[name]);
         Input::Ellipse(EllipticParameters {
@@ -161,16 +168,18 @@ fn shape(row: &Row) -> Input {
             normal_force,
             friction_coefficient,
             material,
-            ..EllipticParameters::default()
+            layer,
         })
     } else {
-        Input::Flat(Parameters { normal_force: row["N"], friction_coefficient, material, ..geometry(row) })
+        Input::Flat(Parameters { normal_force: row["N"], friction_coefficient, material, layer, ..geometry(row) })
     }
 }
 
 #[test]
 fn normal_law() {
-    for row in table("normal_law").iter().filter(|row| row["N"] > 0.0) {
+    let rows = ["normal_law", "layer_normal_law"].map(table).into_iter().flatten();
+    for row in rows.filter(|row| row["N"] > 0.0) {
+        let row = &row;
         let family = Family::new(&shape(row));
         let (given, value) = if row.text("given") == "N" { (Given::Load, "N") } else { (Given::Approach, "u_n") };
         let size = family.find(given, &family.real(row[value]));
@@ -194,8 +203,8 @@ fn normal_law() {
 /// Histories under a varying load; tangents except at corners, where the table has none.
 #[test]
 fn varying_load() {
-    let rows = table("varying_load");
-    for history in rows.chunk_by(|one, other| one["history"] == other["history"]) {
+    let tables = ["varying_load", "layer_varying_load"].map(table);
+    for history in tables.iter().flat_map(|rows| rows.chunk_by(|one, other| one["history"] == other["history"])) {
         let largest = |name: &str| history.iter().map(|row| row[name].abs()).fold(0.0, f64::max);
         let heaviest = history.iter().max_by(|one, other| one["N"].total_cmp(&other["N"])).unwrap();
         let by_force = history[0].text("control") == "N";

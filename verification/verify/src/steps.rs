@@ -33,7 +33,8 @@ pub fn of_contact(case: &Case, sampler: &mut Sampler, _: &mut crate::Tally) {
     let mut from = 0.0;
     for (i, &u) in path.iter().enumerate() {
         let [force, stiffness, dissipated] = call::update(contact, &mut one, u);
-        let context = || format!("layer {:?}, step {i} of {:?}", with_layer.as_ref().map(|one| one.input), &path[..=i]);
+        let context =
+            || format!("layer {:?}, step {i} of {:?}", with_layer.as_ref().map(|one| one.reference.input), &path[..=i]);
         assert!(force.abs() <= slip_force, "Coulomb's bound {slip_force:e}: {force:e}; {}", context());
         // The stiffness of a branch has the error of its curve.
         let stiffest = contact.initial_stiffness * (1.0 + 1e-14);
