@@ -1,5 +1,5 @@
 //! The law for two tangential directions: symmetries, tangents, separation, drift. `verification/validation` compares its values with those
-//! of one direction, of a slow reference and of boundary elements.
+//! of one direction, of a slow solution and of boundary elements.
 
 mod common;
 

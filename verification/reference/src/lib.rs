@@ -9,7 +9,6 @@ pub mod law;
 pub mod quadrature;
 pub mod real;
 pub mod stiffness;
-pub mod two_directions;
 
 pub use law::{Input, Law, Point, Reference};
 pub use real::Real;

@@ -37,12 +37,8 @@ fn csv(table: &str) -> String {
 }
 
 fn main() -> ExitCode {
-    if std::env::args().skip(1).eq(["--reference".to_owned()]) {
-        springs::print_reference();
-        return ExitCode::SUCCESS;
-    }
     let Some(mut documents) = Documents::from_arguments() else {
-        eprintln!("usage: validation [--check | --reference]");
+        eprintln!("usage: validation [--check]");
         return ExitCode::from(2);
     };
     let comparisons = [

@@ -10,8 +10,14 @@ use microslip::element::{Directions, Element};
 use microslip::law::StepResult;
 use microslip::two_directions::{Law, TwoDirections};
 use microslip::{Material, Parameters};
-use reference::two_directions::Point;
 use std::f64::consts::TAU;
+
+/// Force at the end of a row of a path, and energy dissipated in the row.
+#[derive(Debug, Clone, Copy)]
+pub struct Point {
+    pub force: [f64; 2],
+    pub dissipated: f64,
+}
 
 /// A path of the files.
 struct Path {
