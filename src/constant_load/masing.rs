@@ -80,7 +80,7 @@ pub(crate) fn continued(contact: &Contact, state: &[f64], displacement: f64) -> 
 /// Relative change of a displacement by decimal text of 15 digits, at most.
 const TEXT: f64 = 1e-14;
 
-/// Where a step from a state to a displacement \[m\] leads, both checked, and the response there.
+/// The transition and the response of a step; state and displacement \[m\] are checked.
 fn step(contact: &Contact, state: &[f64], displacement: f64) -> (Transition, Response) {
     let memory = state::memory(state);
     let mut transition = memory.locate(contact, displacement, |_| {});

@@ -114,7 +114,7 @@ pub(crate) struct Memory<'a> {
     pub reversals: &'a [Reversal],
 }
 
-/// Where a step leads.
+/// The branch on which a step ends.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Transition {
     /// The branch on which the step ends.

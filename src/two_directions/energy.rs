@@ -1,15 +1,16 @@
 //! Energy that a step dissipates.
 
 use super::nodes::{Nodes, PerAxis, SHIFT, by_axis};
-use super::shells::Pressed;
-use super::step::{Displacements, LEAST, LoadedContact, SpringMotion, StepWork};
+use super::shells::ScaledNormalState;
+use super::step::{Displacements, LoadedContact, SMALLEST_LENGTH, SpringMotion, StepWork};
 use crate::numerics::guard::{TINY, quotient, root};
 
 /// Energy that the springs dissipate in a step, each from where its path leaves its limit.
 ///
 /// The slip of a spring acts against the mean of two displacements, `k (v_c + v)·(v* - v)/2`. v_c is the first point of the straight path from
 /// v_0 to v* with |v| = m l: the limit moves evenly from its value at the start to that at the end, and m = |v|/l at the end of the step, less
-/// than 1 if neighbours turn the tractions. A spring that slips blend slips in the direction of its end from the beginning.
+/// than 1 if neighbours turn the tractions. Towards gross slip v_c is blended, by `blend.part`, with v: the spring slips in its final direction from
+/// the beginning.
 #[inline(never)]
 pub(crate) fn dissipated(
     nodes: &Nodes,
@@ -27,23 +28,23 @@ pub(crate) fn dissipated(
         let limits = to.limits(nodes);
         let follow = by_axis(|axis| step.old.v[axis] + step.parts[axis] * motion.displacement[axis]);
         for j in to.shells.range() {
-            let per_limit = by_axis(|axis| 1.0 / limits[axis][j].max(LEAST));
-            let ratio = (motion.shift_before[0] - nodes[SHIFT][j]).max(0.0) * per_limit[0];
+            let per_limit = by_axis(|axis| 1.0 / limits[axis][j].max(SMALLEST_LENGTH));
+            let limit_ratio = (motion.shift_before[0] - nodes[SHIFT][j]).max(0.0) * per_limit[0];
             let old = by_axis(|axis| step.old.v[axis][j] * per_limit[axis]);
             let trial = by_axis(|axis| follow[axis][j] * per_limit[axis]);
             let end = by_axis(|axis| new.v[axis][j] * per_limit[axis]);
-            let (way, fall) = ([trial[0] - old[0], trial[1] - old[1]], ratio - 1.0);
+            let (change, limit_drop) = ([trial[0] - old[0], trial[1] - old[1]], limit_ratio - 1.0);
             let m = end[0] * end[0] + end[1] * end[1];
             // |v|² = m² l² along the path: a quadratic equation.
             let part = first_exceedance(
-                way[0] * way[0] + way[1] * way[1] - m * fall * fall,
-                old[0] * way[0] + old[1] * way[1] + m * ratio * fall,
-                old[0] * old[0] + old[1] * old[1] - m * ratio * ratio,
+                change[0] * change[0] + change[1] * change[1] - m * limit_drop * limit_drop,
+                old[0] * change[0] + old[1] * change[1] + m * limit_ratio * limit_drop,
+                old[0] * old[0] + old[1] * old[1] - m * limit_ratio * limit_ratio,
             );
             for axis in 0..2 {
                 let v = new.v[axis][j];
                 let leaves = step.old.v[axis][j] + part * (follow[axis][j] - step.old.v[axis][j]);
-                let leaves = leaves + step.blend.part * ((ratio - fall * part) * v - leaves);
+                let leaves = leaves + step.blend.part * ((limit_ratio - limit_drop * part) * v - leaves);
                 energy += 0.5 * step.springs.stiffness[axis][j] * (leaves + v) * (follow[axis][j] - v);
             }
         }
@@ -52,24 +53,24 @@ pub(crate) fn dissipated(
 }
 
 /// Energy of springs that lose contact in a step to a lower load: each slips from where it reaches its limit, which falls to 0 within the
-/// part `limit/fall` of the motion, to nothing.
+/// part `limit/limit_drop` of the motion, to nothing.
 pub(crate) fn separated(
     nodes: &Nodes,
     from: &LoadedContact,
-    now: &Pressed,
+    now: &ScaledNormalState,
     displacement: PerAxis<f64>,
     old: &Displacements,
 ) -> f64 {
     let mut energy = 0.0;
-    let fall = by_axis(|axis| from.now.shift[axis] - now.shift[axis]);
+    let limit_drop = by_axis(|axis| from.now.shift[axis] - now.shift[axis]);
     let limits = from.limits(nodes);
     let stiffness = by_axis(|axis| from.shells.stiffness(axis, &quotient(1.0, from.shells.shift_step[axis])));
     for j in from.shells.range() {
         if now.load > 0.0 && nodes[SHIFT][j] < now.shift[0] {
             continue;
         }
-        let limit = by_axis(|axis| limits[axis][j].max(LEAST));
-        let rate = by_axis(|axis| limit[axis] / fall[axis].max(limit[axis]) * displacement[axis]);
+        let limit = by_axis(|axis| limits[axis][j].max(SMALLEST_LENGTH));
+        let rate = by_axis(|axis| limit[axis] / limit_drop[axis].max(limit[axis]) * displacement[axis]);
         let v = by_axis(|axis| old.v[axis][j]);
         let (x, y, dx, dy) = (v[0] / limit[0], v[1] / limit[1], rate[0] / limit[0], rate[1] / limit[1]);
         let part = first_exceedance(dx * dx + dy * dy - 1.0, x * dx + y * dy + 1.0, x * x + y * y - 1.0);

@@ -16,7 +16,7 @@
 use super::matrix::dot;
 use super::nodes::{NEIGHBOUR, Nodes, PerAxis, ROWS, SPRINGS, Units, by_axis, fill, length};
 use super::path::ContactPath;
-use super::shells::Pressed;
+use super::shells::ScaledNormalState;
 use super::step::{Displacements, LoadedContact, SpringMotion, StepWork, within_friction_limit};
 use super::tangent::{
     ContactSlopes, END, PARAMETERS, ParameterChanges, ParameterTerms, Propagation, REFERENCE, START, SpringChanges,
@@ -251,7 +251,7 @@ struct PeriodIntegration<'a> {
     terms: &'a mut [ParameterTerms; PARAMETERS],
 }
 
-/// What a step gives besides the springs.
+/// Results of a step other than the springs.
 struct StepForces {
     force: PerAxis<f64>,
     unbounded: PerAxis<f64>,
@@ -261,7 +261,7 @@ struct StepForces {
 }
 
 impl<'a> PeriodIntegration<'a> {
-    /// Pressed by a normal component. The step and the terms are large: memory of the caller is not copied.
+    /// ScaledNormalState by a normal component. The step and the terms are large: memory of the caller is not copied.
     fn new(
         element: &'a Element,
         (units, nodes): (Units, &'a Nodes),
@@ -313,7 +313,8 @@ impl<'a> PeriodIntegration<'a> {
     fn press(&mut self, input: f64) {
         self.slopes = [self.slopes[1], None];
         self.normal = self.element.normal(input);
-        self.contact = LoadedContact::new(self.nodes, &Pressed::new(self.element, &self.units, input, &self.normal));
+        self.contact =
+            LoadedContact::new(self.nodes, &ScaledNormalState::new(self.element, &self.units, input, &self.normal));
     }
 
     /// Extrapolates the springs from those a period before.
@@ -526,7 +527,7 @@ fn write_outputs(
 /// that was extrapolated if that is smaller.
 const LEAST_DRIFT_FACTOR: f64 = 5.0;
 
-/// What a sequence of changes leaves, of which these are the last two: that of a geometric one.
+/// The sum of the changes still to come, if they continue as a geometric sequence; these are the last two.
 fn remaining([before, last]: [f64; 2]) -> f64 {
     let ratio = quotient(last.min(before), before).min(0.95);
     last * (ratio / (1.0 - ratio)).max(1.0)

@@ -5,15 +5,15 @@
 //! direction erases the memory of an overload: there all springs are at their limits, which any nodes represent.
 
 use super::nodes::{FLAT_EDGE, Nodes, PerAxis, SHIFT, Units, by_axis, fill, first_shell, last_node, length};
-use super::shells::Pressed;
-use super::step::{Displacements, LEAST, LoadedContact, StepWork};
+use super::shells::ScaledNormalState;
+use super::step::{Displacements, LoadedContact, SMALLEST_LENGTH, StepWork};
 use crate::element::Element;
 use crate::numerics::guard::quotient;
 
-/// The largest load of the nodes over the present one that gross slip does not forget: nodes of such a load are accurate enough.
+/// The largest load of the nodes over the present one of which gross slip does not erase the memory: nodes of such a load are accurate enough.
 const REMEMBERED: f64 = 3.0;
-/// The distance of the force from Coulomb's bound, over it, up to which all points slip in one direction, and from twice which on they do not:
-/// then springs at other nodes carry the same force, but for rounding.
+/// Relative distance of the force from Coulomb's bound up to which all points count as slipping in one direction; the effect vanishes linearly
+/// at twice it. Springs at any nodes then carry the same force, but for rounding.
 const SAME_DIRECTION: f64 = 1e-13;
 /// Changes of the load of the nodes that are worth new ones.
 const WORTH_NEW_NODES: f64 = 1e-3;
@@ -28,7 +28,7 @@ pub(super) struct ContactState {
     pub key: f64,
     pub units: Units,
     /// The normal state in these units, and its derivatives.
-    pub pressed: [Pressed; 2],
+    pub pressed: [ScaledNormalState; 2],
     pub springs: Displacements,
 }
 
@@ -41,7 +41,7 @@ impl ContactState {
             load_slope: 0.0,
             key: 0.0,
             units: Units::default(),
-            pressed: [Pressed::default(); 2],
+            pressed: [ScaledNormalState::default(); 2],
             springs: Displacements::NONE,
         }
     }
@@ -53,7 +53,7 @@ impl ContactState {
         let normal = element.normal(input);
         self.units = Units::at_load(element, load);
         fill(nodes, element, &self.units, 1.0);
-        self.pressed = Pressed::new(element, &self.units, input, &normal);
+        self.pressed = ScaledNormalState::new(element, &self.units, input, &normal);
         (self.normal_force, self.load_slope) = (normal.load, normal.load_slope);
     }
 
@@ -75,7 +75,7 @@ impl ContactState {
         }
         let first = contact.shells.innermost();
         let slip = by_axis(|axis| {
-            (step.trial[axis][first] - self.springs.v[axis][first]) / contact.now.shift[axis].max(LEAST)
+            (step.trial[axis][first] - self.springs.v[axis][first]) / contact.now.shift[axis].max(SMALLEST_LENGTH)
         });
         let remembered = load + (largest - load) / (1.0 + aligned.min(1.0) * length(slip));
         (remembered < largest * (1.0 - WORTH_NEW_NODES)).then_some(remembered)
@@ -92,7 +92,7 @@ pub(super) struct OldNodes {
 
 impl OldNodes {
     /// The springs at new nodes, in their units: their displacements are polygons over S, with the old nodes as corners.
-    pub fn moved_to(&self, nodes: &Nodes, now: &Pressed, units: &Units) -> Displacements {
+    pub fn moved_to(&self, nodes: &Nodes, now: &ScaledNormalState, units: &Units) -> Displacements {
         let (ratio, first) = (self.units.shift / units.shift, self.contact.shells.innermost());
         let last = last_node(nodes, now.inside_shift[0]);
         let mut new = Displacements { edge: self.springs.edge.map(|edge| ratio * edge), ..Displacements::NONE };

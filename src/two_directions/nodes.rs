@@ -17,9 +17,9 @@
 //! F_ij = ψ_j [√(s_{j+1}² - x_i²) - √(s_j² - x_i²)],
 //! ```
 //!
-//! those under the flat, whose force is spread evenly over them, `[acosh(s_{j+1}/x_i) - acosh(s_j/x_i)] g/(4Δs_j)`, with their compliances in
-//! place of ΔS. F_ij/ΔS_j must not increase with j: then the map from tractions to springs has no negative entry, and gross slip solves
-//! Coulomb's law. Rough layers, whose compliance falls with the load, exceed this bound; F is cut at it.
+//! The force of a shell under the flat is spread evenly over it: `load_unit [acosh(s_{j+1}/x_i) - acosh(s_j/x_i)]/(4 (s_{j+1} - s_j))`, with
+//! `load_unit` as in `fill`; its compliance takes the place of ΔS_j. F_ij/ΔS_j must not increase with j: then the map from tractions to springs
+//! has no negative entry, and gross slip solves Coulomb's law. Rough layers, whose compliance falls with the load, exceed this bound; F is cut at it.
 //!
 //! All is in units of N, of S across the line and of the leg, √(s² - a²), of the reference size.
 
@@ -54,6 +54,7 @@ const EDGE_SHARE: f64 = 0.75;
 /// The distance from the edge of the last node over that of the first one, in √S.
 const GRADING: f64 = 0.02;
 /// The position of x_i in its shell: in its inner half F_ij/ΔS_j decreases with j. Values from 0.02 to 0.2 are as good.
+/// The rule is used in `fill`, twice, in `pressure_at_edge` and in its derivative.
 const POINT_FRACTION: f64 = 0.1;
 /// Intervals in the leg between which the cumulative distribution of the nodes is inverted linearly: what follows from it need not be exact,
 /// but smooth.

@@ -22,7 +22,7 @@ use core::ops::Range;
 
 /// The normal state in the units of the springs: N, S of both directions, leg²; N and S of a slightly smaller size, inside the edge.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Pressed {
+pub(crate) struct ScaledNormalState {
     pub load: f64,
     pub shift: PerAxis<f64>,
     pub leg_squared: f64,
@@ -41,9 +41,9 @@ const THINNEST: f64 = 1e-9;
 /// The least stiffness of a spring, relative to the secant: above the rounding errors of differences.
 const LEAST_STIFFNESS: f64 = 1e-12;
 
-impl Pressed {
+impl ScaledNormalState {
     /// The state of a contact that is closed, and its derivatives by the normal component over its scale.
-    pub fn new(element: &Element, units: &Units, input: f64, normal: &Normal) -> [Pressed; 2] {
+    pub fn new(element: &Element, units: &Units, input: f64, normal: &Normal) -> [ScaledNormalState; 2] {
         // Products only: the compiler may divide by what is beside a number in its vector register.
         let [per_load, per_shift, per_leg] = [units.load, units.shift, units.leg].map(f64::recip);
         let [leg, slope] = element.shape().size_under(normal.load.max(SMALLEST_LOAD * element.normal_force));
@@ -55,16 +55,16 @@ impl Pressed {
         let inner = [inside.load_slope, inside.shift_slope, y_inside[1]].map(|slope| INSIDE_EDGE * slope);
         let slopes = [normal.load_slope, normal.shift_slope, y[1], slope, inner[0], inner[1], inner[2]];
         [now, slopes.map(|slope| scale * slope)]
-            .map(|values| Pressed::from_values(core::array::from_fn(|i| values[i] * per[i])))
+            .map(|values| ScaledNormalState::from_values(core::array::from_fn(|i| values[i] * per[i])))
     }
 
     /// A normal state from all its values, in order.
-    pub fn from_values([load, x, y, leg_squared, inside, inside_x, inside_y]: [f64; VALUES]) -> Pressed {
-        Pressed { load, shift: [x, y], leg_squared, inside, inside_shift: [inside_x, inside_y] }
+    pub fn from_values([load, x, y, leg_squared, inside, inside_x, inside_y]: [f64; VALUES]) -> ScaledNormalState {
+        ScaledNormalState { load, shift: [x, y], leg_squared, inside, inside_shift: [inside_x, inside_y] }
     }
 
     pub fn values(&self) -> [f64; VALUES] {
-        let Pressed { load, shift: [x, y], leg_squared, inside, inside_shift: [inside_x, inside_y] } = *self;
+        let ScaledNormalState { load, shift: [x, y], leg_squared, inside, inside_shift: [inside_x, inside_y] } = *self;
         [load, x, y, leg_squared, inside, inside_x, inside_y]
     }
 }
@@ -94,7 +94,7 @@ impl Shells {
         edge_stiffness: [0.0; 2],
     };
 
-    pub fn new(nodes: &Nodes, now: &Pressed) -> Shells {
+    pub fn new(nodes: &Nodes, now: &ScaledNormalState) -> Shells {
         let last = last_node(nodes, now.inside_shift[0] * (1.0 - THINNEST)).min(SPRINGS - 1);
         let mut shells = Shells::before(nodes, first_shell(nodes), last);
         shells.set_last(nodes, now);
@@ -114,7 +114,7 @@ impl Shells {
     }
 
     /// The last shell.
-    fn set_last(&mut self, nodes: &Nodes, now: &Pressed) {
+    fn set_last(&mut self, nodes: &Nodes, now: &ScaledNormalState) {
         let last = self.last.min(SPRINGS - 1);
         let (next_to_last, mut steps) = (last.max(1) - 1, [0.0; 2]);
         for axis in 0..2 {
@@ -139,8 +139,8 @@ impl Shells {
         &mut self,
         nodes: &Nodes,
         of: &Shells,
-        now: &Pressed,
-        slopes: &Pressed,
+        now: &ScaledNormalState,
+        slopes: &ScaledNormalState,
         by_nodes: Option<&Nodes>,
     ) {
         let last = of.last.min(SPRINGS - 1);
@@ -224,12 +224,12 @@ impl Shells {
 }
 
 /// v_j - v_{j+1}: the springs beyond the edge are 0.
-pub(crate) fn falls(v: &Row) -> Row {
-    let mut falls = *v;
+pub(crate) fn minus_next(v: &Row) -> Row {
+    let mut differences = *v;
     for j in 0..SPRINGS - 1 {
-        falls[j] -= v[j + 1];
+        differences[j] -= v[j + 1];
     }
-    falls
+    differences
 }
 
 /// The springs of a contact, and their maps from and to tractions.
@@ -293,7 +293,7 @@ impl Springs {
     /// q of springs.
     pub fn tractions(&self, v: &PerAxis<Row>) -> PerAxis<Row> {
         let mut q = [Row::ZERO; 2];
-        let falls = by_axis(|axis| falls(&v[axis]) * self.per_shift[axis]);
+        let falls = by_axis(|axis| minus_next(&v[axis]) * self.per_shift[axis]);
         for j in self.shells.range() {
             for axis in 0..2 {
                 q[axis] += falls[axis][j] * self.pressure[j];

@@ -42,7 +42,7 @@ const ATTEMPTS: usize = 8;
 /// Newton steps after which points that slip backwards stick: the angle of a point that hardly slips is undetermined.
 const REVIEW_INTERVAL: usize = 15;
 /// Coulomb's bound of |q|², but for rounding: a point whose |q|² is larger slips.
-const SLIP_THRESHOLD: f64 = 1.0 + 1e-12;
+const SQUARED_SLIP_THRESHOLD: f64 = 1.0 + 1e-12;
 /// A point sticks again if its slip against the traction is more than this part of the scale of slip, a rounding error.
 const BACKSLIP_TOLERANCE: f64 = 1e-14;
 /// A point is expected to slip if its traction is more than this part of the bound.
@@ -66,11 +66,13 @@ pub(crate) struct Slip {
 #[repr(align(32))]
 pub(crate) struct Metric {
     matrices: PerAxis<Matrix>,
-    /// The set and the load; a load that is NaN is never met again.
+    /// The set and the load of K. K is computed anew if either differs, and always for `NEVER_REUSED`.
     computed_for: (Set, f64),
 }
 
 impl Metric {
+    /// A load at which K is not that of a contact: it equals no load.
+    pub const NEVER_REUSED: f64 = f64::NAN;
     pub const NONE: Metric = Metric { matrices: [[Row::ZERO; SPRINGS]; 2], computed_for: (0, 0.0) };
 }
 
@@ -98,7 +100,7 @@ impl Slip {
     pub fn find(&mut self, metric: &mut Metric, springs: &Springs, trial: &PerAxis<Row>, load: f64, derivatives: bool) {
         let q = springs.tractions(trial);
         let [x, y] = directions(&q);
-        let mut beyond = members(&square(&q), &Lanes([SLIP_THRESHOLD; SPRINGS]));
+        let mut beyond = members(&square(&q), &Lanes([SQUARED_SLIP_THRESHOLD; SPRINGS]));
         let points = &mut self.points;
         (points.set, points.v, points.q, points.r) = (beyond, *trial, q, [Row::ZERO; 2]);
         if beyond == 0 {
@@ -232,7 +234,8 @@ impl Points {
         } else {
             self.q = *q;
         }
-        let (directions, beyond) = (directions(&self.q), members(&square(&self.q), &Lanes([SLIP_THRESHOLD; SPRINGS])));
+        let (directions, beyond) =
+            (directions(&self.q), members(&square(&self.q), &Lanes([SQUARED_SLIP_THRESHOLD; SPRINGS])));
         let (mut scale, along) = (Row::ZERO, self.r[0] * self.e[0] + self.r[1] * self.e[1]);
         for i in 0..SPRINGS {
             scale[i] = metric[0][i][i] + metric[1][i][i];

@@ -16,8 +16,8 @@ use super::nodes::{
     FLAT_EDGE, LEG_SQUARED, NEIGHBOUR, Nodes, POINT_SQUARED, PRESSURE, PerAxis, ROWS, SHIFT, SPRINGS, Units, fill,
 };
 use super::path::{ContactPath, LONGEST};
-use super::shells::{Pressed, VALUES};
-use super::step::{Displacements, LEAST, LoadedContact, SpringMotion, StepWork, within_friction_limit};
+use super::shells::{ScaledNormalState, VALUES};
+use super::step::{Displacements, LoadedContact, SMALLEST_LENGTH, SpringMotion, StepWork, within_friction_limit};
 use super::tangent::{
     ContactSlopes, END, PARAMETERS, ParameterChanges, ParameterTerms, Propagation, REFERENCE, SpringChanges,
     slopes_of_nodes,
@@ -95,7 +95,7 @@ impl Law for TwoDirections {
         let Units { load, shift, leg } = at.units;
         let [now, slopes] = &at.pressed;
         let positive = [at.normal_force, load, shift, leg, now.load, now.shift[0], now.shift[1], now.leg_squared];
-        let small = slopes.values().iter().all(|slope| slope.abs() <= 1.0 / LEAST);
+        let small = slopes.values().iter().all(|slope| slope.abs() <= 1.0 / SMALLEST_LENGTH);
         // The nodes lie in order. Only places of points and sizes over that of the flat may be negative, only pressures under sharp edges great.
         let ordered = [SHIFT, SHIFT + 1].into_iter().all(|row| nodes[row].iter().skip(FLAT_EDGE).is_sorted());
         let tables = nodes.iter().enumerate().all(|(row, values)| {
@@ -156,7 +156,7 @@ impl State<'_> {
     fn read(&self) -> ContactState {
         let [first, second] = &*self.header;
         let [_, normal_force, load_slope, v, u, input, key, load, shift, leg, edge_x, edge_y, ..] = *first;
-        let pressed = |from: usize| Pressed::from_values(core::array::from_fn(|i| second[from + i]));
+        let pressed = |from: usize| ScaledNormalState::from_values(core::array::from_fn(|i| second[from + i]));
         ContactState {
             displacement: [u, v, input],
             normal_force,
@@ -234,7 +234,7 @@ impl State<'_> {
         let unit = element.friction_coefficient * at.units.load;
         let mut contact = from;
         if !same {
-            at.pressed = Pressed::new(element, &at.units, to[2], &normal);
+            at.pressed = ScaledNormalState::new(element, &at.units, to[2], &normal);
             contact = LoadedContact::new(self.nodes, &at.pressed);
         }
         let motion =
@@ -279,7 +279,7 @@ impl State<'_> {
             let unit = element.friction_coefficient * at.units.load;
             let unit = unit * element.friction_coefficient * at.units.shift * path.scale;
             result.dissipated =
-                unit * separated(self.nodes, &from, &Pressed::default(), path.displacement, &at.springs);
+                unit * separated(self.nodes, &from, &ScaledNormalState::default(), path.displacement, &at.springs);
         }
         self.open(to);
         result

@@ -13,7 +13,7 @@
 
 use super::matrix::dot;
 use super::nodes::{Nodes, PerAxis, Row, SHIFT, SPRINGS, by_axis, length};
-use super::shells::{Pressed, Shells, Springs};
+use super::shells::{ScaledNormalState, Shells, Springs};
 use super::slip::{Metric, Slip, lanes_of, within};
 use crate::numerics::guard::quotient;
 use crate::numerics::lanes::Lanes;
@@ -21,13 +21,13 @@ use crate::numerics::lanes::Lanes;
 /// A contact under a load, by default open: its normal state, with derivatives by the normal component over its scale, and its shells.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct LoadedContact {
-    pub now: Pressed,
-    pub slopes: Pressed,
+    pub now: ScaledNormalState,
+    pub slopes: ScaledNormalState,
     pub shells: Shells,
 }
 
 impl LoadedContact {
-    pub fn new(nodes: &Nodes, [now, slopes]: &[Pressed; 2]) -> LoadedContact {
+    pub fn new(nodes: &Nodes, [now, slopes]: &[ScaledNormalState; 2]) -> LoadedContact {
         LoadedContact { now: *now, slopes: *slopes, shells: Shells::new(nodes, now) }
     }
 
@@ -67,7 +67,7 @@ pub(crate) struct SpringMotion {
 }
 
 /// Limits and rises below this, in the unit of the springs, are rounding; fourth powers of a motion over it stay finite.
-pub(crate) const LEAST: f64 = 1e-40;
+pub(crate) const SMALLEST_LENGTH: f64 = 1e-40;
 
 /// Displacements over the innermost limit between which a step erases the memory.
 const BLEND_RANGE: [f64; 2] = [2.5, 5.0];
@@ -92,47 +92,48 @@ pub(crate) struct GrossSlipBlend {
 
 impl GrossSlipBlend {
     fn new(to: &LoadedContact, motion: &SpringMotion, old: &Displacements) -> GrossSlipBlend {
-        let (mut way, mut cut, mut ratio) = (motion.displacement, [0.0; 2], [0.0; 2]);
+        let (mut travel, mut cut, mut ratio) = (motion.displacement, [0.0; 2], [0.0; 2]);
         for axis in 0..2 {
-            let limit = to.now.shift[axis].max(LEAST);
+            let limit = to.now.shift[axis].max(SMALLEST_LENGTH);
             cut[axis] =
                 (1.0 - limit / motion.shift_before[axis].max(limit)) * f64::from(u8::from(!motion.constant_load));
-            way[axis] += cut[axis] * old.v[axis][to.shells.innermost()];
-            ratio[axis] = way[axis] / limit;
+            travel[axis] += cut[axis] * old.v[axis][to.shells.innermost()];
+            ratio[axis] = travel[axis] / limit;
         }
         let distance = length(ratio);
-        let per_length = 1.0 / length(way).max(LEAST);
+        let per_length = 1.0 / length(travel).max(SMALLEST_LENGTH);
         let x = ((distance - BLEND_RANGE[0]) / (BLEND_RANGE[1] - BLEND_RANGE[0])).clamp(0.0, 1.0);
         let part_slope = 6.0 * x * (1.0 - x) / (BLEND_RANGE[1] - BLEND_RANGE[0]);
-        let e = way.map(|way| way * per_length);
+        let e = travel.map(|travel| travel * per_length);
         GrossSlipBlend { part: x * x * (3.0 - 2.0 * x), part_slope, cut, ratio, distance, e, per_length }
     }
 }
 
-/// The limit of a spring at the start over that at the end, from which on the spring is released in the step.
-const LARGEST_FALL: f64 = 4.0;
+/// A spring is released if its limit falls by more than this factor in the step.
+const RELEASE_RATIO: f64 = 4.0;
 
-/// A spring whose limit falls to a small part, and vanishes if the edge passes its node: it slips for the most part on its own, before the
-/// others. Its trial state exceeds its limit by a part of the excess only, which is 0 if the spring is removed by the end.
+/// A spring whose limit falls by more than `RELEASE_RATIO` in the step, or to 0 if the edge passes its node. It slips mostly on its own, before
+/// the others: only `excess_share` of the excess of its trial state over its limit is left for the joint slip.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct Released {
+pub(crate) struct ReleasedSpring {
     /// The trial state over the limit, and its length.
     pub ratio: PerAxis<f64>,
     pub length: f64,
-    /// The part of the excess that is left, and the factor by which the trial state is reduced.
-    pub part: f64,
+    /// The share of the excess that is left.
+    pub excess_share: f64,
+    /// The factor by which the trial state is reduced.
     pub scale: f64,
 }
 
-impl Released {
+impl ReleasedSpring {
     /// Not inlined: the compiler would divide by what is beside its quotients in the vector registers of a caller, too.
     #[inline(never)]
-    pub fn new(limit: PerAxis<f64>, fall: f64, trial: PerAxis<f64>) -> Released {
-        let ratio = by_axis(|axis| trial[axis] / limit[axis].max(LEAST));
+    pub fn new(limit: PerAxis<f64>, fall: f64, trial: PerAxis<f64>) -> ReleasedSpring {
+        let ratio = by_axis(|axis| trial[axis] / limit[axis].max(SMALLEST_LENGTH));
         let length = length(ratio);
-        let part = (LARGEST_FALL * limit[0] / (limit[0] + fall).max(LEAST)).min(1.0);
-        let scale = if length > 1.0 { (1.0 + part * (length - 1.0)) / length.max(1.0) } else { 1.0 };
-        Released { ratio, length, part, scale }
+        let excess_share = (RELEASE_RATIO * limit[0] / (limit[0] + fall).max(SMALLEST_LENGTH)).min(1.0);
+        let scale = if length > 1.0 { (1.0 + excess_share * (length - 1.0)) / length.max(1.0) } else { 1.0 };
+        ReleasedSpring { ratio, length, excess_share, scale }
     }
 }
 
@@ -233,17 +234,17 @@ impl StepWork {
             self.parts[axis] = Lanes([1.0; SPRINGS]);
             let rise = to.now.shift[axis] - motion.shift_before[axis];
             if !motion.constant_load && rise > 0.0 {
-                let parts = limits[axis] * (1.0 / rise.max(LEAST));
+                let parts = limits[axis] * (1.0 / rise.max(SMALLEST_LENGTH));
                 self.parts[axis] = parts.map(|part| part.min(1.0));
             }
             self.trial[axis] = to.used() * (self.old.v[axis] + self.parts[axis] * motion.displacement[axis]);
         }
         let fall = motion.shift_before[0] - to.now.shift[0];
-        if motion.constant_load || fall <= (LARGEST_FALL - 1.0) * limits[0][to.shells.last.min(SPRINGS - 1)] {
+        if motion.constant_load || fall <= (RELEASE_RATIO - 1.0) * limits[0][to.shells.last.min(SPRINGS - 1)] {
             return;
         }
         for j in to.shells.range() {
-            let kept = Released::new([limits[0][j], limits[1][j]], fall, [self.trial[0][j], self.trial[1][j]]);
+            let kept = ReleasedSpring::new([limits[0][j], limits[1][j]], fall, [self.trial[0][j], self.trial[1][j]]);
             for axis in 0..2 {
                 self.trial[axis][j] *= kept.scale;
             }
@@ -257,7 +258,7 @@ impl StepWork {
             self.middle.find(&mut self.metric, &self.springs, &half, to.now.load, derivatives);
         } else {
             self.between.set(nodes, [&from.shells, &to.shells]);
-            self.middle.find(&mut self.metric, &self.between, &half, f64::NAN, derivatives);
+            self.middle.find(&mut self.metric, &self.between, &half, Metric::NEVER_REUSED, derivatives);
         }
         let beyond = self.end_trial(to);
         self.end.find(&mut self.metric, &self.springs, &beyond, to.now.load, derivatives);
@@ -280,7 +281,7 @@ impl StepWork {
 
     /// The spring at the edge is another one under another load: a rising load keeps that part of it which is still at the edge.
     fn move_edge(&mut self, [from, to]: [&LoadedContact; 2], motion: &SpringMotion, springs: &mut Displacements) {
-        let [limit, before] = [to, from].map(|contact| contact.edge_limits().map(|limit| limit.max(LEAST)));
+        let [limit, before] = [to, from].map(|contact| contact.edge_limits().map(|limit| limit.max(SMALLEST_LENGTH)));
         for axis in 0..2 {
             let rise = to.now.shift[axis] - motion.shift_before[axis];
             self.edge.part[axis] = limit[axis] / rise.max(limit[axis]);
@@ -290,7 +291,7 @@ impl StepWork {
             self.edge.ratio[axis] = (old + self.edge.part[axis] * motion.displacement[axis]) / limit[axis];
         }
         self.edge.length = length(self.edge.ratio);
-        self.edge.slips = self.edge.length > SLIP_TOLERANCE;
+        self.edge.slips = self.edge.length > LENGTH_SLIP_THRESHOLD;
         let scale = (1.0 - self.blend.part) / if self.edge.slips { self.edge.length } else { 1.0 };
         for axis in 0..2 {
             springs.edge[axis] = limit[axis] * (scale * self.edge.ratio[axis] + self.blend.part * self.blend.e[axis]);
@@ -299,7 +300,7 @@ impl StepWork {
 }
 
 /// The largest length of a state over its limit that sticks: one that has slipped may round.
-pub(crate) const SLIP_TOLERANCE: f64 = 1.0 + 1e-12;
+pub(crate) const LENGTH_SLIP_THRESHOLD: f64 = 1.0 + 1e-12;
 
 /// A force within Coulomb's bound.
 pub(crate) fn within_friction_limit(force: PerAxis<f64>, bound: f64) -> PerAxis<f64> {

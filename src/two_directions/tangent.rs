@@ -9,9 +9,11 @@
 
 use super::matrix::{dot, times_upper, times_upper_transposed};
 use super::nodes::{FLAT_EDGE, Matrix, NEIGHBOUR, Nodes, PerAxis, Row, SHIFT, SPRINGS, by_axis, length};
-use super::shells::{Pressed, Shells, Springs, falls};
+use super::shells::{ScaledNormalState, Shells, Springs, minus_next};
 use super::slip::{Set, Slip, set_metric, within};
-use super::step::{Displacements, LEAST, LoadedContact, Released, SLIP_TOLERANCE, SpringMotion, StepWork};
+use super::step::{
+    Displacements, LENGTH_SLIP_THRESHOLD, LoadedContact, ReleasedSpring, SMALLEST_LENGTH, SpringMotion, StepWork,
+};
 use crate::numerics::guard::quotient;
 use crate::numerics::lanes::Lanes;
 
@@ -70,7 +72,7 @@ impl ContactSlopes {
                 nodes,
                 &contact.shells,
                 &contact.now,
-                &Pressed::default(),
+                &ScaledNormalState::default(),
                 Some(slopes),
             );
         }
@@ -87,7 +89,7 @@ pub(crate) fn slopes_of_nodes([larger, smaller]: [&Nodes; 2]) -> Nodes {
     slopes
 }
 
-/// What the derivative by one parameter of a contact adds to the changes of its springs.
+/// Terms of the derivative by one parameter of a contact in the changes of its springs.
 pub(crate) struct ParameterTerms {
     /// Derivatives of S at the start and at the end, of S of the nodes and of N.
     shift_before: PerAxis<f64>,
@@ -130,7 +132,7 @@ impl SlipTerms {
         }
         let (shell_slopes, mut by_pressure) = (Shells::middle(ends), Row::ZERO);
         let (mut tractions, mut sums) = ([Row::ZERO; 2], [Row::ZERO; 2]);
-        let falls = by_axis(|axis| falls(&slip.v[axis]) * springs.per_shift[axis]);
+        let falls = by_axis(|axis| minus_next(&slip.v[axis]) * springs.per_shift[axis]);
         let slipped = by_axis(|axis| slip.r[axis] * springs.per_pressure);
         for j in from.max(shells.range().start)..shells.range().end {
             let pressure = Shells::middle_pressure(ends, nodes, j);
@@ -146,8 +148,8 @@ impl SlipTerms {
         }
         by_pressure = springs.per_pressure * by_pressure;
         for axis in 0..2 {
-            self.forces[axis] =
-                stiffness_slopes(springs, axis, &shell_slopes) * (trial[axis] - slip.v[axis]) - rises(&sums[axis]);
+            self.forces[axis] = stiffness_slopes(springs, axis, &shell_slopes) * (trial[axis] - slip.v[axis])
+                - minus_previous(&sums[axis]);
             self.tractions[axis] = springs.per_pressure * tractions[axis] - slip.q[axis] * by_pressure;
             self.slip[axis] = slip.r[axis] * by_pressure;
         }
@@ -155,12 +157,12 @@ impl SlipTerms {
 }
 
 /// x_j - x_{j-1}.
-fn rises(x: &Row) -> Row {
-    let mut rises = *x;
+fn minus_previous(x: &Row) -> Row {
+    let mut differences = *x;
     for j in 1..SPRINGS {
-        rises[j] -= x[j - 1];
+        differences[j] -= x[j - 1];
     }
-    rises
+    differences
 }
 
 /// Derivatives of k_j.
@@ -168,7 +170,7 @@ fn stiffness_slopes(springs: &Springs, axis: usize, slopes: &Shells) -> Row {
     let secants = (slopes.load_step[axis]
         - springs.shells.load_step[axis] * springs.per_shift[axis] * slopes.shift_step[axis])
         * springs.per_shift[axis];
-    rises(&secants)
+    minus_previous(&secants)
 }
 
 impl ParameterTerms {
@@ -263,7 +265,7 @@ impl Propagation<'_> {
                     // The part of springs that are engaged in the step is their limit over the rise.
                     let rises = parameters.sum(|terms| terms.shift[axis] - terms.shift_before[axis]);
                     let part = used[j] * parameters.limit(axis, j) - step.parts[axis][j] * rises;
-                    v[axis][j].add_first((motion.displacement[axis] / rise.max(LEAST)) * part);
+                    v[axis][j].add_first((motion.displacement[axis] / rise.max(SMALLEST_LENGTH)) * part);
                 }
             }
         }
@@ -310,9 +312,9 @@ impl Propagation<'_> {
         }
         let limits = contact.limits(nodes);
         for j in contact.shells.range() {
-            let limit = [limits[0][j].max(LEAST), limits[1][j].max(LEAST)];
+            let limit = [limits[0][j].max(SMALLEST_LENGTH), limits[1][j].max(SMALLEST_LENGTH)];
             let trial = [step.old.v[0][j] + motion.displacement[0], step.old.v[1][j] + motion.displacement[1]];
-            let released = Released::new(limit, fall, trial);
+            let released = ReleasedSpring::new(limit, fall, trial);
             if released.scale >= 1.0 {
                 continue;
             }
@@ -321,14 +323,14 @@ impl Propagation<'_> {
             let [per_x, per_y, per_length, per_before] = *(1.0 / divisors);
             let by_limit = by_axis(|axis| parameters.limit(axis, j));
             let by_before = parameters.sum(|terms| terms.shift_before[0] - terms.nodes[0][j]);
-            let by_part = released.part * (per_x * by_limit[0] - per_before * by_before);
+            let by_part = released.excess_share * (per_x * by_limit[0] - per_before * by_before);
             let mut ratio = [v[0][j], v[1][j]];
             for axis in 0..2 {
                 ratio[axis].add_first(-released.ratio[axis] * by_limit[axis]);
                 ratio[axis] = [per_x, per_y][axis] * ratio[axis];
             }
             let length = per_length * (released.ratio[0] * ratio[0] + released.ratio[1] * ratio[1]);
-            let mut scale = per_length * (released.part - released.scale) * length;
+            let mut scale = per_length * (released.excess_share - released.scale) * length;
             scale.add_first((per_length * (released.length - 1.0)) * by_part);
             for axis in 0..2 {
                 v[axis][j] = limit[axis] * (released.scale * ratio[axis] + released.ratio[axis] * scale);
@@ -345,7 +347,7 @@ impl Propagation<'_> {
     ) -> PerAxis<Lanes<L>> {
         let Propagation { contact, motion, step, parameters, .. } = self;
         let (mut ratio, edge) = ([Lanes::ZERO; 2], &step.edge);
-        let limit = contact.edge_limits().map(|limit| limit.max(LEAST));
+        let limit = contact.edge_limits().map(|limit| limit.max(SMALLEST_LENGTH));
         for axis in 0..2 {
             ratio[axis] = edge.part[axis] * displacement[axis] + edge.kept[axis] * old[axis];
             let rise = (contact.now.shift[axis] - motion.shift_before[axis]).max(limit[axis]);
@@ -387,20 +389,21 @@ impl Propagation<'_> {
     ) {
         let Propagation { contact, nodes, motion, step, parameters, .. } = self;
         let (blend, first) = (&step.blend, contact.shells.innermost());
-        let (mut way, mut distance) = (*displacement, Lanes::ZERO);
+        let (mut travel, mut distance) = (*displacement, Lanes::ZERO);
         for axis in 0..2 {
-            let (limit, before) = (contact.now.shift[axis].max(LEAST), motion.shift_before[axis].max(LEAST));
-            way[axis] += blend.cut[axis] * old[axis][first];
+            let (limit, before) =
+                (contact.now.shift[axis].max(SMALLEST_LENGTH), motion.shift_before[axis].max(SMALLEST_LENGTH));
+            travel[axis] += blend.cut[axis] * old[axis][first];
             // A constant load is the limit of falling ones.
             if contact.now.shift[axis] <= motion.shift_before[axis] {
                 let cut = parameters.sum(|terms| (limit / before) * terms.shift_before[axis] - terms.shift[axis]);
-                way[axis].add_first((step.old.v[axis][first] / before) * cut);
+                travel[axis].add_first((step.old.v[axis][first] / before) * cut);
             }
-            let mut ratio = way[axis];
+            let mut ratio = travel[axis];
             ratio.add_first(-blend.ratio[axis] * parameters.sum(|terms| terms.shift[axis]));
             distance += (quotient(blend.ratio[axis], blend.distance) / limit) * ratio;
         }
-        let (by_part, by_e) = (blend.part_slope * distance, across(blend.e, blend.per_length, way));
+        let (by_part, by_e) = (blend.part_slope * distance, across(blend.e, blend.per_length, travel));
         let blended = |axis: usize, value: f64, changes: Lanes<L>, limit: f64, by_limit: Lanes<4>| {
             let (part, e) = (blend.part, blend.e[axis]);
             let mut changes = (1.0 - part) * changes + (limit * e - value) * by_part + (part * limit) * by_e[axis];
@@ -427,7 +430,7 @@ impl Propagation<'_> {
         [x, y]: PerAxis<Lanes<L>>,
     ) -> PerAxis<Lanes<L>> {
         let (length, bound) = (length(force), self.contact.now.load);
-        if length <= SLIP_TOLERANCE * bound {
+        if length <= LENGTH_SLIP_THRESHOLD * bound {
             return [x, y];
         }
         let per = quotient(1.0, length);
