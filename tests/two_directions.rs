@@ -1,4 +1,4 @@
-//! The law for two tangential directions: symmetries, tangents, separation, drift. `verification/validation` compares its values with those
+//! The law for two tangential directions: symmetries, Jacobians, separation, drift. `verification/validation` compares its values with those
 //! of one direction, of a slow solution and of boundary elements.
 
 mod common;
@@ -8,7 +8,7 @@ use common::two_directions::*;
 use microslip::element::{Directions, Element, NormalInput};
 use microslip::law::StepOf;
 use microslip::parameters::{EllipticParameters, Layer, Material, Parameters, RIGID_STRIP};
-use microslip::two_directions::{Law, TwoDirections};
+use microslip::two_directions::TwoDirections;
 use std::array::from_fn;
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -52,66 +52,6 @@ const HALF_WIDTHS: [f64; 3] = [0.0, 1e-4, 3.7e-4];
 /// The shift of the contact under its normal force: motions are given in units of mu times it.
 fn unit(element: &Element) -> f64 {
     element.friction_coefficient * element.shift_under(element.normal_force)
-}
-
-#[test]
-fn tangents_are_derivatives() {
-    let mut random = Random(1);
-    let elements = vec![
-        flat(0.0, NormalInput::Force),
-        flat(2e-4, NormalInput::Force),
-        flat(3e-3, NormalInput::Approach),
-        sphere(),
-        ellipse(3.0, Layer::none(), NormalInput::Force),
-    ];
-    for element in &elements {
-        let (unit, full) = (unit(element), normal_input(element, 1.0));
-        let mut contact = Contact::new(element);
-        let mut at = [0.0, 0.0, full];
-        contact.to(at);
-        for k in 0..200 {
-            let size = [0.05, 0.3, 1.0, 3.0][k % 4] * unit;
-            let load = if k % 3 == 0 { at[2] } else { full * (random.next() * 1.3 - 0.15) };
-            let load = if element.normal_input == NormalInput::Force as i32 { load.max(0.0) } else { load };
-            let next = [at[0] + size * (random.next() - 0.5), at[1] + size * (random.next() - 0.5), load];
-            let next = if k % 10 < 2 { [next[0], at[1], next[2]] } else { next };
-            let step = contact.trial(next);
-            for column in 0..3 {
-                if column == 2 && next[2] <= 0.0 {
-                    continue;
-                }
-                let h = if column < 2 { 1e-6 * unit } else { 1e-6 * full };
-                let moved = |h: f64| {
-                    let mut to = next;
-                    to[column] += h;
-                    contact.trial(to).force
-                };
-                let differences = |h: f64| {
-                    let (high, low) = (moved(h), moved(-h));
-                    [0, 1].map(|row| (high[row] - low[row]) / (2.0 * h))
-                };
-                // A spring that begins to slip between both displacements is a corner of the force: then smaller differences are
-                // those of one side.
-                let (wide, narrow) = (differences(h), differences(h / 16.0));
-                // At a constant load, loads that rise and that fall are the two sides of a corner.
-                let one_sided = [1.0, -1.0, 1.0 / 16.0, -1.0 / 16.0].map(|part| {
-                    let (to, from, h) = (moved(part * h / 16.0), step.force, part * h / 16.0);
-                    [0, 1].map(|row| (to[row] - from[row]) / h)
-                });
-                for row in 0..2 {
-                    let scale = element.tangential_stiffness * if column < 2 { 1.0 } else { unit / full };
-                    let tangent = step.tangent[3 * column + row];
-                    let error = |difference: &[f64; 2]| (difference[row] - tangent).abs() / scale;
-                    let all = if column < 2 || next[2] != at[2] { vec![wide, narrow] } else { one_sided.to_vec() };
-                    let error = all.iter().map(error).fold(f64::INFINITY, f64::min);
-                    assert!(error < 1e-4, "{k} {row} {column}: {error:e}, {at:?} -> {next:?}");
-                }
-            }
-            at = next;
-            contact.to(at);
-            TwoDirections::state_check(&contact.state).unwrap();
-        }
-    }
 }
 
 /// The normal component of a share of the normal force of the parameters.
