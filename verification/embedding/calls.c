@@ -162,7 +162,9 @@ static double decades(uint64_t *sequence, int most)
     return factor;
 }
 
-int initialise(int which, mslip_contact *contact, mslip_element *element)
+/* Initialises one of the contacts and its element; from CONTACTS on with parameters over many decades, of which some are rejected: whether
+   these are accepted. */
+static int initialise(int which, mslip_contact *contact, mslip_element *element)
 {
     enum { FLAT, CYLINDER, NEARLY_FLAT, RIGID, SHORT, ELLIPSE, SPHERE, LAYER, KINDS };
     const int kind = which % KINDS, size = which / KINDS;
@@ -199,7 +201,7 @@ int initialise(int which, mslip_contact *contact, mslip_element *element)
     return status == MSLIP_OK;
 }
 
-uint64_t hash_of_one(const mslip_contact *contact, const mslip_element *element)
+static uint64_t hash_of_one(const mslip_contact *contact, const mslip_element *element)
 {
     results r;
     r.hash = UINT64_C(0xcbf29ce484222325);

@@ -4,7 +4,6 @@
 #   compilers   standards of C and C++, with warnings as errors
 #   links       static, position independent, LTO, each linker, shared objects, together with another Rust archive
 #   valgrind    the installed archive: accesses outside of arrays, uninitialised values
-#   threads     the same results with 1 to 8 threads; races by ThreadSanitizer
 # shellcheck disable=SC2086  # flags are lists
 set -eu
 
@@ -12,11 +11,10 @@ set -eu
 prefix=$(cd "$1" && pwd)
 shift
 cd "$(dirname "$0")/../.."
-: "${CARGO:=cargo}" "${CC:=gcc}" "${CXX:=g++}" "${VALGRIND:=valgrind}"
+: "${CC:=gcc}" "${CXX:=g++}" "${VALGRIND:=valgrind}"
 . tools/checks.sh
 here=verification/embedding
 archive=$prefix/lib/libmicroslip.a
-triple=$(rustc -vV | sed -n 's/^host: //p')
 # What Rust's own library needs in archives other than the installed one.
 system='-lpthread -ldl -lm'
 
@@ -112,39 +110,18 @@ links() {
     check 'before and after another Rust archive' other_rust_archive
 }
 
-# --- valgrind, threads ---
+# --- valgrind ---
 
 valgrind_checks() {
     memcheck="$VALGRIND --quiet --error-exitcode=9"
     check 'valgrind: all calls' same_hash $memcheck --leak-check=full "$work/first"
 }
 
-threads() {
-    optimised='-g -O1 -ffp-contract=off'
-    check '1 to 8 threads' build threads $CC $optimised $calls $here/threads.c "$archive" -lm -lpthread
-    check '1 to 8 threads give the same results' "$work/threads"
-    # The option is not yet stable, and the compiled parts of Rust's library are not instrumented.
-    check 'an archive for ThreadSanitizer' env RUSTC_BOOTSTRAP=1 CARGO_TARGET_DIR=target/thread CARGO_BUILD_TARGET="$triple" \
-        RUSTFLAGS='-Zsanitizer=thread -Cunsafe-allow-abi-mismatch=sanitizer' $CARGO build --quiet --locked --package microslip
-    check 'ThreadSanitizer: threads' build_for_threads threads $here/threads.c
-    check 'ThreadSanitizer: no race' "$work/threads"
-}
-
-# ThreadSanitizer's runtime must be that of the compiler of the library, for this machine.
-build_for_threads() {
-    runtime=$(ls "$(rustc --print sysroot)/lib/rustlib/$triple"/lib/librustc*_rt.tsan.a)
-    for source in $here/calls.c "$2"; do
-        clang $optimised -fsanitize=thread $include -c "$source" -o "$work/tsan_$(basename "$source").o" || return 1
-    done
-    build "$1" clang -rdynamic "$work/tsan_calls.c.o" "$work/tsan_$(basename "$2").o" target/thread/$triple/debug/libmicroslip.a \
-        -Wl,--whole-archive "$runtime" -Wl,--no-whole-archive $system -lrt
-}
-
 check 'an application in C99' first_application "$archive" -lm
-[ $# -gt 0 ] || set -- compilers links valgrind threads
+[ $# -gt 0 ] || set -- compilers links valgrind
 for group; do
     case $group in
-        compilers | links | threads) "$group" ;;
+        compilers | links) "$group" ;;
         valgrind) valgrind_checks ;;
         *) echo "$0: no group $group" >&2; exit 2 ;;
     esac
