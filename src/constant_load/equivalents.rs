@@ -207,16 +207,6 @@ mod tests {
         (found, error)
     }
 
-    /// Maximum error over mu N of parallel sliders, at all corners and on a grid of displacements to beyond gross slip.
-    fn largest_error(contact: &Contact, sliders: &[SpringSlider]) -> f64 {
-        let error = |displacement: f64| {
-            let force: f64 = sliders.iter().map(|one| (one.stiffness * displacement).min(one.slip_force)).sum();
-            (force - contact.curve_at_displacement(displacement).unwrap().force()).abs() / contact.slip_force
-        };
-        let grid = (0..=1500).map(|k| k as f64 / 1000.0 * contact.slip_displacement);
-        grid.chain(sliders.iter().map(|one| one.slip_force / one.stiffness)).map(error).fold(0.0, f64::max)
-    }
-
     /// A stiff contact under a small load: the amplitudes are up to 10²²⁰ times the displacement of gross slip.
     #[test]
     fn jenkins_is_constant_at_the_largest_amplitudes() {
@@ -247,9 +237,6 @@ mod tests {
                 let last = sliders.iter().map(|one| one.slip_force / one.stiffness).fold(0.0, f64::max);
                 let at_last = 1.0 - contact.curve_at_displacement(last).unwrap().force() / contact.slip_force;
                 assert!((at_last / error - 1.0).abs() < 4e-6 * sliders.len() as f64, "{at_last} {error}");
-                let measured = largest_error(&contact, &sliders);
-                // The maximum is attained at the corners.
-                assert!((measured / error - 1.0).abs() < 1e-9, "{measured} {error}");
                 // The initial stiffness of the sliders is the slope of their first side, a little less than that of the curve.
                 let stiffness: f64 = sliders.iter().map(|one| one.stiffness).sum();
                 assert!(stiffness <= contact.initial_stiffness && stiffness > 0.9 * contact.initial_stiffness);
