@@ -6,7 +6,6 @@
 use crate::{Input, Real};
 use microslip::parameters::{CENTRE_POINT, Layer};
 use microslip::{EllipticParameters, Material, Parameters};
-use std::f64::consts::FRAC_PI_2;
 
 /// Bits of the functions of a size after cancellation. Differences of energies lose up to 210: a slip of one rounding error, cubed, and
 /// a change of the load by one.
@@ -237,7 +236,7 @@ impl Family {
                 }
             }
         };
-        self.with_layer(size).at(self.bits)
+        self.with_layer(size)
     }
 
     fn with_layer(&self, size: Size) -> Size {
@@ -315,7 +314,7 @@ impl Family {
 
     /// The size of a positive load, approach or shift: Newton's iteration of logarithms, which are concave functions of ln w.
     pub fn find(&self, given: Given, value: &Real) -> Size {
-        let mut size = self.size(&self.real(self.guess(given, value)));
+        let mut size = self.size(&self.guess(given, value));
         for _ in 0..400 {
             let (found, compliance) = match given {
                 Given::Load => (&size.load, self.real(1.0)),
@@ -341,55 +340,16 @@ impl Family {
         panic!("no size of {given:?} {:e}", value.f64());
     }
 
-    /// w in doubles, without the layer of an ellipse.
-    fn guess(&self, given: Given, value: &Real) -> f64 {
-        let i = usize::from(given == Given::Shift);
-        let (a, unit, scale, load_scale, constant) = match &self.kind {
-            Kind::Flat { a, unit, load_scale, compliance_scale, constants, .. } => {
-                (a.f64(), unit.f64(), compliance_scale, load_scale, constants[i].f64())
+    /// A first w, of the right size: that of a compliance K = 1 by the larger one of the asymptotes g = πw² and g = 4w³/(3a).
+    fn guess(&self, given: Given, value: &Real) -> Real {
+        match &self.kind {
+            Kind::Flat { a, load_scale, compliance_scale, .. } => {
+                let g = value / load_scale;
+                let g = if given == Given::Load { g } else { g / compliance_scale };
+                (&g / Real::pi(self.bits)).sqrt().max(&(0.75 * a * g).cbrt())
             }
-            Kind::Ellipse { semi_axes: [semi_axis, _], compliances } => {
-                let power = if given == Given::Load {
-                    (value / &self.load).cbrt()
-                } else {
-                    (value / (1.5 * &compliances[i] * &self.load)).sqrt()
-                };
-                return (semi_axis * power).f64();
-            }
-        };
-        let target = if given == Given::Load { value / load_scale } else { value / scale / load_scale }.f64();
-        let [soft, knee] = self.layer.as_ref().map_or([0.0, f64::INFINITY], |(compliances, knee)| {
-            [&compliances[i] / scale, knee / load_scale].map(|value| value.f64())
-        });
-        let mut w = target.sqrt();
-        for _ in 0..100 {
-            let (psi, s2) = (if a == 0.0 { FRAC_PI_2 } else { w.atan2(a) }, a * a + w * w);
-            let t = 4.0 * psi * psi;
-            let [g, b] = if psi < 0.2 {
-                let g = s2 * psi * t / 3.0 * (1.0 - t / 20.0 * (1.0 - t / 42.0 * (1.0 - t / 72.0)));
-                [g, g * psi * psi / 5.0]
-            } else {
-                [2.0 * s2 * psi - 2.0 * a * w, (w * w + 3.0 * a * a) * psi - 3.0 * a * w]
-            };
-            let (found, compliance) = if given == Given::Load {
-                (g, 1.0)
-            } else {
-                let k = (unit / s2.sqrt()).ln() + constant;
-                let extent = if knee < f64::INFINITY { knee * (g / knee).ln_1p() } else { g };
-                (g * k + b + soft * extent, k + soft / (1.0 + g / knee))
-            };
-            let slope = 4.0 * w * w * psi * compliance;
-            if !(found > 0.0 && slope > 0.0) {
-                w *= 0.5;
-                continue;
-            }
-            let step = (target / found).ln() * found / slope;
-            w *= step.max(-1.0).exp();
-            if step.abs() < 1e-14 {
-                break;
-            }
+            Kind::Ellipse { semi_axes: [semi_axis, _], .. } => semi_axis.clone(),
         }
-        w
     }
 }
 
@@ -400,24 +360,6 @@ fn layer_of(bits: u32, layer: &Layer, load: f64) -> Option<([Real; 2], Real)> {
     let knee = Real::new(bits, if layer.stiffening_load > 0.0 { layer.stiffening_load } else { f64::INFINITY });
     let unloaded = compliances.map(|compliance| compliance * (1.0 + reference / &knee));
     (compliances != [0.0; 2]).then_some((unloaded, knee))
-}
-
-impl Size {
-    /// Rounded to another precision.
-    fn at(&self, bits: u32) -> Size {
-        Size {
-            w: self.w.at(bits),
-            half_width: self.half_width.at(bits),
-            load: self.load.at(bits),
-            approach: self.approach.at(bits),
-            shift: self.shift.at(bits),
-            potential: self.potential.at(bits),
-            normal_compliance: self.normal_compliance.at(bits),
-            tangential_compliance: self.tangential_compliance.at(bits),
-            stiffening: self.stiffening.at(bits),
-            rate: self.rate.at(bits),
-        }
-    }
 }
 
 /// Bits that M loses to cancellation: eight for each one by which w is below a. N, U and S lose half as many.
