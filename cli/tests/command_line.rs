@@ -136,24 +136,6 @@ fn results_are_those_expected() {
     assert!(number > 60, "{number}");
 }
 
-#[test]
-fn the_maximum_pressure_is_that_of_a_fine_grid() {
-    let shell = Shell::new("pressure");
-    let maximum =
-        |given: &str| cells(&shell.stdout(&format!("microslip contact {given}"))).1[6][1].parse::<f64>().unwrap();
-    // 3N/(2π b l), up to the rounding of the products.
-    let of_ellipse = 3.0 * 400.0 / (2.0 * std::f64::consts::PI * 0.2 * 0.6);
-    assert!((maximum("$ELLIPSE") / of_ellipse - 1.0).abs() < 1e-15);
-    for flat in ["0", "1e-9", "5e-5", "1e-3"] {
-        let given = format!("flat.toml --flat-half-width {flat}");
-        let table = shell.stdout(&format!("microslip tractions {given} --points 20001"));
-        let largest = column(&table, 2).into_iter().fold(0.0, f64::max);
-        // The grid misses the maximum by at most 1/20000 of the width; the slope is zero there.
-        let maximum = maximum(&given);
-        assert!(maximum >= largest * (1.0 - 1e-15) && maximum < largest * (1.0 + 1e-5), "{flat}: {maximum} {largest}");
-    }
-}
-
 /// 3000 nested reversals, all of which the last step closes.
 #[test]
 fn no_reversals_of_a_history_are_merged() {
@@ -333,9 +315,7 @@ fn the_command_in_a_result_repeats_it() {
             "jenkins contact.toml",
             "iwan contact.toml",
             "history contact.toml --relative --displacements path\\'s.csv --column 1",
-            "history contact.toml --displacements two.csv --column u --approach-column 2 --relative",
             "history contact.toml --displacements two.csv --column u --column-y v --approach-column N --relative",
-            "history contact.toml --displacements two.csv --column u --column-y 2",
         ] {
             shell.check_repeated(&shell.stdout(&format!("microslip {command}")));
         }
