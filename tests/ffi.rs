@@ -16,9 +16,6 @@ mod common;
 #[path = "ffi/memory.rs"]
 mod memory;
 #[cfg(not(miri))]
-#[path = "ffi/random.rs"]
-mod random;
-#[cfg(not(miri))]
 #[path = "ffi/values.rs"]
 mod values;
 

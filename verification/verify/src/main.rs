@@ -8,12 +8,16 @@
 
 mod bounds;
 mod call;
+#[allow(dead_code, reason = "not all is used here")]
+#[path = "../../../tests/calls/mod.rs"]
+mod calls;
 mod curve;
 mod element;
 mod harmonic;
 mod histories;
 mod history;
 mod layer;
+mod modes;
 mod replay;
 mod report;
 mod sampler;
@@ -43,7 +47,7 @@ enum Measurement {
 use Measurement::{Contact, Element};
 
 /// Names, measurements, about how many points each counts as, and how many are one job.
-const MEASUREMENTS: [(&str, Measurement, f64, usize); 16] = [
+const MEASUREMENTS: [(&str, Measurement, f64, usize); 17] = [
     ("curve::fields", Contact(curve::fields), 1.0, 4000),
     ("curve::at_forces", Contact(curve::at_forces), 50.0, 200),
     ("curve::at_displacements", Contact(curve::at_displacements), 50.0, 200),
@@ -60,6 +64,7 @@ const MEASUREMENTS: [(&str, Measurement, f64, usize); 16] = [
     ("steps::of_contact", Contact(steps::of_contact), 20.0, 50),
     ("steps::of_element", Element(steps::of_element), 40.0, 50),
     ("two_directions::histories", Element(two_directions::histories), 200.0, 10),
+    ("modes::of_laws", Contact(modes::of_laws), 10.0, 20),
 ];
 
 /// Measurements, kinds and seeds of jobs that have raised an exception: squares of derivatives overflowed; a size underflowed where the
