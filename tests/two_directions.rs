@@ -311,12 +311,8 @@ fn nothing_drifts_after_separation() {
 fn jacobians_of_random_motions_are_derivatives() {
     let motions = std::env::var("MICROSLIP_MOTIONS").map_or(200, |motions| motions.parse().unwrap());
     let mut random = Random(1);
-    let mut elements = layered(NormalInput::Force);
-    elements.extend(by_approach_and_force());
-    elements.extend(rough_flats(NormalInput::Approach));
-    for half_width in HALF_WIDTHS {
-        elements.extend([NormalInput::Approach, NormalInput::Force].map(|input| flat(half_width, input)));
-    }
+    let elements =
+        [shapes(NormalInput::Force), shapes(NormalInput::Approach), rough_flats(NormalInput::Approach)].concat();
     let mut beyond = 0;
     for k in 0..motions {
         let element = &elements[random.below(elements.len())];

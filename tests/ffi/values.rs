@@ -197,6 +197,7 @@ fn sizes_and_choices() {
         }
     });
     assert_eq!([usize::MAX, usize::MAX / 2].map(|n| mslip_state_length(n)), [usize::MAX; 2]);
+    assert_eq!(mslip_state_length(0), mslip_state_length(2));
     assert_eq!([usize::MAX, usize::MAX / 4].map(|n| mslip_element_state_length(1, n)), [usize::MAX; 2]);
     assert_eq!(mslip_element_state_length(1, 0), mslip_element_state_length(1, 4));
     assert_eq!(mslip_element_state_length(2, 0), mslip_element_state_length(2, usize::MAX));
