@@ -419,34 +419,6 @@ fn steps_of_no_length_keep_the_state() {
     }
 }
 
-/// Contact and layer have together 60 N/um under 300 N, as measured, whatever the normal force of the parameters. A reference load of 0
-/// is that normal force.
-#[test]
-fn a_layer_holds_at_its_reference_load() {
-    let (measured, reference_load, rated) = (60e6, 300.0, 4000.0);
-    let of_load = |normal_force, layer| match Input::flat(5e-4) {
-        Input::Flat(parameters) => Input::Flat(Parameters { normal_force, layer, ..parameters }),
-        ellipse @ Input::Ellipse(_) => ellipse,
-    };
-    let compliance = 1.0 / measured - 1.0 / of_load(reference_load, Layer::none()).contact().initial_stiffness;
-    for stiffening_load in [0.0, 15.0, f64::INFINITY] {
-        let of = |reference_load| Layer {
-            normal_compliance: 0.8 * compliance,
-            tangential_compliance: compliance,
-            stiffening_load,
-            reference_load,
-        };
-        let element = |load, layer| of_load(load, layer).element(Directions::One, NormalInput::Approach);
-        let found = element(rated, of(reference_load)).displacement_under(0, 1e-9, reference_load);
-        // The displacement under 1e-9 N has lost nothing, and nothing slips yet: 1e-9/(mu N) = 7e-12.
-        assert!((measured * found.slope - 1.0).abs() < 1e-11, "{stiffening_load} {found:?}");
-        let contact = of_load(reference_load, of(0.0)).contact();
-        assert!((contact.initial_stiffness / measured - 1.0).abs() < 4e-15);
-        let texts = |layer| (format!("{:?}", of_load(rated, layer).contact()), format!("{:?}", element(rated, layer)));
-        assert!(texts(of(0.0)) == texts(of(rated)));
-    }
-}
-
 /// The normal component up to which a contact is open in a step.
 #[test]
 fn the_smallest_components_open_a_contact() {

@@ -270,25 +270,3 @@ impl Contact {
         (-slope * unit, 4.0 / (3.0 * PI) * slope * unit)
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use crate::constant_load::contact::tests::{FLATS, contact, ellipse};
-
-    #[test]
-    fn zero_amplitude_gives_the_initial_stiffness_and_its_derivatives() {
-        for contact in FLATS.map(self::contact).into_iter().chain([ellipse(1e-4, 2e-4)]) {
-            let initial = contact.complex_stiffness(0.0).unwrap();
-            assert_eq!((initial.real, initial.imaginary), (contact.initial_stiffness, 0.0));
-            let amplitude = 1e-5 * contact.slip_displacement;
-            let small = contact.complex_stiffness(amplitude).unwrap();
-            // The next terms are 1e-5 of the derivatives; the difference of K' has the rounding error of K' itself.
-            let slope = (small.real - initial.real) / amplitude;
-            let rounding = 4.0 * f64::EPSILON * initial.real / amplitude;
-            assert!((slope - initial.d_real).abs() < 2e-5 * initial.d_real.abs() + rounding);
-            assert!((small.imaginary / amplitude / initial.d_imag - 1.0).abs() < 2e-5);
-            assert!((small.d_real / initial.d_real - 1.0).abs() < 4e-5);
-            assert!((small.d_imag / initial.d_imag - 1.0).abs() < 4e-5);
-        }
-    }
-}

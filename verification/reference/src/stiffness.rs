@@ -47,13 +47,3 @@ pub fn real_part(contact: &Reference, x: &Real) -> [Real; 2] {
     let slope = (-(factor * slope_sum) - &real) / x;
     [real, slope]
 }
-
-/// K', K'', dK', dK'' \[N/m, N/m²\] at an amplitude \[m\].
-pub fn complex_stiffness(contact: &Reference, amplitude: f64) -> [Real; 4] {
-    let (law, point) = contact.at_displacement(amplitude);
-    let x = law.x(amplitude);
-    let ([real, d_real], [imaginary, d_imaginary]) = (real_part(contact, &x), imaginary_part(&law, &x, &point));
-    let unit = &law.stiffness_unit;
-    let slope_unit = unit / &law.displacement_unit;
-    [unit * real, unit * imaginary, &slope_unit * d_real, slope_unit * d_imaginary]
-}
