@@ -3,8 +3,8 @@
 # the shared library linked by Zig for glibc 2.17. PROCESSOR is x86_64, with CPU=x86-64 or x86-64-v3, or aarch64, run by QEMU. What it
 # contains is tested: symbols, the commands of docs/without-rust.md, clients of the shared library, drivers in C and Fortran, and the
 # bits of the library that is installed at PREFIX for this machine. QEMU takes thirty times as long as this machine, so it runs what
-# depends on the processor: layouts, reference tables, exceptions and stack in a tenth of the random calls, joins of formulas.
-# Rejected arguments and the properties of histories follow from the equal bits.
+# depends on the processor: layouts, reference tables, exceptions, the stack of the deepest calls, joins of formulas. Rejected
+# arguments and the properties of histories follow from the equal bits.
 set -eu
 
 prefix=$(cd "$1" && pwd)
