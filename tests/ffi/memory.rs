@@ -8,14 +8,8 @@ use microslip::element::{Directions, Element, NormalInput};
 
 /// Pseudorandom bytes, the same in every run.
 fn pseudorandom(seed: u64, length: usize) -> Vec<u8> {
-    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
-    let mut next = || {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        (state >> 56) as u8
-    };
-    (0..length).map(|_| next()).collect()
+    let mut random = common::Random(seed);
+    (0..length).map(|_| random.below(256) as u8).collect()
 }
 
 fn words(bytes: &[u8]) -> Vec<u64> {
