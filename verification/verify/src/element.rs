@@ -5,6 +5,7 @@ use crate::curve::moved;
 use crate::histories;
 use crate::sampler::{ElementCase, Sampler, text};
 use crate::tally::{At, Tally};
+use microslip::element::{Directions, Element, NormalInput};
 use microslip::one_direction::tractions::tractions;
 use microslip::one_direction::{self as state, Law, OneDirection};
 use reference::element::{Element as Exact, Kind, State, Step};
@@ -266,13 +267,17 @@ fn tractions_at(
     }
 }
 
-/// The library's element and the same in multi-precision, if the library accepts it.
-pub fn prepare(input: &Input, by_force: bool) -> Option<(microslip::element::Element, Exact)> {
-    use microslip::element::{Directions, Element, NormalInput};
-    let normal = if by_force { NormalInput::Force } else { NormalInput::Approach };
+/// The library's element, if it accepts it.
+pub fn make(input: &Input, directions: Directions, normal: NormalInput) -> Option<Element> {
     let element = quiet("element", || match input {
-        Input::Flat(parameters) => Element::rounded_flat(parameters, Directions::One, normal),
-        Input::Ellipse(parameters) => Element::elliptic(parameters, Directions::One, normal),
+        Input::Flat(parameters) => Element::rounded_flat(parameters, directions, normal),
+        Input::Ellipse(parameters) => Element::elliptic(parameters, directions, normal),
     });
-    element.ok().map(|element| (element, Exact::new(input, by_force)))
+    element.ok()
+}
+
+/// The element of one direction, and the same in multi-precision.
+pub fn prepare(input: &Input, by_force: bool) -> Option<(Element, Exact)> {
+    let normal = if by_force { NormalInput::Force } else { NormalInput::Approach };
+    make(input, Directions::One, normal).map(|element| (element, Exact::new(input, by_force)))
 }

@@ -1,11 +1,11 @@
 //! Elements of two tangential directions in adversarial histories, with checks on every step. `verification/validation` compares values.
 
 use crate::call::quiet;
+use crate::element::make;
 use crate::sampler::{ElementCase, Sampler};
 use microslip::element::{Directions, Element, NormalInput};
 use microslip::law::StepResult;
 use microslip::two_directions::{Law, TwoDirections};
-use reference::Input;
 
 /// Error of the force of a step that is repeated, over mu N of the parameters: rounding errors of the springs, times the condition of the map
 /// to tractions, up to 1e-8 in millions of steps.
@@ -45,11 +45,7 @@ fn next(element: &Element, [u, v, w]: [f64; 3], scale: f64, sampler: &mut Sample
 /// A history of 100 steps.
 pub fn histories(case: &ElementCase, sampler: &mut Sampler, _: &mut crate::Tally) {
     let normal = if sampler.chance(0.5) { NormalInput::Force } else { NormalInput::Approach };
-    let element = quiet("element", || match &case.input {
-        Input::Flat(parameters) => Element::rounded_flat(parameters, Directions::Two, normal),
-        Input::Ellipse(parameters) => Element::elliptic(parameters, Directions::Two, normal),
-    });
-    let Ok(element) = element else { return };
+    let Some(element) = make(&case.input, Directions::Two, normal) else { return };
     let mu = element.friction_coefficient;
     let mut state = vec![f64::NAN; TwoDirections::STATE_LENGTH];
     TwoDirections::state_init(&mut state).expect("a state");
