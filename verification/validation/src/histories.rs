@@ -12,43 +12,12 @@ const SUBSTEPS: u32 = 6;
 /// Largest difference of the approach of a line contact, relative: four printed digits.
 const APPROACH: f64 = 6e-4;
 
-/// The contacts of the files.
-struct Shape {
-    /// In the names of the files, and in the table.
-    name: &'static str,
-    title: &'static str,
-    friction_coefficient: f64,
-    shear_modulus: f64,
-    poisson_ratio: f64,
-    /// a, R and L; of the sphere only its radius.
-    lengths: [f64; 3],
-}
-
-const SHAPES: [Shape; 3] = [
-    Shape {
-        name: "cylinder",
-        title: "cylinder",
-        friction_coefficient: 0.3,
-        shear_modulus: 82e9,
-        poisson_ratio: 0.28,
-        lengths: [0.0, 0.5, 0.2],
-    },
-    Shape {
-        name: "roundedflat",
-        title: "flat with rounded edges",
-        friction_coefficient: 0.5,
-        shear_modulus: 76.9231e9,
-        poisson_ratio: 0.3,
-        lengths: [0.5e-3, 3e-3, 20e-3],
-    },
-    Shape {
-        name: "sphere",
-        title: "sphere",
-        friction_coefficient: 0.4,
-        shear_modulus: 200e6,
-        poisson_ratio: 0.42,
-        lengths: [0.0, 0.05, 0.0],
-    },
+/// The contacts of the files: names there and in the table; friction coefficient, shear modulus and Poisson's ratio; a, R and L, of the
+/// sphere only its radius.
+const SHAPES: [(&str, &str, [f64; 3], [f64; 3]); 3] = [
+    ("cylinder", "cylinder", [0.3, 82e9, 0.28], [0.0, 0.5, 0.2]),
+    ("roundedflat", "flat with rounded edges", [0.5, 76.9231e9, 0.3], [0.5e-3, 3e-3, 20e-3]),
+    ("sphere", "sphere", [0.4, 200e6, 0.42], [0.0, 0.05, 0.0]),
 ];
 
 /// Paths in the names of the files, and in the table.
@@ -86,25 +55,22 @@ fn bounds_of_dissipation(shape: &str, path: &str) -> [f64; 2] {
     }
 }
 
-impl Shape {
-    /// The element, its tables up to a normal force, with the normal force as its input.
-    fn element(&self, normal_force: f64) -> Element {
-        let Shape { friction_coefficient, shear_modulus, poisson_ratio, .. } = *self;
-        let young_modulus = 2.0 * (1.0 + poisson_ratio) * shear_modulus;
-        let material = [Material { young_modulus, poisson_ratio }; 2];
-        let [flat_half_width, edge_radius, length] = self.lengths;
-        let line = Parameters {
-            flat_half_width,
-            edge_radius,
-            length,
-            normal_force,
-            friction_coefficient,
-            material,
-            displacement_reference: microslip::parameters::CENTRE_POINT,
-            ..Parameters::default()
-        };
-        line_or_sphere(&line, Directions::One)
-    }
+/// The element of one of them, its tables up to a normal force, with the normal force as its input.
+fn element(friction_and_material: [f64; 3], lengths: [f64; 3], normal_force: f64) -> Element {
+    let [friction_coefficient, shear_modulus, poisson_ratio] = friction_and_material;
+    let [flat_half_width, edge_radius, length] = lengths;
+    let young_modulus = 2.0 * (1.0 + poisson_ratio) * shear_modulus;
+    let line = Parameters {
+        flat_half_width,
+        edge_radius,
+        length,
+        normal_force,
+        friction_coefficient,
+        material: [Material { young_modulus, poisson_ratio }; 2],
+        displacement_reference: microslip::parameters::CENTRE_POINT,
+        ..Parameters::default()
+    };
+    line_or_sphere(&line, Directions::One)
 }
 
 /// The element of a line contact, or of a sphere by its contact circle (Hertz) if there is no length; by the normal force.
@@ -141,11 +107,12 @@ fn rows(name: &str) -> Vec<[f64; 5]> {
 /// The checks, and the table.
 pub fn compare(documents: &mut Documents) {
     let mut table = String::from("| contact | path | rows | displacement | dissipation |\n|---|---|---:|---:|---:|\n");
-    for (shape, [path, title]) in SHAPES.iter().flat_map(|shape| PATHS.map(|path| (shape, path))) {
-        let name = format!("{}_{path}", shape.name);
+    for (contact, [path, title]) in SHAPES.into_iter().flat_map(|contact| PATHS.map(|path| (contact, path))) {
+        let (shape, title_of_shape, friction_and_material, lengths) = contact;
+        let name = format!("{shape}_{path}");
         let rows = rows(&name);
         let largest = |column: usize| rows.iter().map(|row| row[column].abs()).fold(0.0, f64::max);
-        let (element, scale) = (shape.element(largest(0)), largest(2));
+        let (element, scale) = (element(friction_and_material, lengths, largest(0)), largest(2));
         // Twice the shift under the largest force: beyond it there is gross slip.
         let distance = 4.0 * element.friction_coefficient * element.shift_under(element.normal_force);
         let mut law = Path::new(&element, 256);
@@ -159,16 +126,15 @@ pub fn compare(documents: &mut Documents) {
             }
             difference = difference.max((row[2] - law.displacement).abs() / scale);
             last = *row;
-            if shape.name != "sphere" {
+            if shape != "sphere" {
                 let approach = (row[4] / element.approach_under(row[0]).value - 1.0).abs();
                 documents.check(approach <= APPROACH, format!("{name}: approaches differ by {approach:.1e}"));
             }
         }
-        let ([low, high], dissipated) = (bounds_of_dissipation(shape.name, path), last[3] / energy);
-        documents
-            .check(difference <= bound(shape.name, path), format!("{name}: displacements differ by {difference:.1e}"));
+        let ([low, high], dissipated) = (bounds_of_dissipation(shape, path), last[3] / energy);
+        documents.check(difference <= bound(shape, path), format!("{name}: displacements differ by {difference:.1e}"));
         documents.check((low..=high).contains(&dissipated), format!("{name}: {dissipated:.2} of the dissipation"));
-        table += &format!("| {} | {title} | {} | {difference:.1e} | {dissipated:.2} |\n", shape.title, rows.len());
+        table += &format!("| {} | {title} | {} | {difference:.1e} | {dissipated:.2} |\n", title_of_shape, rows.len());
     }
     documents.page("boundary_elements.csv", |_| Ok(csv(&table)));
 }

@@ -9,6 +9,7 @@ use microslip::element::{Directions, Element, NormalInput};
 use microslip::parameters::CENTRE_POINT;
 use microslip::{EllipticParameters, Layer, Material, Parameters};
 use reference::Input;
+use reference::family::load_of_size;
 use std::f64::consts::{PI, TAU};
 
 /// A motion of a contact, by its row of the file: their names are followed by numbers.
@@ -35,10 +36,10 @@ const BODY: Material = Material { young_modulus: 2e11, poisson_ratio: 0.3 };
 fn flat(ratio: f64, layer: Layer) -> Input {
     let (b, length) = (5e-4, 3.25e-3);
     let modulus = 0.5 * BODY.young_modulus / (1.0 - BODY.poisson_ratio.powi(2));
-    let area = b * b * (ratio.acos() - ratio * (1.0 - ratio * ratio).sqrt());
+    let size = b * b * load_of_size(ratio, (1.0 - ratio * ratio).sqrt());
     Input::Flat(Parameters {
         flat_half_width: ratio * b,
-        edge_radius: modulus * length * area / (2.0 * LARGEST_LOAD),
+        edge_radius: modulus * length * size / (4.0 * LARGEST_LOAD),
         length,
         normal_force: LARGEST_LOAD,
         friction_coefficient: FRICTION,

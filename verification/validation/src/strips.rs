@@ -6,6 +6,7 @@ use crate::documents::Documents;
 use crate::golden::{Row, table};
 use microslip::parameters::{CENTRE_POINT, RIGID_STRIP};
 use microslip::{Contact, Material, Parameters};
+use reference::family::load_of_size;
 use std::f64::consts::PI;
 
 const POISSON_RATIO: f64 = 0.3;
@@ -25,8 +26,7 @@ fn within([low, high]: Range, least: f64, most: f64) -> bool {
 
 /// A strip of half-width 1. The units are such that 2 mu P/(pi E*) and E* are 1, and energies are per mu N.
 pub fn parameters(aspect_ratio: f64, a: f64, displacement_reference: i32) -> Parameters {
-    let w = ((1.0 - a) * (1.0 + a)).sqrt();
-    let g = 2.0 * w.atan2(a) - 2.0 * a * w;
+    let g = load_of_size(a, ((1.0 - a) * (1.0 + a)).sqrt());
     let length = 2.0 * aspect_ratio;
     let normal_force = PI * length;
     let young_modulus = 2.0 * (1.0 - POISSON_RATIO * POISSON_RATIO);
