@@ -5,8 +5,8 @@
 use microslip::constant_load::{ConstantLoad, Law, masing, state};
 use microslip::element::{Directions, Element, NormalInput};
 use microslip::{Contact, CurvePoint, EllipticParameters, Material, Parameters};
+use reference::Input;
 use reference::family::load_of_size;
-use reference::{Input, Reference};
 use std::f64::consts::PI;
 
 /// Half-width b of the contacts \[m\].
@@ -199,11 +199,6 @@ impl Case {
             shear[0]
         };
         self.traction(x, &mut at) / FRICTION
-    }
-
-    /// The contact in multi-precision.
-    pub fn reference(&self) -> Reference {
-        Reference::new(self.input)
     }
 
     /// Energy per cycle between ± Q/μP, in its unit.

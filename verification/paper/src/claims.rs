@@ -180,14 +180,9 @@ fn both_halves(traction: impl Fn(f64) -> f64) -> f64 {
 fn load_of_pressure() -> Claim {
     let case = Case::flat(SHAPE, LENGTH);
     let (printed, corrected) = (both_halves(|x| printed_pressure(SHAPE, x)), both_halves(|x| case.pressure(x)));
-    let law = case.reference().law(0);
-    let exact = |x: f64| law.pressure(&law.real(x), None).f64();
-    let library = largest(even(0.005, 0.995, 99).iter().map(|&x| relative(case.pressure(x), exact(x))));
     (
-        format!(
-            "a/b = {SHAPE}: corrected 1, and the library agrees with multi-precision to {CLOSED_FORMS:e}; printed {printed:.3}"
-        ),
-        relative(corrected, 1.0) < QUADRATURE && library < CLOSED_FORMS && relative(printed, 1.0) > 1e-3,
+        format!("a/b = {SHAPE}: corrected 1; printed {printed:.3}"),
+        relative(corrected, 1.0) < QUADRATURE && relative(printed, 1.0) > 1e-3,
     )
 }
 
