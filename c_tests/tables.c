@@ -9,7 +9,7 @@
 #include <float.h>
 #include <stdlib.h>
 
-enum { STATE = 198, MOST_CONTACTS = 64 };
+enum { STATE = 198, MOST_CONTACTS = 64, PARAMETERS = 9, FIELDS = 6 };
 /* Relative errors of a constant load. */
 #define TOLERANCE 1e-13
 #define OK(call) CHECK((call) == MSLIP_OK)
@@ -18,109 +18,55 @@ enum { STATE = 198, MOST_CONTACTS = 64 };
 
 static const char *directory = "tests/golden";
 
-/* The present row of a table. */
-typedef struct {
-    FILE *file;
-    const char *name;
-    int line, columns;
-    const char *column[40], *cell[40];
-    char header[1024], text[8192];
-} table;
-
-static int split(char *line, const char **part)
+/* A table of numbers with these columns, at its first row. */
+static FILE *open_table(const char *name, const char *columns)
 {
-    int parts = 0;
-    for (char *next = strtok(line, ",\r\n"); next != NULL && parts < 40; next = strtok(NULL, ",\r\n")) {
-        part[parts++] = next;
+    char path[4096], header[1024];
+    snprintf(path, sizeof path, "%s/%s.csv", directory, name);
+    FILE *file = fopen(path, "r");
+    if (file == NULL || fgets(header, sizeof header, file) == NULL || strncmp(header, columns, strlen(columns)) != 0) {
+        fprintf(stderr, "%s cannot be read\n", path);
+        exit(2);
     }
-    return parts;
+    return file;
 }
 
-/* Reads the next row; 0 at the end. A table has at least one row. */
-static int next_row(table *t, const char *name)
+/* Reads the next row; 0 at the end. */
+static int next_row(FILE *file, double *row, int columns)
 {
-    if (t->file == NULL) {
-        char path[4096];
-        snprintf(path, sizeof path, "%s/%s.csv", directory, name);
-        t->name = name;
-        t->line = 1;
-        t->file = fopen(path, "r");
-        if (t->file == NULL || fgets(t->header, sizeof t->header, t->file) == NULL) {
-            fprintf(stderr, "%s cannot be read\n", path);
-            exit(2);
-        }
-        t->columns = split(t->header, t->column);
+    int found = 0;
+    while (found < columns && fscanf(file, "%lf%*c", &row[found]) == 1) {
+        ++found;
     }
-    if (fgets(t->text, sizeof t->text, t->file) == NULL) {
-        CHECK(t->line > 1);
-        fclose(t->file);
-        return 0;
-    }
-    ++t->line;
-    CHECK(split(t->text, t->cell) == t->columns);
-    return 1;
-}
-
-static const char *word(const table *t, const char *column)
-{
-    for (int i = 0; i < t->columns; ++i) {
-        if (strcmp(t->column[i], column) == 0) return t->cell[i];
-    }
-    return "";
-}
-
-static double get(const table *t, const char *column)
-{
-    return strtod(word(t, column), NULL);
-}
-
-static void compare(const table *t, const char *column, double got, double want, double tolerance)
-{
-    check_near(got, want, tolerance, t->name, t->line, column);
-}
-
-/* A value against that of its column, relative to it. */
-static void relative(const table *t, const char *column, double got, double tolerance)
-{
-    const double want = get(t, column);
-    compare(t, column, got, want, isinf(want) ? 0.0 : tolerance * fabs(want));
-}
-
-static mslip_parameters parameters_of(const table *t)
-{
-    mslip_parameters p;
-    mslip_parameters_default(&p);
-    p.flat_half_width = get(t, "a");
-    p.edge_radius = get(t, "R");
-    p.length = get(t, "L");
-    p.normal_force = get(t, "N");
-    p.friction_coefficient = get(t, "mu");
-    p.displacement_reference = MSLIP_CENTRE_POINT;
-    for (int i = 0; i < 2; ++i) {
-        p.material[i].young_modulus = get(t, i == 0 ? "E1" : "E2");
-        p.material[i].poisson_ratio = get(t, i == 0 ? "nu1" : "nu2");
-    }
-    return p;
+    CHECK(found == columns || (found == 0 && feof(file)));
+    return found == columns;
 }
 
 static mslip_contact contacts[MOST_CONTACTS];
 
+/* Parameters and results are in the order of the fields of their structures. */
 static void check_contacts(void)
 {
-    table t = { 0 };
-    for (int i = 0; next_row(&t, "contacts"); ++i) {
-        mslip_contact *c = &contacts[i];
-        const mslip_parameters p = parameters_of(&t);
-        CHECK(i < MOST_CONTACTS && get(&t, "contact") == i);
-        OK(mslip_contact_init(&p, c));
-        OK(mslip_contact_check(c));
-        relative(&t, "E_star", c->composite_modulus, 1e-15);
-        relative(&t, "b", c->half_width, TOLERANCE);
-        relative(&t, "slip_force", c->slip_force, DBL_EPSILON);
-        relative(&t, "slip_displacement", c->slip_displacement, TOLERANCE);
-        relative(&t, "initial_stiffness", c->initial_stiffness, TOLERANCE);
-        relative(&t, "slip_energy", c->slip_energy, TOLERANCE);
+    static const double tolerance[FIELDS] = { 1e-15, TOLERANCE, DBL_EPSILON, TOLERANCE, TOLERANCE, TOLERANCE };
+    double row[1 + PARAMETERS + FIELDS] = { 0 }, found[FIELDS];
+    FILE *table = open_table("contacts", "contact,a,R,L,N,mu,E1,nu1,E2,nu2,"
+                                         "E_star,b,slip_force,slip_displacement,initial_stiffness,slip_energy");
+    for (int i = 0; next_row(table, row, 1 + PARAMETERS + FIELDS); ++i) {
+        mslip_parameters p;
+        mslip_parameters_default(&p);
+        p.displacement_reference = MSLIP_CENTRE_POINT;
+        memcpy(&p, row + 1, PARAMETERS * sizeof(double));
+        CHECK(i < MOST_CONTACTS && row[0] == i);
+        OK(mslip_contact_init(&p, &contacts[i]));
+        OK(mslip_contact_check(&contacts[i]));
+        memcpy(found, &contacts[i], sizeof found);
+        for (int k = 0; k < FIELDS; ++k) {
+            const double want = row[1 + PARAMETERS + k];
+            check_near(found[k], want, tolerance[k] * fabs(want), "contacts", i + 2, "a field");
+        }
     }
+    CHECK(row[0] > 0.0);
+    fclose(table);
 }
 
 /* --- Histories --- */
@@ -129,14 +75,14 @@ static void check_contacts(void)
 static void check_histories(void)
 {
     static double state[2][STATE], path[STATE], pair[2 * STATE];
-    table t = { 0 };
-    double largest = 0.0, history = -1.0;
-    for (int i = 0; next_row(&t, "histories"); ++i) {
-        const double u = get(&t, "displacement"), want = get(&t, "T"), to[2] = { 0.0, u };
-        const mslip_contact both[2] = { contacts[0], contacts[(int)get(&t, "contact")] };
+    FILE *table = open_table("histories", "history,contact,displacement,T");
+    double largest = 0.0, history = -1.0, row[4] = { 0 };
+    for (int i = 0; next_row(table, row, 4); ++i) {
+        const double u = row[2], want = row[3], to[2] = { 0.0, u };
+        const mslip_contact both[2] = { contacts[0], contacts[(int)row[1]] };
         double *old = state[i % 2], *new = state[1 - i % 2], one[3], other[3], force[2], stiffness[2], energy[2];
-        if (get(&t, "history") != history) {
-            history = get(&t, "history");
+        if (row[0] != history) {
+            history = row[0];
             largest = 0.0;
             OK(mslip_state_init(STATE, old));
             OK(mslip_state_init(STATE, path));
@@ -151,8 +97,10 @@ static void check_histories(void)
         CHECK(force[0] == 0.0 && memcmp(new, path, used) == 0 && memcmp(new, pair + STATE, used) == 0);
         /* A force is a sum over reversals and has the rounding error of the largest term. */
         largest = fmax(largest, fabs(want));
-        compare(&t, "T", one[0], want, 2.0 * TOLERANCE * largest);
+        check_near(one[0], want, 2.0 * TOLERANCE * largest, "histories", i + 2, "T");
     }
+    CHECK(history > 0.0);
+    fclose(table);
 }
 
 int main(int argc, char **argv)
