@@ -156,11 +156,8 @@ def test_parts_of_a_face():
     even = np.full_like(area, 800.0 / area.sum())
     parts, weight = microslip.face_parts(whole, area, even)
     np.testing.assert_allclose(weight, area / area.sum(axis=1, keepdims=True), rtol=1e-15)
-    many = microslip.ContactArray(microslip.Contact(**part) for part in parts)
-    one = microslip.Contact(**whole)
-    for amplitude in (0.1 * SLIP, 2 * SLIP):
-        found, expected = many.complex_stiffness(np.full(3, amplitude)), one.complex_stiffness(amplitude)
-        np.testing.assert_allclose([found.k_real.sum(), found.k_imag.sum()], expected[:2], rtol=1e-13)
+    stiffness = sum(microslip.Contact(**part).initial_stiffness for part in parts)
+    np.testing.assert_allclose(stiffness, microslip.Contact(**whole).initial_stiffness, rtol=1e-13)
     parts, weight = microslip.face_parts(whole, area[:, ::-1], even * [[1], [0], [3]])
     assert [part["normal_force"] for part in parts] == [240.0, 0.0, 240.0]
     np.testing.assert_allclose(weight.sum(axis=1), 1.0, rtol=1e-15)
