@@ -674,7 +674,7 @@ size_t mslip_element_workspace_length(int32_t directions,
                                       int32_t rule);
 
 // Initialises a workspace of elements: tables for one (directions, harmonics, samples, rule), and scratch memory. Each thread
-// needs its own. periods is the number of periods that are applied before the returned one, at most 65536. 0 is the default: 3 with
+// needs its own. periods is the number of periods that are applied before the returned one, at most 65536. 0 is the default: 4 with
 // two directions; 1 with one, where a larger number changes neither results nor time.
 //
 // Returns MSLIP_BAD_DIRECTIONS, MSLIP_BAD_RULE, MSLIP_NOT_AVAILABLE for MSLIP_EVENT_DRIVEN, MSLIP_BAD_HARMONICS,
@@ -717,7 +717,7 @@ int32_t mslip_element_workspace_size(const double *workspace,
 //
 // With one direction the returned period is the steady state. With two, a vibration across a mean tangential force reduces that force
 // over many periods, all but the last of which are advanced by 32 samples for each cycle of the highest harmonic, if there are more.
-// With 3 periods or more, the memory after the second is extrapolated by 1.5 times its change in that period.
+// With 3 periods or more, the memory after the second is extrapolated by 1.75 times its change in that period.
 // drift estimates the largest difference of the tangential force between the returned period and the steady state, over mu times the
 // largest normal force; 0 with one direction, and for a contact that opens, because that erases its memory. A drift is not an error.
 // While the force drifts, dissipated contains the change of the stored energy.

@@ -270,9 +270,9 @@ impl Shape {
         self.compliances.map(|[scale, offset]| self.load_scale * (load * scale * (mean + offset)))
     }
 
-    /// K_t in a direction of a flat punch of the half-width s below that of the flat: a load of 0. Not used without a flat.
-    pub fn compliance_under_flat(&self, k: usize, half_width: f64) -> f64 {
-        self.own_compliance(self.compliances[k + 1], half_width) + self.layer.compliance(0.0)
+    /// K_t(a) in a direction, the compliance of the flat: a load of 0. Not used without a flat.
+    pub fn compliance_of_flat(&self, axis: usize) -> f64 {
+        self.own_compliance(self.compliances[axis + 1], self.flat) + self.layer.compliance(0.0)
     }
 
     /// N/g \[N/m²\], with g the square of a length in the law of loads. Not used without a flat.

@@ -243,7 +243,8 @@ fn walked(element: &Element, periods: usize, motion: &[f64; COEFFICIENTS]) -> Ve
     forces
 }
 
-/// Static shear is shaken out: the drift is at least half the distance from the steady state, and falls with the periods.
+/// Static shear is shaken out: the drift is at least half the distance from the steady state, and falls with the periods. Below 1e-3 μN it
+/// has the error of the longer steps of earlier periods.
 #[test]
 fn the_drift_says_what_is_left_and_falls_with_the_periods() {
     for element in by_approach_and_force() {
@@ -257,11 +258,12 @@ fn the_drift_says_what_is_left_and_falls_with_the_periods() {
                 let Harmonic { force, drift, .. } = harmonic(&element, periods, &motion);
                 let error = (force[0] - mean).abs() / slip_force;
                 assert!(error < 2.0 * drift + 4e-3, "{swing} {periods}: {error:e} {drift:e}");
-                assert!(drift < before.max(1e-12), "{swing} {periods}: {drift:e} after {before:e}");
+                assert!(drift < before.max(1e-3), "{swing} {periods}: {drift:e} after {before:e}");
                 before = drift;
             }
-            let [by_default, three] = [0, 3].map(|periods| harmonic(&element, periods, &motion));
-            assert_eq!((by_default.force, by_default.dissipated), (three.force, three.dissipated));
+            assert!(before < 1e-5, "{swing}: {before:e}");
+            let [by_default, four] = [0, 4].map(|periods| harmonic(&element, periods, &motion));
+            assert_eq!((by_default.force, by_default.dissipated), (four.force, four.dissipated));
         }
     }
 }

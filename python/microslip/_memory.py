@@ -188,7 +188,7 @@ class ElementWorkspace(_Workspace):
     """Tables and scratch memory for harmonic forces of elements with 1 or 2 tangential `directions`.
 
     `harmonics` is H >= 1, `samples` > 2H per period, `rule` `UNIFORM_SAMPLING`. `periods`, at most 65536, are applied before
-    the returned one; 0 is the default, 3 with two directions and 1 with one, where more change nothing. Calls with one workspace
+    the returned one; 0 is the default, 4 with two directions and 1 with one, where more change nothing. Calls with one workspace
     wait for each other: use one per thread.
     """
 

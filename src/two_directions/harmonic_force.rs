@@ -19,7 +19,7 @@ use super::path::ContactPath;
 use super::shells::ScaledNormalState;
 use super::step::{Displacements, LoadedContact, SpringMotion, StepWork, within_friction_limit};
 use super::tangent::{
-    ContactSlopes, END, PARAMETERS, ParameterChanges, ParameterTerms, Propagation, REFERENCE, START, SpringChanges,
+    ContactSlopes, END, PARAMETERS, ParameterChanges, Propagation, REFERENCE, START, SpringChanges, StepTangent,
     slopes_of_nodes,
 };
 use crate::element::{Element, Normal};
@@ -40,7 +40,7 @@ pub fn workspace_length(harmonics: usize, samples: usize) -> usize {
 }
 
 /// Initialises a workspace: tables for the given harmonics and samples, the number of periods before the one that counts (0: the
-/// default, 3), and scratch memory.
+/// default, 4), and scratch memory.
 /// Errors: `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24, `BadPeriods` for more
 /// than 65536; `WorkspaceTooShort`.
 pub fn workspace_init(harmonics: usize, samples: usize, periods: usize, workspace: &mut [f64]) -> Result<(), Error> {
@@ -52,8 +52,8 @@ pub fn workspace_init(harmonics: usize, samples: usize, periods: usize, workspac
 const TRANSIENT_SAMPLES: usize = 32;
 
 /// Factor of the extrapolation. After the second period the springs change by this factor times their change in that period, if another
-/// period follows before the one that counts. So they would if each period changed them by 0.6 of the change before.
-const EXTRAPOLATION: f64 = 1.5;
+/// period follows before the one that counts. So they would if each period changed them by 0.64 of the change before.
+const EXTRAPOLATION: f64 = 1.75;
 
 /// Coefficients that are propagated at once, those of the normal component, of u and of v in a block each.
 const BLOCK: usize = 4;
@@ -91,7 +91,7 @@ pub struct TwoDirectionsWorkspace<'a> {
 impl<'a> Layout<'a> for TwoDirectionsWorkspace<'a> {
     const KIND: Kind = Kind::TwoDirectionsSampling;
     /// A vibration relaxes static shear over many periods: the table of `periods` in the guide has the errors.
-    const PERIODS: usize = 3;
+    const PERIODS: usize = 4;
 
     fn max_rows(size: SamplingSize) -> usize {
         8 * size.samples + 256
@@ -248,7 +248,7 @@ struct PeriodIntegration<'a> {
     step: &'a mut StepWork,
     /// Derivatives of the contact before and of the present one, by the normal component and by the reference size, if they are known.
     slopes: [Option<[ContactSlopes; 2]>; 2],
-    terms: &'a mut [ParameterTerms; PARAMETERS],
+    tangent: &'a mut StepTangent,
 }
 
 /// Results of a step other than the springs.
@@ -261,12 +261,12 @@ struct StepForces {
 }
 
 impl<'a> PeriodIntegration<'a> {
-    /// ScaledNormalState by a normal component. The step and the terms are large: memory of the caller is not copied.
+    /// Pressed by a normal component. The step and its tangent are large: memory of the caller is not copied.
     fn new(
         element: &'a Element,
         (units, nodes): (Units, &'a Nodes),
         top: f64,
-        (step, terms): (&'a mut StepWork, &'a mut [ParameterTerms; PARAMETERS]),
+        (step, tangent): (&'a mut StepWork, &'a mut StepTangent),
     ) -> PeriodIntegration<'a> {
         let mut integration = PeriodIntegration {
             element,
@@ -279,14 +279,14 @@ impl<'a> PeriodIntegration<'a> {
             springs: Displacements::NONE,
             step,
             slopes: [None; 2],
-            terms,
+            tangent,
         };
         integration.press(top);
         integration
     }
 
     /// Advances to a sample.
-    fn advance(&mut self, to: [f64; 3], derivatives: bool) -> StepForces {
+    fn advance(&mut self, to: [f64; 3]) -> StepForces {
         let closed = [self.contact.now.load > 0.0, self.element.is_closed(to[2])];
         let same = closed[0] && to[2].to_bits() == self.at[2].to_bits();
         let path = ContactPath::new(self.element, &self.units, [self.at, to], closed);
@@ -300,7 +300,7 @@ impl<'a> PeriodIntegration<'a> {
                 self.press(to[2]);
             }
             let contacts = [&self.from, &self.contact];
-            unbounded = self.step.advance(self.nodes, contacts, &motion, &mut self.springs, derivatives);
+            unbounded = self.step.advance(self.nodes, contacts, &motion, &mut self.springs);
             force = within_friction_limit(unbounded, self.contact.now.load);
         } else {
             (self.contact, self.springs, self.normal) = (LoadedContact::default(), Displacements::NONE, Normal::OPEN);
@@ -348,23 +348,25 @@ fn differentiate(
     let [start, end, top] = samples.map(|index| index.map_or(&[][..], |index| row(workspace.basis, n, index)));
     let (per_scale, own_nodes) = (1.0 / integration.element.input_scale(), integration.nodes);
     let StepForces { motion, path, unbounded, .. } = forces;
-    let PeriodIntegration { from, contact, step, springs, slopes: [first, second], terms, .. } = integration;
+    let PeriodIntegration { from, contact, step, springs, slopes: [first, second], tangent, .. } = integration;
     let derive = |contact: &LoadedContact| {
         [ContactSlopes::by_load(own_nodes, contact), ContactSlopes::by_reference(own_nodes, nodes, contact)]
     };
     let by_end = &*second.get_or_insert_with(|| derive(contact));
     let by_start = if motion.constant_load { by_end } else { &*first.get_or_insert_with(|| derive(from)) };
-    let values = (&**step, motion);
+    let values = (&**step, motion, &*springs);
+    let terms = &mut tangent.terms;
     terms[END].set(contact, values, [None, Some(&by_end[0])], None);
     terms[START].set(contact, values, [Some(&by_start[0]), None], None);
     terms[REFERENCE].set(contact, values, [Some(&by_start[1]), Some(&by_end[1])], Some(nodes));
-    let (contact, terms) = (&*contact, &**terms);
+    tangent.set_slips(step, motion);
+    let (contact, tangent) = (&*contact, &**tangent);
     let (forces_x, forces_y) = workspace.forces.split_at_mut(workspace.forces.len() / 2);
     let blocks = workspace.changes.blocks_mut::<COLUMNS>().blocks_mut::<CHANGES>();
     let [forces_x, forces_y] = [forces_x, forces_y].map(Total::blocks_mut::<COLUMNS>);
     for (block, (columns, (to_x, to_y))) in blocks.iter_mut().zip(forces_x.iter_mut().zip(forces_y)).enumerate() {
         let mut displacement = [Columns::ZERO; 2];
-        let mut parameters = ParameterChanges { terms, changes: [Lanes::ZERO; PARAMETERS] };
+        let mut parameters = ParameterChanges { tangent, changes: [Lanes::ZERO; PARAMETERS] };
         for lane in 0..BLOCK.min(n - BLOCK * block) {
             let c = BLOCK * block + lane;
             for axis in 0..2 {
@@ -382,7 +384,7 @@ fn differentiate(
             v: by_axis(|axis| core::array::from_fn(|j| Lanes(columns[axis * SPRINGS + j]))),
             edge: by_axis(|axis| Lanes(columns[2 * SPRINGS + axis])),
         };
-        let propagation = Propagation { contact, nodes: own_nodes, motion, step, new: springs, parameters };
+        let propagation = Propagation { contact, nodes: own_nodes, motion, step, parameters };
         let forces = propagation.propagate(&displacement, &mut changes);
         let forces = propagation.within_friction_limit(*unbounded, forces);
         for axis in 0..2 {
@@ -444,8 +446,8 @@ fn integrate_periods(element: &Element, workspace: &mut TwoDirectionsWorkspace, 
         workspace.changes.fill(0.0);
         workspace.sums.fill(0.0);
     }
-    let (mut step, mut terms) = (StepWork::NONE, [ParameterTerms::NONE; PARAMETERS]);
-    let mut integration = PeriodIntegration::new(element, (units, &nodes[0]), top, (&mut step, &mut terms));
+    let (mut step, mut tangent) = (StepWork::NONE, StepTangent::NONE);
+    let mut integration = PeriodIntegration::new(element, (units, &nodes[0]), top, (&mut step, &mut tangent));
     let slopes = slopes_of_nodes([&nodes[1], &nodes[2]]);
     // The reference size is not that of the largest load if this is below the least reference load.
     let is_reference = integration.normal.load >= units.load * 0.99;
@@ -460,7 +462,7 @@ fn integrate_periods(element: &Element, workspace: &mut TwoDirectionsWorkspace, 
         }
         let index = (largest + step).checked_rem(count).unwrap_or(0);
         let to = workspace.samples.get(index).map_or([0.0; 3], |sample| sample.displacement);
-        let forces = integration.advance(to, derivatives);
+        let forces = integration.advance(to);
         if derivatives {
             if forces.closed != [true, true] {
                 workspace.changes.fill(0.0);

@@ -1,4 +1,4 @@
-//! Products and factors of the matrices of a step, in vectors of the processor.
+//! Products and inverses of the matrices of a step, in vectors of the processor.
 
 use super::nodes::{Matrix, Row, SPRINGS};
 use crate::numerics::guard::TINY;
@@ -20,82 +20,32 @@ pub(crate) fn dot(x: &Row, y: &Row) -> f64 {
     (sums[0] + sums[1]) + (sums[2] + sums[3])
 }
 
-/// The unit vectors, and the ones before each.
-const UNITS: Matrix = {
-    let mut units = [Row::ZERO; SPRINGS];
-    let mut i = 0;
-    while i < SPRINGS {
-        units[i].0[i] = 1.0;
-        i += 1;
+/// Eliminates a point from a symmetric matrix: what is left of it between others, its row times its reciprocal, and minus this reciprocal.
+/// Minus the inverse is left when all points are eliminated.
+pub(super) fn eliminate(matrix: &mut Matrix, i: usize, [first, end]: [usize; 2]) {
+    let i = i.min(SPRINGS - 1);
+    let pivot = matrix[i][i];
+    let per_pivot = 1.0 / if pivot.abs() > TINY { pivot } else { TINY };
+    let row = per_pivot * matrix[i];
+    for m in first..end.min(SPRINGS) {
+        let x = matrix[m][i];
+        if m != i {
+            matrix[m] -= x * row;
+            matrix[m][i] = x * per_pivot;
+        }
     }
-    units
-};
-const BEFORE: Matrix = {
-    let mut before = [Row::ZERO; SPRINGS];
-    let mut i = 0;
-    while i < SPRINGS * SPRINGS {
-        before[i / SPRINGS].0[i % SPRINGS] = if i % SPRINGS < i / SPRINGS { 1.0 } else { 0.0 };
-        i += 1;
-    }
-    before
-};
-
-/// A symmetric matrix J of the points from one to another as `J = L D L'`. With `F = L⁻¹ D`, `J⁻¹ = D⁻¹ F' D⁻¹ F D⁻¹`.
-pub(crate) struct Factors {
-    /// -F, a row for each point.
-    rows: Matrix,
-    /// -F, a row for each column.
-    columns: Matrix,
-    /// 1/D.
-    per_pivot: Row,
+    matrix[i] = row;
+    matrix[i][i] = -per_pivot;
 }
 
-impl Factors {
-    pub const NONE: Factors =
-        Factors { rows: [Row::ZERO; SPRINGS], columns: [Row::ZERO; SPRINGS], per_pivot: Row::ZERO };
-
-    /// Factorises the sum of a diagonal and of a matrix whose rows are given. Below a pivot the rows are eliminated but for its own column,
-    /// which becomes one of -F. Single elements are chosen by their place in the lanes: a vector that is loaded right after one of its elements
-    /// was stored would wait for it.
-    pub fn set(&mut self, [first, end]: [usize; 2], diagonal: &Row, row: impl Fn(usize) -> Row) {
-        let Factors { rows, columns, per_pivot } = self;
-        for i in first..end.min(SPRINGS) {
-            rows[i] = row(i);
+/// A x in place, of several x at once, by rows of a symmetric matrix A from one to another.
+pub(super) fn times_symmetric<const L: usize>(rows: &Matrix, [first, end]: [usize; 2], x: &mut [Lanes<L>; SPRINGS]) {
+    let old = *x;
+    for i in first..end.min(SPRINGS) {
+        x[i] = Lanes::ZERO;
+        for m in first..end.min(SPRINGS) {
+            x[i] += rows[i][m] * old[m];
         }
-        for p in first..end.min(SPRINGS) {
-            let pivot = rows[p][p] + diagonal[p];
-            let per = 1.0 / if pivot.abs() > TINY { pivot } else { TINY };
-            let pivot_row = rows[p] * (1.0 - UNITS[p]);
-            rows[p] = BEFORE[p] * rows[p] - pivot * UNITS[p];
-            per_pivot[p] = per;
-            for i in p + 1..end.min(SPRINGS) {
-                let factor = per * rows[i][p];
-                rows[i] -= factor * pivot_row;
-            }
-        }
-        for j in first..end.min(SPRINGS) {
-            columns[j] = Lanes(core::array::from_fn(|i| rows[i][j]));
-        }
-    }
-
-    /// J⁻¹ x of x that is 0 at other points.
-    pub fn solve(&self, range: [usize; 2], x: &Row) -> Row {
-        let y = self.per_pivot * times(&self.columns, range, &(self.per_pivot * *x));
-        self.per_pivot * times(&self.rows, range, &y)
-    }
-
-    /// J⁻¹ x in place, of several x at once.
-    pub fn solve_lanes<const L: usize>(&self, range: [usize; 2], x: &mut [Lanes<L>; SPRINGS]) {
-        let per_pivots = |x: &mut [Lanes<L>; SPRINGS]| {
-            for i in 0..SPRINGS {
-                x[i] = self.per_pivot[i] * x[i];
-            }
-        };
-        per_pivots(x);
-        times_upper_transposed(&self.columns, range, x);
-        per_pivots(x);
-        times_upper(&self.columns, range, x);
-        per_pivots(x);
     }
 }
 

@@ -1,14 +1,14 @@
 //! Nodes, at which the family of sizes is divided into shells, and what does not depend on the present load.
 //!
 //! A node j is a size s_j of the family, with its normal force N_j and its shift S_j in both directions. Shell j reaches from s_j to s_{j+1},
-//! the last one to the present size. Shells 0 and 1 are under the flat: they carry force, but no pressure. They are empty if there is no flat, so that
-//! the nodes are continuous in a at a = 0.
+//! the last one to the present size. Shell 0 is the flat: it carries force, but no pressure. It is empty if there is no flat, so that the nodes are
+//! continuous in a at a = 0.
 //!
 //! The cumulative distribution of the nodes is a sum of two parts. Slip reaches inwards from the edge: nodes graded in √S have the same relative distance to
 //! the edge in every shape. And between nodes N(S) is a polygon, whose errors are equal if the nodes are uniform in ∫ √(N'') dS ~ √N ψ:
 //!
 //! ```text
-//! 3/4 ln[1 - 0.98 √(S_j/S_r)]/ln 0.02 + 1/4 √(N_j/N_r) ψ(s_j)/ψ(s_r) = (j - 2)/18,   j = 2 ... 19
+//! 0.765 ln[1 - 0.972 √(S_j/S_r)]/ln 0.028 + 0.235 √(N_j/N_r) ψ(s_j)/ψ(s_r) = (j - 1)/15,   j = 1 ... 15
 //! ```
 //!
 //! N_r, S_r and s_r are those of the reference size, the largest one of a motion. In one point x_i of each shell the shell j carries the pressure
@@ -17,8 +17,8 @@
 //! F_ij = ψ_j [√(s_{j+1}² - x_i²) - √(s_j² - x_i²)],
 //! ```
 //!
-//! The force of a shell under the flat is spread evenly over it: `load_unit [acosh(s_{j+1}/x_i) - acosh(s_j/x_i)]/(4 (s_{j+1} - s_j))`, with
-//! `load_unit` as in `fill`; its compliance takes the place of ΔS_j. F_ij/ΔS_j must not increase with j: then the map from tractions to springs
+//! The force of shell 0 is spread evenly over the sizes up to a, which gives `F_00 = load_unit acosh(a/x_i)/(4 a)` with `load_unit` as in `fill`;
+//! the compliance of the flat, K_t(a), takes the place of ΔS_0: that of the contact as slip reaches the flat. F_ij/ΔS_j must not increase with j: then the map from tractions to springs
 //! has no negative entry, and gross slip solves Coulomb's law. Rough layers, whose compliance falls with the load, exceed this bound; F is cut at it.
 //!
 //! All is in units of N, of S across the line and of the leg, √(s² - a²), of the reference size.
@@ -26,10 +26,9 @@
 use crate::element::Element;
 use crate::numerics::guard::{TINY, quotient, root};
 use crate::numerics::lanes::Lanes;
-use core::f64::consts::PI;
 
-/// Springs, one a shell. The first two are under the flat.
-pub(crate) const SPRINGS: usize = 20;
+/// Springs, one a shell. The first one is under the flat.
+pub(crate) const SPRINGS: usize = 16;
 
 /// A value of each spring, or of each point.
 pub(crate) type Row = Lanes<SPRINGS>;
@@ -48,14 +47,14 @@ pub(crate) fn length([x, y]: PerAxis<f64>) -> f64 {
 }
 
 /// The first node under pressure: the edge of the flat.
-pub(crate) const FLAT_EDGE: usize = 2;
+pub(crate) const FLAT_EDGE: usize = 1;
 /// The share of the nodes that is graded towards the edge: more of it makes circles more accurate, less of it motion on a line.
-const EDGE_SHARE: f64 = 0.75;
+const EDGE_SHARE: f64 = 0.765;
 /// The distance from the edge of the last node over that of the first one, in √S.
-const GRADING: f64 = 0.02;
-/// The position of x_i in its shell: in its inner half F_ij/ΔS_j decreases with j. Values from 0.02 to 0.2 are as good.
+const GRADING: f64 = 0.028;
+/// The position of x_i in its shell: in its inner half F_ij/ΔS_j decreases with j. Values from 0.03 to 0.2 are nearly as good.
 /// The rule is used in `fill`, twice, in `pressure_at_edge` and in its derivative.
-const POINT_FRACTION: f64 = 0.1;
+const POINT_FRACTION: f64 = 0.05;
 /// Intervals in the leg between which the cumulative distribution of the nodes is inverted linearly: what follows from it need not be exact,
 /// but smooth.
 const INTERVALS: usize = 48;
@@ -150,29 +149,15 @@ pub(crate) fn fill(nodes: &mut Nodes, element: &Element, units: &Units, referenc
     }
     if flat > 0.0 {
         let load_unit = units.load / shape.load_per_square() / (units.leg * units.leg);
-        let ring = |j: usize| if j == FLAT_EDGE { flat } else { flat * (0.5 * PI * j as f64 / FLAT_EDGE as f64).sin() };
-        for j in 0..FLAT_EDGE {
-            let (from, to) = (ring(j), ring(j + 1));
-            let point = |i: usize| ring(i) + POINT_FRACTION * (ring(i + 1) - ring(i));
-            (nodes[LEG_SQUARED][j], nodes[POINT_SQUARED][j]) =
-                ((from - flat) * (from + flat), (point(j) - flat) * (point(j) + flat));
-            nodes[LOAD_STEP][j] = 1.0;
-            for axis in 0..2 {
-                let compliance = shape.compliance_under_flat(axis, 0.5 * units.leg * (from + to));
-                nodes[SHIFT_STEP + axis][j] = units.load / units.shift * compliance;
-            }
-            for i in 0..=j {
-                let acosh = |s: f64| {
-                    let ratio = (s / point(i)).max(1.0);
-                    (ratio + ((ratio - 1.0) * (ratio + 1.0)).sqrt()).ln()
-                };
-                nodes[PRESSURE + j][i] = 0.25 * load_unit * (acosh(to) - acosh(from)) / (to - from);
-            }
+        (nodes[LEG_SQUARED][0], nodes[POINT_SQUARED][0]) =
+            (-flat * flat, (POINT_FRACTION - 1.0) * (POINT_FRACTION + 1.0) * flat * flat);
+        nodes[LOAD_STEP][0] = 1.0;
+        for axis in 0..2 {
+            nodes[SHIFT_STEP + axis][0] = units.load / units.shift * shape.compliance_of_flat(axis);
         }
+        nodes[PRESSURE][0] = 0.25 * load_unit * (1.0 / POINT_FRACTION).acosh() / flat;
         for j in FLAT_EDGE..SPRINGS - 1 {
-            for i in 0..FLAT_EDGE {
-                nodes[PRESSURE + j][i] = pressure(nodes, j, nodes[LEG_SQUARED][j + 1], i);
-            }
+            nodes[PRESSURE + j][0] = pressure(nodes, j, nodes[LEG_SQUARED][j + 1], 0);
         }
     }
     let first = first_shell(nodes);

@@ -272,20 +272,20 @@ impl Springs {
         for axis in 0..2 {
             per_shift[axis] = quotient(1.0, shells.shift_step[axis]);
             stiffness[axis] = shells.stiffness(axis, &per_shift[axis]);
-            let (per_shift, inverse) = (&per_shift[axis], &mut inverse[axis]);
-            inverse.iter_mut().take(shells.range().start).for_each(|row| *row = Row::ZERO);
-            inverse.iter_mut().skip(shells.range().end).for_each(|row| *row = Row::ZERO);
-            for i in shells.range().rev().map(|i| i.min(SPRINGS - 1)) {
-                // v_i = [p_i q_i + Σ_{j>i} (g_i,j-1 - g_ij) v_j]/g_ii, with p_i g_ij in place of g_ij.
-                let (mut row, mut before) = (Row::ZERO, pressure[i][i] * per_shift[i]);
+        }
+        *inverse = [[Row::ZERO; SPRINGS]; 2];
+        for i in shells.range().rev().map(|i| i.min(SPRINGS - 1)) {
+            // v_i = [p_i q_i + Σ_{j>i} (g_i,j-1 - g_ij) v_j]/g_ii, with p_i g_ij in place of g_ij.
+            for axis in 0..2 {
+                let (mut row, mut before) = (Row::ZERO, pressure[i][i] * per_shift[axis][i]);
                 let per_map = quotient(1.0, before);
                 row[i] = pressures[i];
-                for j in i + 1..(shells.last + 1).min(SPRINGS) {
-                    let own = pressure[j][i] * per_shift[j];
-                    row += (before - own) * inverse[j];
+                for j in i + 1..shells.range().end {
+                    let own = pressure[j][i] * per_shift[axis][j];
+                    row += (before - own) * inverse[axis][j];
                     before = own;
                 }
-                inverse[i] = per_map * row;
+                inverse[axis][i] = per_map * row;
             }
         }
     }

@@ -13,7 +13,7 @@
 //!
 //! Derivatives are one more step of Newton's method from the solution, see [`Slip::differentiate`].
 
-use super::matrix::{Factors, dot, times};
+use super::matrix::{dot, eliminate, times};
 use super::nodes::{Matrix, PerAxis, Row, SPRINGS, length};
 use super::shells::Springs;
 use crate::numerics::guard::{TINY, quotient};
@@ -28,12 +28,12 @@ const MAX_STEPS: usize = 60;
 const MAX_SET_CHANGES: usize = 12;
 /// Newton's method has converged when the change of the angles that would be next is at most this.
 const TURN_TOLERANCE: f64 = 1e-11;
-/// The factors of J are kept while the changes of the angles are at most this.
-const REUSE_TURN: f64 = 1e-2;
+/// The inverse of J is kept while the changes of the angles are at most this.
+const REUSE_TURN: f64 = 3e-2;
 /// Newton's method is given up at a change of angles whose square could overflow.
 const DIVERGED_TURN: f64 = 1e100;
 /// A change of the angles is a rounding error if it is more than the part `STALLED` of the one before, which was at most `SMALL_TURN`, and
-/// both followed from new factors.
+/// both followed from a new inverse.
 const SMALL_TURN: f64 = 1e-9;
 const STALLED: f64 = 0.5;
 /// Sweeps of the points before Newton's method is tried again, and attempts, the first one of which is without.
@@ -50,16 +50,15 @@ const EXPECTED_SLIP: f64 = 0.5;
 /// A point is expected to turn by the same angle in the next step if the cosine of this angle is more.
 const SAME_TURN_COSINE: f64 = 0.5;
 
-/// Slip of the points of a contact, and what its derivatives need.
+/// Slip of the points of a contact.
 #[repr(align(32))]
 pub(crate) struct Slip {
     pub points: Points,
     /// Tangents of half the angles from q* to q of points that slip: the first guess of the next step.
     pub turned: Row,
-    /// J at the solution, for derivatives.
-    pub solution: Factors,
-    /// J of the last iteration that needed a new one, with its points.
-    kept: (Set, Factors),
+    /// -J⁻¹ of the last iteration that needed a new one, and its points.
+    inverse: Matrix,
+    inverse_of: Set,
 }
 
 /// The metric K of a set of slipping points under a load: from the innermost one on, with the points that stick eliminated.
@@ -90,14 +89,19 @@ pub(crate) struct Points {
 }
 
 impl Slip {
+    /// The points from the innermost one that slips on.
+    pub fn range(&self, springs: &Springs) -> [usize; 2] {
+        [self.points.first.min(SPRINGS), springs.shells.range().end.min(SPRINGS)]
+    }
+
     pub const NONE: Slip = {
         let rows = [Row::ZERO; 2];
         let points = Points { set: 0, first: 0, slips: Row::ZERO, e: rows, q: rows, r: rows, v: rows };
-        Slip { points, turned: Row::ZERO, solution: Factors::NONE, kept: (0, Factors::NONE) }
+        Slip { points, turned: Row::ZERO, inverse: [Row::ZERO; SPRINGS], inverse_of: 0 }
     };
 
-    /// Finds the slip from a trial state of springs under a load. The derivatives of slip are prepared if they are requested.
-    pub fn find(&mut self, metric: &mut Metric, springs: &Springs, trial: &PerAxis<Row>, load: f64, derivatives: bool) {
+    /// Finds the slip from a trial state of springs under a load.
+    pub fn find(&mut self, metric: &mut Metric, springs: &Springs, trial: &PerAxis<Row>, load: f64) {
         let q = springs.tractions(trial);
         let [x, y] = directions(&q);
         let mut beyond = members(&square(&q), &Lanes([SQUARED_SLIP_THRESHOLD; SPRINGS]));
@@ -118,7 +122,7 @@ impl Slip {
         // Sweeps converge from any guess: after the last attempt their directions, which are near the solution, are kept.
         let mut swept = q;
         for _ in 0..ATTEMPTS {
-            if self.newton(metric, springs, [trial, &q], load, derivatives) {
+            if self.newton(metric, springs, [trial, &q], load) {
                 break;
             }
             (self.points.e, self.points.set) = sweep(springs, &q, &mut swept);
@@ -130,47 +134,36 @@ impl Slip {
     }
 
     /// Newton's method from present directions; whether it converged.
-    fn newton(
-        &mut self,
-        metric: &mut Metric,
-        springs: &Springs,
-        [trial, q]: [&PerAxis<Row>; 2],
-        load: f64,
-        derivatives: bool,
-    ) -> bool {
-        let Slip { points, solution, kept, .. } = self;
+    fn newton(&mut self, metric: &mut Metric, springs: &Springs, [trial, q]: [&PerAxis<Row>; 2], load: f64) -> bool {
+        let Slip { points, inverse, inverse_of, .. } = self;
         let Metric { matrices, computed_for } = metric;
         let mut steps = 0;
         'sets: for _ in 0..MAX_SET_CHANGES {
             points.first = (points.set.trailing_zeros() as usize).min(SPRINGS);
-            let range = [points.first, springs.shells.range().end];
             points.slips = lanes_of(points.set);
+            let range = [points.first, springs.shells.range().end];
             if *computed_for != (points.set, load) {
                 set_metric(matrices, springs, range, points.set);
                 *computed_for = (points.set, load);
             }
-            // The factors of the step before are kept while changes of angles fall to a tenth.
-            let (mut largest_turn, mut converged, mut keeps_factors) = (f64::MAX, false, kept.0 == points.set);
-            let mut refactored = [false; 2];
+            // The inverse of the step before is kept while changes of angles fall to a tenth.
+            let (mut largest_turn, mut converged, mut keeps_inverse) = (f64::MAX, false, *inverse_of == points.set);
+            let mut inverted = [false; 2];
             loop {
-                let [across, along] = points.residual(matrices, q, range);
+                let across = points.residual(matrices, q, range);
                 let undetermined = steps % REVIEW_INTERVAL == REVIEW_INTERVAL - 1;
                 if (converged || undetermined) && points.review(springs, matrices, trial, q) {
                     continue 'sets;
                 }
-                refactored = [refactored[1], !keeps_factors];
                 if converged {
-                    // The iteration is the same with derivatives and without.
-                    if derivatives {
-                        points.factorise(solution, matrices, &along, range);
-                    }
                     return true;
                 }
-                if refactored[1] {
-                    points.factorise(&mut kept.1, matrices, &along, range);
-                    kept.0 = points.set;
+                inverted = [inverted[1], !keeps_inverse];
+                if inverted[1] {
+                    points.invert(inverse, matrices, range);
+                    *inverse_of = points.set;
                 }
-                let turns = kept.1.solve(range, &(points.slips * across));
+                let turns = -times(inverse, range, &(points.slips * across));
                 let before = largest_turn;
                 largest_turn = largest(&turns);
                 steps += 1;
@@ -178,14 +171,14 @@ impl Slip {
                     return false;
                 }
                 points.turn(&turns);
-                // Quadratic with new factors, linear with old ones, of which the first change tells nothing.
+                // Quadratic with a new inverse, linear with an old one, of which the first change tells nothing.
                 let linear_rate = quotient(largest_turn, before);
-                let rate = if refactored[1] { largest_turn } else { linear_rate };
-                let is_first = before > DIVERGED_TURN && !refactored[1];
-                let stalled = refactored == [true; 2] && before <= SMALL_TURN && largest_turn >= STALLED * before;
+                let rate = if inverted[1] { largest_turn } else { linear_rate };
+                let is_first = before > DIVERGED_TURN && !inverted[1];
+                let stalled = inverted == [true; 2] && before <= SMALL_TURN && largest_turn >= STALLED * before;
                 converged =
                     stalled || largest_turn * (if rate < 1.0 && !is_first { rate } else { 1.0 }) <= TURN_TOLERANCE;
-                keeps_factors = largest_turn <= 0.1 * before && largest_turn <= REUSE_TURN;
+                keeps_inverse = largest_turn <= 0.1 * before && largest_turn <= REUSE_TURN;
             }
         }
         false
@@ -193,23 +186,33 @@ impl Slip {
 }
 
 impl Points {
-    /// Slip across and along these directions: the former is the residual. Tractions of points that stick.
-    fn residual(&mut self, metric: &PerAxis<Matrix>, q: &PerAxis<Row>, range: [usize; 2]) -> [Row; 2] {
+    /// Slip, whose part across the directions is the residual, and tractions of points that stick.
+    fn residual(&mut self, metric: &PerAxis<Matrix>, q: &PerAxis<Row>, range: [usize; 2]) -> Row {
         let inside = lanes_of(within(range)) * (1.0 - self.slips);
         for axis in 0..2 {
             let sum = times(&metric[axis], range, &(self.slips * (q[axis] - self.e[axis])));
             self.r[axis] = self.slips * sum;
             self.q[axis] = self.slips * self.e[axis] + (1.0 - self.slips) * q[axis] + inside * sum;
         }
-        let ([e_x, e_y], [r_x, r_y]) = (self.e, self.r);
-        [e_x * r_y - e_y * r_x, e_x * r_x + e_y * r_y]
+        self.e[0] * self.r[1] - self.e[1] * self.r[0]
     }
 
-    /// The factors of J, which is the identity at points that stick.
-    fn factorise(&self, factors: &mut Factors, metric: &PerAxis<Matrix>, along: &Row, range: [usize; 2]) {
+    /// The slip along the directions.
+    fn along(&self) -> Row {
+        self.e[0] * self.r[0] + self.e[1] * self.r[1]
+    }
+
+    /// -J⁻¹; J is the identity at points that stick.
+    pub fn invert(&self, inverse: &mut Matrix, metric: &PerAxis<Matrix>, range: [usize; 2]) {
         let [x, y] = [self.slips * self.e[0], self.slips * self.e[1]];
-        let diagonal = self.slips * *along + (1.0 - self.slips);
-        factors.set(range, &diagonal, |m| x * (x[m] * metric[1][m]) + y * (y[m] * metric[0][m]));
+        let diagonal = self.slips * self.along() + (1.0 - self.slips);
+        for m in range[0]..range[1].min(SPRINGS) {
+            inverse[m] = x * (x[m] * metric[1][m]) + y * (y[m] * metric[0][m]);
+            inverse[m][m] += diagonal[m];
+        }
+        for m in range[0]..range[1] {
+            eliminate(inverse, m, range);
+        }
     }
 
     /// Turns the directions, by Cayley's formula.
@@ -236,11 +239,11 @@ impl Points {
         }
         let (directions, beyond) =
             (directions(&self.q), members(&square(&self.q), &Lanes([SQUARED_SLIP_THRESHOLD; SPRINGS])));
-        let (mut scale, along) = (Row::ZERO, self.r[0] * self.e[0] + self.r[1] * self.e[1]);
+        let mut scale = Row::ZERO;
         for i in 0..SPRINGS {
             scale[i] = metric[0][i][i] + metric[1][i][i];
         }
-        let (backwards, slips) = (members(&(-along), &(BACKSLIP_TOLERANCE * scale)), beyond & !before);
+        let (backwards, slips) = (members(&(-self.along()), &(BACKSLIP_TOLERANCE * scale)), beyond & !before);
         self.set = before & !backwards | slips;
         for axis in 0..2 {
             self.e[axis] += lanes_of(slips) * (directions[axis] - self.e[axis]);
@@ -269,22 +272,26 @@ fn members(values: &Row, limits: &Row) -> Set {
     set
 }
 
-/// Sets `K = C⁻¹'k C⁻¹` in a direction, of the springs from one on.
-fn set_full_metric(metric: &mut Matrix, springs: &Springs, axis: usize, first: usize) {
+/// Sets `K = C⁻¹'k C⁻¹` of the springs from one on.
+fn set_full_metric(metric: &mut PerAxis<Matrix>, springs: &Springs, first: usize) {
     for m in first..springs.shells.range().end {
-        let mut row = Row::ZERO;
+        let mut rows = [Row::ZERO; 2];
         for j in first..=m {
-            let inverse = &springs.inverse[axis][j];
-            row += (springs.stiffness[axis][j] * inverse[m]) * *inverse;
+            for axis in 0..2 {
+                let inverse = &springs.inverse[axis][j];
+                rows[axis] += (springs.stiffness[axis][j] * inverse[m]) * *inverse;
+            }
         }
-        metric[m] = row;
+        for axis in 0..2 {
+            metric[axis][m] = rows[axis];
+        }
     }
 }
 
 /// Sets K of a set of points, the innermost of which is the first of a range: the others in it are eliminated.
 pub(crate) fn set_metric(metric: &mut PerAxis<Matrix>, springs: &Springs, [first, end]: [usize; 2], set: Set) {
+    set_full_metric(metric, springs, first);
     for axis in 0..2 {
-        set_full_metric(&mut metric[axis], springs, axis, first);
         for i in first..end.min(SPRINGS) {
             if set >> i & 1 == 0 {
                 eliminate(&mut metric[axis], i, [first, end]);
@@ -307,30 +314,12 @@ pub(crate) fn within([first, end]: [usize; 2]) -> Set {
     ((1 << end.min(31)) - 1) & !((1 << first.min(31)) - 1)
 }
 
-/// Eliminates a point from a symmetric matrix: what is left of it between others, its row times its reciprocal, and minus this reciprocal.
-fn eliminate(matrix: &mut Matrix, i: usize, [first, end]: [usize; 2]) {
-    let i = i.min(SPRINGS - 1);
-    let per_pivot = quotient(1.0, matrix[i][i]);
-    let row = per_pivot * matrix[i];
-    for m in first..end.min(SPRINGS) {
-        let x = matrix[m][i];
-        if m != i {
-            matrix[m] -= x * row;
-            matrix[m][i] = x * per_pivot;
-        }
-    }
-    matrix[i] = row;
-    matrix[i][i] = -per_pivot;
-}
-
 /// Sweeps of the points, each of which moves towards the nearest traction within its bound: directions, and the points at the bound.
 #[cold]
 #[inline(never)]
 fn sweep(springs: &Springs, trial: &PerAxis<Row>, q: &mut PerAxis<Row>) -> (PerAxis<Row>, Set) {
     let mut metric = [[Row::ZERO; SPRINGS]; 2];
-    for axis in 0..2 {
-        set_full_metric(&mut metric[axis], springs, axis, springs.shells.first);
-    }
+    set_full_metric(&mut metric, springs, springs.shells.first);
     let mut set = 0;
     for _ in 0..SWEEPS {
         set = 0;

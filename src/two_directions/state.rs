@@ -19,7 +19,7 @@ use super::path::{ContactPath, LONGEST};
 use super::shells::{ScaledNormalState, VALUES};
 use super::step::{Displacements, LoadedContact, SMALLEST_LENGTH, SpringMotion, StepWork, within_friction_limit};
 use super::tangent::{
-    ContactSlopes, END, PARAMETERS, ParameterChanges, ParameterTerms, Propagation, REFERENCE, SpringChanges,
+    ContactSlopes, END, PARAMETERS, ParameterChanges, Propagation, REFERENCE, SpringChanges, StepTangent,
     slopes_of_nodes,
 };
 use crate::element::{Directions, Element, Normal};
@@ -242,7 +242,7 @@ impl State<'_> {
         let mut step = StepWork::NONE;
         (step.middle.turned, step.end.turned) = (Lanes(self.turned[0]), Lanes(self.turned[1]));
         let contacts = [&from, &contact];
-        let force = step.advance(self.nodes, contacts, &motion, &mut at.springs, requested.tangent);
+        let force = step.advance(self.nodes, contacts, &motion, &mut at.springs);
         let [x, y] = within_friction_limit(force, contact.now.load);
         let mut result = StepResult { force: [unit * x, unit * y, normal.load], ..StepResult::NONE };
         if requested.tangent {
@@ -305,32 +305,34 @@ fn tangent(
     old_nodes: Option<(&OldNodes, &Element, &Units)>,
 ) -> [[f64; 3]; 2] {
     let (mut displacement, mut changes) = ([Lanes::<4>::ZERO; 2], SpringChanges::ZERO);
-    let (mut terms, mut by_parameters) = ([ParameterTerms::NONE; PARAMETERS], [Lanes::ZERO; PARAMETERS]);
+    let (mut tangent, mut by_parameters) = (StepTangent::NONE, [Lanes::ZERO; PARAMETERS]);
+    tangent.set_slips(step, motion);
     (by_parameters[END][END], by_parameters[REFERENCE][REFERENCE]) = (1.0, 1.0);
     for axis in 0..2 {
         (displacement[axis][END], displacement[axis][ALONG[axis]]) = (path.per_input[axis][1], 1.0);
     }
     let slopes = ContactSlopes::by_load(nodes, contact);
-    terms[END].set(contact, (step, motion), [None, Some(&slopes)], None);
+    let values = (step, motion, springs);
+    tangent.terms[END].set(contact, values, [None, Some(&slopes)], None);
     if let Some((old_nodes, element, units)) = old_nodes {
         let mut neighbours = [[[0.0; SPRINGS]; ROWS]; 2];
-        let springs = [1.0 + NEIGHBOUR, 1.0 - NEIGHBOUR].map(|size| {
+        let moved = [1.0 + NEIGHBOUR, 1.0 - NEIGHBOUR].map(|size| {
             let nodes = &mut neighbours[usize::from(size < 1.0)];
             fill(nodes, element, units, size);
             old_nodes.moved_to(nodes, &from.now, units)
         });
         for axis in 0..2 {
             for j in 0..SPRINGS {
-                changes.v[axis][j][REFERENCE] = (0.5 / NEIGHBOUR) * (springs[0].v[axis][j] - springs[1].v[axis][j]);
+                changes.v[axis][j][REFERENCE] = (0.5 / NEIGHBOUR) * (moved[0].v[axis][j] - moved[1].v[axis][j]);
             }
         }
         let [larger, smaller] = &neighbours;
         let by_nodes = slopes_of_nodes([larger, smaller]);
         let slopes = [from, contact].map(|contact| ContactSlopes::by_reference(nodes, &by_nodes, contact));
-        terms[REFERENCE].set(contact, (step, motion), [Some(&slopes[0]), Some(&slopes[1])], Some(&by_nodes));
+        tangent.terms[REFERENCE].set(contact, values, [Some(&slopes[0]), Some(&slopes[1])], Some(&by_nodes));
     }
-    let parameters = ParameterChanges { terms: &terms, changes: by_parameters };
-    let propagation = Propagation { contact, nodes, motion, step, new: springs, parameters };
+    let parameters = ParameterChanges { tangent: &tangent, changes: by_parameters };
+    let propagation = Propagation { contact, nodes, motion, step, parameters };
     let by_force = propagation.propagate(&displacement, &mut changes);
     let slopes = propagation.within_friction_limit(force, by_force);
     // The size is the reference size.

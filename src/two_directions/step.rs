@@ -155,7 +155,7 @@ pub(crate) struct StepWork {
 }
 
 /// The spring at the edge: the parts of the displacement and of its old one that it follows and keeps, its trial displacement over its limit,
-/// the length of this, and whether it slips.
+/// whether it slips, and the factor by which it is reduced then.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct EdgeSpring {
     pub part: PerAxis<f64>,
@@ -163,8 +163,8 @@ pub(crate) struct EdgeSpring {
     /// The limit of the spring at the edge at the start.
     pub limit_before: PerAxis<f64>,
     pub ratio: PerAxis<f64>,
-    pub length: f64,
     pub slips: bool,
+    pub scale: f64,
 }
 
 impl StepWork {
@@ -188,7 +188,7 @@ impl StepWork {
                 e: none,
                 per_length: 0.0,
             },
-            edge: EdgeSpring { part: none, kept: none, limit_before: none, ratio: none, length: 0.0, slips: false },
+            edge: EdgeSpring { part: none, kept: none, limit_before: none, ratio: none, slips: false, scale: 1.0 },
         }
     };
 
@@ -200,7 +200,6 @@ impl StepWork {
         [from, to]: [&LoadedContact; 2],
         motion: &SpringMotion,
         springs: &mut Displacements,
-        derivatives: bool,
     ) -> PerAxis<f64> {
         if !motion.constant_load || self.springs.shells.last != to.shells.last {
             self.springs.set(nodes, [&to.shells; 2]);
@@ -209,7 +208,7 @@ impl StepWork {
         self.blend = GrossSlipBlend::new(to, motion, springs);
         self.stick(nodes, to, motion);
         if self.blend.part < 1.0 {
-            self.slip(nodes, [from, to], motion, derivatives);
+            self.slip(nodes, [from, to], motion);
         } else {
             (self.middle.points.set, self.end.points.set) = (0, 0);
         }
@@ -252,16 +251,16 @@ impl StepWork {
     }
 
     /// Slip in the middle and at the end.
-    fn slip(&mut self, nodes: &Nodes, [from, to]: [&LoadedContact; 2], motion: &SpringMotion, derivatives: bool) {
+    fn slip(&mut self, nodes: &Nodes, [from, to]: [&LoadedContact; 2], motion: &SpringMotion) {
         let half = self.middle_trial();
         if motion.constant_load {
-            self.middle.find(&mut self.metric, &self.springs, &half, to.now.load, derivatives);
+            self.middle.find(&mut self.metric, &self.springs, &half, to.now.load);
         } else {
             self.between.set(nodes, [&from.shells, &to.shells]);
-            self.middle.find(&mut self.metric, &self.between, &half, Metric::NEVER_REUSED, derivatives);
+            self.middle.find(&mut self.metric, &self.between, &half, Metric::NEVER_REUSED);
         }
         let beyond = self.end_trial(to);
-        self.end.find(&mut self.metric, &self.springs, &beyond, to.now.load, derivatives);
+        self.end.find(&mut self.metric, &self.springs, &beyond, to.now.load);
     }
 
     /// The springs of the contact in the middle of a step.
@@ -276,7 +275,8 @@ impl StepWork {
 
     /// The trial state of the slip at the end: as far from the middle as the start.
     pub fn end_trial(&self, to: &LoadedContact) -> PerAxis<Row> {
-        by_axis(|axis| to.used() * (2.0 * self.middle.points.v[axis] - self.old.v[axis]))
+        let used = to.used();
+        by_axis(|axis| used * (2.0 * self.middle.points.v[axis] - self.old.v[axis]))
     }
 
     /// The spring at the edge is another one under another load: a rising load keeps that part of it which is still at the edge.
@@ -290,9 +290,10 @@ impl StepWork {
             let old = self.edge.kept[axis] * self.old.edge[axis];
             self.edge.ratio[axis] = (old + self.edge.part[axis] * motion.displacement[axis]) / limit[axis];
         }
-        self.edge.length = length(self.edge.ratio);
-        self.edge.slips = self.edge.length > LENGTH_SLIP_THRESHOLD;
-        let scale = (1.0 - self.blend.part) / if self.edge.slips { self.edge.length } else { 1.0 };
+        let length = length(self.edge.ratio);
+        self.edge.slips = length > LENGTH_SLIP_THRESHOLD;
+        self.edge.scale = if self.edge.slips { 1.0 / length.max(1.0) } else { 1.0 };
+        let scale = (1.0 - self.blend.part) * self.edge.scale;
         for axis in 0..2 {
             springs.edge[axis] = limit[axis] * (scale * self.edge.ratio[axis] + self.blend.part * self.blend.e[axis]);
         }
@@ -304,7 +305,15 @@ pub(crate) const LENGTH_SLIP_THRESHOLD: f64 = 1.0 + 1e-12;
 
 /// A force within Coulomb's bound.
 pub(crate) fn within_friction_limit(force: PerAxis<f64>, bound: f64) -> PerAxis<f64> {
+    match per_length_beyond(force, bound) {
+        Some(per_length) => force.map(|force| force * (bound * per_length)),
+        None => force,
+    }
+}
+
+/// 1 over the length of a force that exceeds a bound. Not inlined, as [`ReleasedSpring::new`].
+#[inline(never)]
+pub(crate) fn per_length_beyond(force: PerAxis<f64>, bound: f64) -> Option<f64> {
     let length = length(force);
-    let scale = if length > bound { quotient(bound, length) } else { 1.0 };
-    force.map(|force| force * scale)
+    (length > bound).then(|| quotient(1.0, length))
 }

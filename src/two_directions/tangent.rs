@@ -7,12 +7,13 @@
 //! C dv = dq - dC v,   dr = C⁻¹'[k (dv* - dv) + dk (v* - v) - dC' r],   e × dr + de × r = 0,   de = e⊥ dθ
 //! ```
 
-use super::matrix::{dot, times_upper, times_upper_transposed};
-use super::nodes::{FLAT_EDGE, Matrix, NEIGHBOUR, Nodes, PerAxis, Row, SHIFT, SPRINGS, by_axis, length};
+use super::matrix::{dot, times_symmetric, times_upper, times_upper_transposed};
+use super::nodes::{FLAT_EDGE, Matrix, NEIGHBOUR, Nodes, PerAxis, Row, SHIFT, SPRINGS, by_axis};
 use super::shells::{ScaledNormalState, Shells, Springs, minus_next};
 use super::slip::{Set, Slip, set_metric, within};
 use super::step::{
     Displacements, LENGTH_SLIP_THRESHOLD, LoadedContact, ReleasedSpring, SMALLEST_LENGTH, SpringMotion, StepWork,
+    per_length_beyond,
 };
 use crate::numerics::guard::quotient;
 use crate::numerics::lanes::Lanes;
@@ -96,9 +97,9 @@ pub(crate) struct ParameterTerms {
     shift: PerAxis<f64>,
     nodes: PerAxis<Row>,
     load: f64,
-    /// Derivatives of the stiffnesses at the end, and of the limit of the spring at the edge at the end and at the start.
-    stiffness: PerAxis<Row>,
-    edge_stiffness: PerAxis<f64>,
+    /// What the derivatives of the stiffnesses add to that of the force, and the derivatives of the limit of the spring at the edge at the end
+    /// and at the start.
+    force: PerAxis<f64>,
     edge_limit: PerAxis<f64>,
     edge_limit_before: PerAxis<f64>,
     middle: SlipTerms,
@@ -181,8 +182,7 @@ impl ParameterTerms {
             shift: none,
             nodes: rows,
             load: 0.0,
-            stiffness: rows,
-            edge_stiffness: none,
+            force: none,
             edge_limit: none,
             edge_limit_before: none,
             middle: SlipTerms::NONE,
@@ -195,7 +195,7 @@ impl ParameterTerms {
     pub fn set(
         &mut self,
         contact: &LoadedContact,
-        (step, motion): (&StepWork, &SpringMotion),
+        (step, motion, new): (&StepWork, &SpringMotion, &Displacements),
         [from, to]: [Option<&ContactSlopes>; 2],
         nodes: Option<&Nodes>,
     ) {
@@ -207,24 +207,62 @@ impl ParameterTerms {
         let ends = [&from.shells, &to.shells];
         self.middle.set(step.middle_springs(motion), (ends, nodes, first), &step.middle_trial(), &step.middle);
         self.end.set(&step.springs, ([ends[1]; 2], nodes, first), &step.end_trial(contact), &step.end);
-        self.stiffness = by_axis(|axis| stiffness_slopes(&step.springs, axis, ends[1]));
+        self.force = by_axis(|axis| {
+            dot(&new.v[axis], &stiffness_slopes(&step.springs, axis, ends[1]))
+                + new.edge[axis] * to.shells.edge_stiffness[axis]
+        });
         self.nodes = by_axis(|axis| nodes.map_or(Row::ZERO, |nodes| Lanes(nodes[SHIFT + axis])));
         (self.shift_before, self.shift, self.load) = (from.shift, to.shift, to.load);
-        (self.edge_limit_before, self.edge_limit, self.edge_stiffness) =
-            (from.edge_limit, to.edge_limit, to.shells.edge_stiffness);
+        (self.edge_limit_before, self.edge_limit) = (from.edge_limit, to.edge_limit);
     }
 }
 
-/// The terms of each parameter of a contact, and by how much the parameter changes in the first four of the lanes that are propagated.
+/// Derivatives of a slip by its trial state: the metric K of its points, and -J⁻¹.
+struct SlipJacobian {
+    metric: PerAxis<Matrix>,
+    inverse: Matrix,
+}
+
+impl SlipJacobian {
+    const NONE: SlipJacobian = SlipJacobian { metric: [[Row::ZERO; SPRINGS]; 2], inverse: [Row::ZERO; SPRINGS] };
+
+    fn set(&mut self, springs: &Springs, slip: &Slip) {
+        let (points, range) = (&slip.points, slip.range(springs));
+        if points.set != 0 {
+            set_metric(&mut self.metric, springs, range, points.set);
+            points.invert(&mut self.inverse, &self.metric, range);
+        }
+    }
+}
+
+/// What is linear in a step: both slips, and the terms of each parameter of the contact.
+pub(crate) struct StepTangent {
+    pub terms: [ParameterTerms; PARAMETERS],
+    middle: SlipJacobian,
+    end: SlipJacobian,
+}
+
+impl StepTangent {
+    pub const NONE: StepTangent =
+        StepTangent { terms: [ParameterTerms::NONE; PARAMETERS], middle: SlipJacobian::NONE, end: SlipJacobian::NONE };
+
+    /// Sets the derivatives of both slips.
+    pub fn set_slips(&mut self, step: &StepWork, motion: &SpringMotion) {
+        self.middle.set(step.middle_springs(motion), &step.middle);
+        self.end.set(&step.springs, &step.end);
+    }
+}
+
+/// The tangent of a step, and by how much each parameter of the contact changes in the first four of the lanes that are propagated.
 pub(crate) struct ParameterChanges<'a> {
-    pub terms: &'a [ParameterTerms; PARAMETERS],
+    pub tangent: &'a StepTangent,
     pub changes: [Lanes<4>; PARAMETERS],
 }
 
 impl ParameterChanges<'_> {
     /// What a term of all parameters adds.
     fn sum(&self, term: impl Fn(&ParameterTerms) -> f64) -> Lanes<4> {
-        let [a, b, c] = self.terms;
+        let [a, b, c] = &self.tangent.terms;
         let [by_a, by_b, by_c] = self.changes;
         term(a) * by_a + term(b) * by_b + term(c) * by_c
     }
@@ -235,13 +273,12 @@ impl ParameterChanges<'_> {
     }
 }
 
-/// A step through which changes are propagated: the contact at its end, the springs after it, and what the parameters add.
+/// A step through which changes are propagated: the contact at its end, and what the parameters add.
 pub(crate) struct Propagation<'a> {
     pub contact: &'a LoadedContact,
     pub nodes: &'a Nodes,
     pub motion: &'a SpringMotion,
     pub step: &'a StepWork,
-    pub new: &'a Displacements,
     pub parameters: ParameterChanges<'a>,
 }
 
@@ -253,7 +290,7 @@ impl Propagation<'_> {
         displacement: &PerAxis<Lanes<L>>,
         springs: &mut SpringChanges<L>,
     ) -> PerAxis<Lanes<L>> {
-        let Propagation { contact, motion, step, new, parameters, .. } = self;
+        let Propagation { contact, motion, step, parameters, .. } = self;
         let used = contact.used();
         let old = springs.v;
         let v = &mut springs.v;
@@ -276,13 +313,15 @@ impl Propagation<'_> {
                     v[axis][j] = 0.5 * (v[axis][j] + old[axis][j]);
                 }
             }
-            step.middle.differentiate(step.middle_springs(motion), v, parameters, |terms| &terms.middle);
+            let tangent = parameters.tangent;
+            step.middle
+                .differentiate(&tangent.middle, step.middle_springs(motion), v, parameters, |terms| &terms.middle);
             for axis in 0..2 {
                 for j in 0..SPRINGS {
                     v[axis][j] = used[j] * (2.0 * v[axis][j] - old[axis][j]);
                 }
             }
-            step.end.differentiate(&step.springs, v, parameters, |terms| &terms.end);
+            step.end.differentiate(&tangent.end, &step.springs, v, parameters, |terms| &terms.end);
         }
         springs.edge = self.move_edge(displacement, &springs.edge);
         if step.blend.part > 0.0 {
@@ -294,11 +333,7 @@ impl Propagation<'_> {
                 force[axis] += step.springs.stiffness[axis][j] * springs.v[axis][j];
             }
             force[axis] += contact.shells.edge_stiffness[axis] * springs.edge[axis];
-            force[axis].add_first(
-                parameters.sum(|terms| {
-                    dot(&new.v[axis], &terms.stiffness[axis]) + new.edge[axis] * terms.edge_stiffness[axis]
-                }),
-            );
+            force[axis].add_first(parameters.sum(|terms| terms.force[axis]));
         }
         force
     }
@@ -369,9 +404,8 @@ impl Propagation<'_> {
         }
         let (mut end, mut e) = (ratio, edge.ratio);
         if edge.slips {
-            let per = quotient(1.0, edge.length);
-            e = edge.ratio.map(|ratio| per * ratio);
-            end = across(e, per, ratio);
+            e = edge.ratio.map(|ratio| edge.scale * ratio);
+            end = across(e, edge.scale, ratio);
         }
         for axis in 0..2 {
             end[axis] = limit[axis] * end[axis];
@@ -418,7 +452,7 @@ impl Propagation<'_> {
             }
             let by_limit = parameters.sum(|terms| terms.edge_limit[axis]);
             let (limit, end) = (edge_limits[axis], &step.edge);
-            let value = limit * end.ratio[axis] / if end.slips { end.length.max(1.0) } else { 1.0 };
+            let value = limit * end.scale * end.ratio[axis];
             springs.edge[axis] = blended(axis, value, springs.edge[axis], limit, by_limit);
         }
     }
@@ -429,11 +463,8 @@ impl Propagation<'_> {
         force: PerAxis<f64>,
         [x, y]: PerAxis<Lanes<L>>,
     ) -> PerAxis<Lanes<L>> {
-        let (length, bound) = (length(force), self.contact.now.load);
-        if length <= LENGTH_SLIP_THRESHOLD * bound {
-            return [x, y];
-        }
-        let per = quotient(1.0, length);
+        let bound = self.contact.now.load;
+        let Some(per) = per_length_beyond(force, LENGTH_SLIP_THRESHOLD * bound) else { return [x, y] };
         let e = force.map(|force| force * per);
         let by_bound = self.parameters.sum(|terms| terms.load);
         let mut slopes = across(e, bound * per, [x, y]);
@@ -454,6 +485,7 @@ impl Slip {
     /// Changes of springs after slip, in place of those of the trial state.
     fn differentiate<const L: usize>(
         &self,
+        jacobian: &SlipJacobian,
         springs: &Springs,
         v: &mut PerAxis<Changes<L>>,
         parameters: &ParameterChanges,
@@ -462,8 +494,8 @@ impl Slip {
         if self.points.set == 0 {
             return;
         }
-        let (first, end) = (self.points.first.min(SPRINGS), springs.shells.range().end.min(SPRINGS));
-        let range = [first, end];
+        let range = self.range(springs);
+        let [first, end] = range;
         // The springs at the present tractions, and the slip at them.
         let mut own = [[Lanes::<4>::ZERO; SPRINGS]; 2];
         for axis in 0..2 {
@@ -481,7 +513,7 @@ impl Slip {
                 v[axis][i].add_first(parameters.sum(|terms| slip_of(terms).slip[axis][i]));
             }
         }
-        self.turn(springs, v, range);
+        self.turn(jacobian, v, range);
         for axis in 0..2 {
             times_upper(&springs.inverse[axis], range, &mut v[axis]);
             for j in first..end {
@@ -491,16 +523,11 @@ impl Slip {
     }
 
     /// Changes of the tractions, in place of those of slip at the present tractions.
-    fn turn<const L: usize>(&self, springs: &Springs, slip: &mut PerAxis<Changes<L>>, [first, end]: [usize; 2]) {
-        let Slip { points, solution, .. } = self;
-        let (first, end) = (first.min(SPRINGS), end.min(SPRINGS));
+    fn turn<const L: usize>(&self, jacobian: &SlipJacobian, slip: &mut PerAxis<Changes<L>>, range: [usize; 2]) {
+        let [first, end] = range.map(|i| i.min(SPRINGS));
+        let (points, SlipJacobian { metric, inverse }) = (&self.points, jacobian);
         let sticks = !points.set & within([first, end]);
-        let metric = (sticks != 0).then(|| {
-            let mut metric = [[Row::ZERO; SPRINGS]; 2];
-            set_metric(&mut metric, springs, [first, end], points.set);
-            metric
-        });
-        if let Some(metric) = &metric {
+        if sticks != 0 {
             eliminate(metric, slip, [first, end], (points.set, sticks));
         }
         let mut across = [Lanes::ZERO; SPRINGS];
@@ -509,13 +536,13 @@ impl Slip {
                 across[m] = points.e[0][m] * slip[1][m] - points.e[1][m] * slip[0][m];
             }
         }
-        solution.solve_lanes([first, end], &mut across);
+        times_symmetric(inverse, [first, end], &mut across);
         for i in first..end {
             if points.set >> i & 1 == 1 {
-                (slip[0][i], slip[1][i]) = (-points.e[1][i] * across[i], points.e[0][i] * across[i]);
+                (slip[0][i], slip[1][i]) = (points.e[1][i] * across[i], -points.e[0][i] * across[i]);
             }
         }
-        if let Some(metric) = &metric {
+        if sticks != 0 {
             // What these take from the tractions of others.
             for axis in 0..2 {
                 for i in first..end {

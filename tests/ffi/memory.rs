@@ -214,12 +214,14 @@ fn invalid_states() {
             }
             _ => {
                 // Loads, units, the normal state, and rows of the tables of nodes.
-                let sizes = [1, 7, 8, 9, 20, 21, 22, 23, 123, 223, 243, 263, 283, 342];
-                sizes.into_iter().for_each(|i| _ = found(i, -1.0, "a negative size"));
+                const ROW: usize = 16;
+                let tables = [(6, 3), (11, 3), (12, 3), (13, 3), (14, 3), (17, 2)].map(|(row, i)| ROW * row + i);
+                let sizes = [1, 7, 8, 9, ROW, ROW + 1, ROW + 2, ROW + 3];
+                sizes.into_iter().chain(tables).for_each(|i| _ = found(i, -1.0, "a negative size"));
                 found(12, 1000.0, "text of 16 digits");
-                found(34, 1e50, "a derivative that overflows");
-                [82, 102].into_iter().for_each(|i| _ = found(i, 2.0, "a point that turns too far"));
-                [43, 63].into_iter().for_each(|i| _ = found(i, 10.0, "a spring beyond its limit"));
+                found(2 * ROW - 6, 1e50, "a derivative that overflows");
+                [4 * ROW + 2, 5 * ROW + 2].into_iter().for_each(|i| _ = found(i, 2.0, "a point that turns too far"));
+                [2 * ROW + 3, 3 * ROW + 3].into_iter().for_each(|i| _ = found(i, 10.0, "a spring beyond its limit"));
             }
         }
         let length = state.bytes / 8;

@@ -10,7 +10,7 @@ use microslip::two_directions::harmonic_force::{
 use nalgebra::{SMatrix, SVector};
 
 /// The last number is that of the steady state: 20 periods are within 0.1 % of it.
-const PERIODS: [usize; 7] = [1, 2, 3, 5, 10, 20, 200];
+const PERIODS: [usize; 7] = [1, 2, 3, 4, 10, 20, 200];
 const SAMPLES: usize = 64;
 /// Coefficients of a component, of the unknown components u and v, and of u, v and N.
 const ROW: usize = 3;
