@@ -3,6 +3,7 @@
 
 pub(crate) mod chebyshev;
 pub(crate) mod const_math;
+pub(crate) mod dual;
 pub(crate) mod fp_class;
 pub(crate) mod guard;
 pub(crate) mod lanes;

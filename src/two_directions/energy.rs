@@ -29,7 +29,7 @@ pub(crate) fn dissipated(
         let follow = by_axis(|axis| step.old.v[axis] + step.parts[axis] * motion.displacement[axis]);
         for j in to.shells.range() {
             let per_limit = by_axis(|axis| 1.0 / limits[axis][j].max(SMALLEST_LENGTH));
-            let limit_ratio = (motion.shift_before[0] - nodes[SHIFT][j]).max(0.0) * per_limit[0];
+            let limit_ratio = (from.now.shift[0] - nodes[SHIFT][j]).max(0.0) * per_limit[0];
             let old = by_axis(|axis| step.old.v[axis][j] * per_limit[axis]);
             let trial = by_axis(|axis| follow[axis][j] * per_limit[axis]);
             let end = by_axis(|axis| new.v[axis][j] * per_limit[axis]);

@@ -291,8 +291,7 @@ impl<'a> PeriodIntegration<'a> {
         let same = closed[0] && to[2].to_bits() == self.at[2].to_bits();
         let path = ContactPath::new(self.element, &self.units, [self.at, to], closed);
         self.from = self.contact;
-        let motion =
-            SpringMotion { shift_before: self.from.now.shift, displacement: path.displacement, constant_load: same };
+        let motion = SpringMotion { displacement: path.displacement, constant_load: same };
         self.at = to;
         let (mut force, mut unbounded) = ([0.0; 2], [0.0; 2]);
         if closed[1] {
@@ -360,7 +359,7 @@ fn differentiate(
     terms[START].set(contact, values, [Some(&by_start[0]), None], None);
     terms[REFERENCE].set(contact, values, [Some(&by_start[1]), Some(&by_end[1])], Some(nodes));
     tangent.set_slips(step, motion);
-    let (contact, tangent) = (&*contact, &**tangent);
+    let (contacts, tangent) = ([&*from, &*contact], &**tangent);
     let (forces_x, forces_y) = workspace.forces.split_at_mut(workspace.forces.len() / 2);
     let blocks = workspace.changes.blocks_mut::<COLUMNS>().blocks_mut::<CHANGES>();
     let [forces_x, forces_y] = [forces_x, forces_y].map(Total::blocks_mut::<COLUMNS>);
@@ -384,7 +383,7 @@ fn differentiate(
             v: by_axis(|axis| core::array::from_fn(|j| Lanes(columns[axis * SPRINGS + j]))),
             edge: by_axis(|axis| Lanes(columns[2 * SPRINGS + axis])),
         };
-        let propagation = Propagation { contact, nodes: own_nodes, motion, step, parameters };
+        let propagation = Propagation { contacts, nodes: own_nodes, motion, step, parameters };
         let forces = propagation.propagate(&displacement, &mut changes);
         let forces = propagation.within_friction_limit(*unbounded, forces);
         for axis in 0..2 {

@@ -237,8 +237,7 @@ impl State<'_> {
             at.pressed = ScaledNormalState::new(element, &at.units, to[2], &normal);
             contact = LoadedContact::new(self.nodes, &at.pressed);
         }
-        let motion =
-            SpringMotion { shift_before: from.now.shift, displacement: path.displacement, constant_load: same };
+        let motion = SpringMotion { displacement: path.displacement, constant_load: same };
         let mut step = StepWork::NONE;
         (step.middle.turned, step.end.turned) = (Lanes(self.turned[0]), Lanes(self.turned[1]));
         let contacts = [&from, &contact];
@@ -332,7 +331,7 @@ fn tangent(
         tangent.terms[REFERENCE].set(contact, values, [Some(&slopes[0]), Some(&slopes[1])], Some(&by_nodes));
     }
     let parameters = ParameterChanges { tangent: &tangent, changes: by_parameters };
-    let propagation = Propagation { contact, nodes, motion, step, parameters };
+    let propagation = Propagation { contacts: [from, contact], nodes, motion, step, parameters };
     let by_force = propagation.propagate(&displacement, &mut changes);
     let slopes = propagation.within_friction_limit(force, by_force);
     // The size is the reference size.

@@ -12,10 +12,10 @@
 //! The edge spring is one more spring from a size just inside the edge on, on its own: it makes the stuck stiffness that of the contact.
 
 use super::matrix::dot;
-use super::nodes::{Nodes, PerAxis, Row, SHIFT, SPRINGS, by_axis, length};
+use super::nodes::{Nodes, PerAxis, Row, SHIFT, SPRINGS, by_axis};
 use super::shells::{ScaledNormalState, Shells, Springs};
 use super::slip::{Metric, Slip, lanes_of, within};
-use crate::numerics::guard::quotient;
+use crate::numerics::dual::Number;
 use crate::numerics::lanes::Lanes;
 
 /// A contact under a load, by default open: its normal state, with derivatives by the normal component over its scale, and its shells.
@@ -58,10 +58,9 @@ impl Displacements {
     pub const NONE: Displacements = Displacements { v: [Row::ZERO; 2], edge: [0.0; 2] };
 }
 
-/// A step, straight in S and in the displacement: S at the start, the displacement, and whether the load is that of the start.
+/// A step, straight in S and in the displacement: the displacement, and whether the load is that of the start.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct SpringMotion {
-    pub shift_before: PerAxis<f64>,
     pub displacement: PerAxis<f64>,
     pub constant_load: bool,
 }
@@ -72,69 +71,86 @@ pub(crate) const SMALLEST_LENGTH: f64 = 1e-40;
 /// Displacements over the innermost limit between which a step erases the memory.
 const BLEND_RANGE: [f64; 2] = [2.5, 5.0];
 
-/// Blend of the springs into gross slip, for a motion of several times the innermost limit: the displacement δ, and that part of the
-/// innermost spring which a falling load cuts off.
+/// Blend of the springs into gross slip.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct GrossSlipBlend {
+pub(crate) struct GrossSlipBlend<T> {
     /// The part of the springs that ends in gross slip, 0 to 1.
-    pub part: f64,
-    /// The derivative of this part by the distance.
-    pub part_slope: f64,
-    /// The part of the innermost spring that is cut off.
-    pub cut: PerAxis<f64>,
-    /// The motion over the limits, and the length of this: the distance.
-    pub ratio: PerAxis<f64>,
-    pub distance: f64,
-    /// The direction of the motion, and 1 over its length \[in the unit of S\].
-    pub e: PerAxis<f64>,
-    pub per_length: f64,
+    pub part: T,
+    /// The direction of the motion.
+    e: PerAxis<T>,
 }
 
-impl GrossSlipBlend {
-    fn new(to: &LoadedContact, motion: &SpringMotion, old: &Displacements) -> GrossSlipBlend {
-        let (mut travel, mut cut, mut ratio) = (motion.displacement, [0.0; 2], [0.0; 2]);
-        for axis in 0..2 {
-            let limit = to.now.shift[axis].max(SMALLEST_LENGTH);
-            cut[axis] =
-                (1.0 - limit / motion.shift_before[axis].max(limit)) * f64::from(u8::from(!motion.constant_load));
-            travel[axis] += cut[axis] * old.v[axis][to.shells.innermost()];
-            ratio[axis] = travel[axis] / limit;
-        }
-        let distance = length(ratio);
-        let per_length = 1.0 / length(travel).max(SMALLEST_LENGTH);
-        let x = ((distance - BLEND_RANGE[0]) / (BLEND_RANGE[1] - BLEND_RANGE[0])).clamp(0.0, 1.0);
-        let part_slope = 6.0 * x * (1.0 - x) / (BLEND_RANGE[1] - BLEND_RANGE[0]);
-        let e = travel.map(|travel| travel * per_length);
-        GrossSlipBlend { part: x * x * (3.0 - 2.0 * x), part_slope, cut, ratio, distance, e, per_length }
+impl<T: Number> GrossSlipBlend<T> {
+    /// For a motion of several times the innermost limit: the displacement, and that part of the innermost spring which a falling load cuts off.
+    pub fn new(
+        [before, limit]: [PerAxis<T>; 2],
+        displacement: &PerAxis<T>,
+        innermost: PerAxis<T>,
+    ) -> GrossSlipBlend<T> {
+        let limit = limit.map(at_least_smallest);
+        let travel = by_axis(|axis| {
+            let cut = T::constant(1.0) - limit[axis].quotient(before[axis].or_larger(limit[axis]));
+            displacement[axis] + cut * innermost[axis]
+        });
+        let distance = length_of(by_axis(|axis| travel[axis].quotient(limit[axis])));
+        let x =
+            ((distance - T::constant(BLEND_RANGE[0])) * T::constant(1.0 / (BLEND_RANGE[1] - BLEND_RANGE[0]))).share();
+        let length = at_least_smallest(length_of(travel));
+        let part = x * x * (T::constant(3.0) - T::constant(2.0) * x);
+        GrossSlipBlend { part, e: travel.map(|travel| travel.quotient(length)) }
     }
+
+    /// A spring of a limit: v, but for the part that ends in gross slip.
+    pub fn of_spring(&self, axis: usize, v: T, limit: T) -> T {
+        (T::constant(1.0) - self.part) * v + self.part * self.e[axis] * limit
+    }
+}
+
+fn at_least_smallest<T: Number>(length: T) -> T {
+    length.or_larger(T::constant(SMALLEST_LENGTH))
+}
+
+/// The length of a vector of numbers with derivatives.
+fn length_of<T: Number>([x, y]: PerAxis<T>) -> T {
+    (x * x + y * y).root()
 }
 
 /// A spring is released if its limit falls by more than this factor in the step.
 const RELEASE_RATIO: f64 = 4.0;
 
-/// A spring whose limit falls by more than `RELEASE_RATIO` in the step, or to 0 if the edge passes its node. It slips mostly on its own, before
-/// the others: only `excess_share` of the excess of its trial state over its limit is left for the joint slip.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct ReleasedSpring {
-    /// The trial state over the limit, and its length.
-    pub ratio: PerAxis<f64>,
-    pub length: f64,
-    /// The share of the excess that is left.
-    pub excess_share: f64,
-    /// The factor by which the trial state is reduced.
-    pub scale: f64,
+/// The trial state of a spring whose limit falls by more than `RELEASE_RATIO` in the step, or to 0 if the edge passes its node. It slips mostly on
+/// its own, before the others: only a share of the excess of its trial state over its limit is left for the joint slip.
+///
+/// Not inlined: the compiler would divide by what is beside its quotients in the vector registers of a caller, too.
+#[inline(never)]
+pub(crate) fn released<T: Number>(limit: PerAxis<T>, fall: T, trial: PerAxis<T>) -> PerAxis<T> {
+    let length = length_of(by_axis(|axis| trial[axis].quotient(at_least_smallest(limit[axis]))));
+    if length.value() <= 1.0 {
+        return trial;
+    }
+    let share = (T::constant(RELEASE_RATIO) * limit[0]).quotient(at_least_smallest(limit[0] + fall)).share();
+    let scale = (T::constant(1.0) + share * (length - T::constant(1.0))).quotient(length);
+    trial.map(|trial| trial * scale)
 }
 
-impl ReleasedSpring {
-    /// Not inlined: the compiler would divide by what is beside its quotients in the vector registers of a caller, too.
-    #[inline(never)]
-    pub fn new(limit: PerAxis<f64>, fall: f64, trial: PerAxis<f64>) -> ReleasedSpring {
-        let ratio = by_axis(|axis| trial[axis] / limit[axis].max(SMALLEST_LENGTH));
-        let length = length(ratio);
-        let excess_share = (RELEASE_RATIO * limit[0] / (limit[0] + fall).max(SMALLEST_LENGTH)).min(1.0);
-        let scale = if length > 1.0 { (1.0 + excess_share * (length - 1.0)) / length.max(1.0) } else { 1.0 };
-        ReleasedSpring { ratio, length, excess_share, scale }
-    }
+/// The spring at the edge after a step. It is another one under another load: a rising load keeps that part of it which is still at the edge.
+#[inline(never)]
+pub(crate) fn edge_spring<T: Number>(
+    [before, limit]: [PerAxis<T>; 2],
+    rise: PerAxis<T>,
+    displacement: &PerAxis<T>,
+    old: PerAxis<T>,
+) -> PerAxis<T> {
+    let limit = limit.map(at_least_smallest);
+    let ratio = by_axis(|axis| {
+        let part = limit[axis].quotient(limit[axis].or_larger(rise[axis]));
+        let kept = (limit[axis] - rise[axis]).quotient(at_least_smallest(before[axis])).share();
+        (kept * old[axis] + part * displacement[axis]).quotient(limit[axis])
+    });
+    let length = length_of(ratio);
+    let scale =
+        if length.value() > LENGTH_SLIP_THRESHOLD { T::constant(1.0).quotient(length) } else { T::constant(1.0) };
+    by_axis(|axis| limit[axis] * (scale * ratio[axis]))
 }
 
 /// A step while it is computed, and what its derivatives and its energy need.
@@ -150,21 +166,9 @@ pub(crate) struct StepWork {
     pub end: Slip,
     /// K of the last slip.
     metric: Metric,
-    pub blend: GrossSlipBlend,
-    pub edge: EdgeSpring,
-}
-
-/// The spring at the edge: the parts of the displacement and of its old one that it follows and keeps, its trial displacement over its limit,
-/// whether it slips, and the factor by which it is reduced then.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct EdgeSpring {
-    pub part: PerAxis<f64>,
-    pub kept: PerAxis<f64>,
-    /// The limit of the spring at the edge at the start.
-    pub limit_before: PerAxis<f64>,
-    pub ratio: PerAxis<f64>,
-    pub slips: bool,
-    pub scale: f64,
+    pub blend: GrossSlipBlend<f64>,
+    /// The spring at the edge, but for the part that ends in gross slip.
+    pub edge: PerAxis<f64>,
 }
 
 impl StepWork {
@@ -179,16 +183,8 @@ impl StepWork {
             middle: Slip::NONE,
             end: Slip::NONE,
             metric: Metric::NONE,
-            blend: GrossSlipBlend {
-                part: 0.0,
-                part_slope: 0.0,
-                cut: none,
-                ratio: none,
-                distance: 0.0,
-                e: none,
-                per_length: 0.0,
-            },
-            edge: EdgeSpring { part: none, kept: none, limit_before: none, ratio: none, slips: false, scale: 1.0 },
+            blend: GrossSlipBlend { part: 0.0, e: none },
+            edge: none,
         }
     };
 
@@ -205,48 +201,52 @@ impl StepWork {
             self.springs.set(nodes, [&to.shells; 2]);
         }
         self.old = *springs;
-        self.blend = GrossSlipBlend::new(to, motion, springs);
-        self.stick(nodes, to, motion);
+        let first = to.shells.innermost();
+        let shifts = [from.now.shift, to.now.shift];
+        self.blend = GrossSlipBlend::new(shifts, &motion.displacement, by_axis(|axis| springs.v[axis][first]));
+        self.stick(nodes, [from, to], motion);
         if self.blend.part < 1.0 {
             self.slip(nodes, [from, to], motion);
         } else {
             (self.middle.points.set, self.end.points.set) = (0, 0);
         }
-        let (mut force, rest) = ([0.0; 2], 1.0 - self.blend.part);
-        self.move_edge([from, to], motion, springs);
-        for axis in 0..2 {
-            springs.v[axis] = self.end.points.v[axis];
-            if self.blend.part > 0.0 {
-                let gross_slip = self.blend.part * self.blend.e[axis] * to.limits(nodes)[axis];
-                springs.v[axis] = rest * self.end.points.v[axis] + gross_slip;
+        let edge_limits = [from.edge_limits(), to.edge_limits()];
+        let rise = by_axis(|axis| to.now.shift[axis] - from.now.shift[axis]);
+        self.edge = edge_spring(edge_limits, rise, &motion.displacement, springs.edge);
+        (springs.v, springs.edge) = (self.end.points.v, self.edge);
+        if self.blend.part > 0.0 {
+            let limits = to.limits(nodes);
+            for axis in 0..2 {
+                for j in 0..SPRINGS {
+                    springs.v[axis][j] = self.blend.of_spring(axis, springs.v[axis][j], limits[axis][j]);
+                }
+                springs.edge[axis] = self.blend.of_spring(axis, springs.edge[axis], edge_limits[1][axis]);
             }
-            force[axis] = dot(&self.springs.stiffness[axis], &springs.v[axis])
-                + to.shells.edge_stiffness[axis] * springs.edge[axis];
         }
-        force
+        by_axis(|axis| {
+            dot(&self.springs.stiffness[axis], &springs.v[axis]) + to.shells.edge_stiffness[axis] * springs.edge[axis]
+        })
     }
 
     /// The trial state, in which nothing slips.
-    fn stick(&mut self, nodes: &Nodes, to: &LoadedContact, motion: &SpringMotion) {
+    fn stick(&mut self, nodes: &Nodes, [from, to]: [&LoadedContact; 2], motion: &SpringMotion) {
         let limits = to.limits(nodes);
         for axis in 0..2 {
             self.parts[axis] = Lanes([1.0; SPRINGS]);
-            let rise = to.now.shift[axis] - motion.shift_before[axis];
+            let rise = to.now.shift[axis] - from.now.shift[axis];
             if !motion.constant_load && rise > 0.0 {
                 let parts = limits[axis] * (1.0 / rise.max(SMALLEST_LENGTH));
                 self.parts[axis] = parts.map(|part| part.min(1.0));
             }
             self.trial[axis] = to.used() * (self.old.v[axis] + self.parts[axis] * motion.displacement[axis]);
         }
-        let fall = motion.shift_before[0] - to.now.shift[0];
-        if motion.constant_load || fall <= (RELEASE_RATIO - 1.0) * limits[0][to.shells.last.min(SPRINGS - 1)] {
+        let fall = from.now.shift[0] - to.now.shift[0];
+        if !releases(fall, limits[0][to.shells.last.min(SPRINGS - 1)]) {
             return;
         }
         for j in to.shells.range() {
-            let kept = ReleasedSpring::new([limits[0][j], limits[1][j]], fall, [self.trial[0][j], self.trial[1][j]]);
-            for axis in 0..2 {
-                self.trial[axis][j] *= kept.scale;
-            }
+            let [x, y] = by_axis(|axis| [limits[axis][j], self.trial[axis][j]]);
+            [self.trial[0][j], self.trial[1][j]] = released([x[0], y[0]], fall, [x[1], y[1]]);
         }
     }
 
@@ -278,42 +278,20 @@ impl StepWork {
         let used = to.used();
         by_axis(|axis| used * (2.0 * self.middle.points.v[axis] - self.old.v[axis]))
     }
+}
 
-    /// The spring at the edge is another one under another load: a rising load keeps that part of it which is still at the edge.
-    fn move_edge(&mut self, [from, to]: [&LoadedContact; 2], motion: &SpringMotion, springs: &mut Displacements) {
-        let [limit, before] = [to, from].map(|contact| contact.edge_limits().map(|limit| limit.max(SMALLEST_LENGTH)));
-        for axis in 0..2 {
-            let rise = to.now.shift[axis] - motion.shift_before[axis];
-            self.edge.part[axis] = limit[axis] / rise.max(limit[axis]);
-            self.edge.limit_before[axis] = before[axis];
-            self.edge.kept[axis] = ((limit[axis] - rise) / self.edge.limit_before[axis]).clamp(0.0, 1.0);
-            let old = self.edge.kept[axis] * self.old.edge[axis];
-            self.edge.ratio[axis] = (old + self.edge.part[axis] * motion.displacement[axis]) / limit[axis];
-        }
-        let length = length(self.edge.ratio);
-        self.edge.slips = length > LENGTH_SLIP_THRESHOLD;
-        self.edge.scale = if self.edge.slips { 1.0 / length.max(1.0) } else { 1.0 };
-        let scale = (1.0 - self.blend.part) * self.edge.scale;
-        for axis in 0..2 {
-            springs.edge[axis] = limit[axis] * (scale * self.edge.ratio[axis] + self.blend.part * self.blend.e[axis]);
-        }
-    }
+/// Whether a load whose S falls by so much may release springs, the outermost of which has this limit.
+pub(crate) fn releases(fall: f64, outermost: f64) -> bool {
+    fall > (RELEASE_RATIO - 1.0) * outermost
 }
 
 /// The largest length of a state over its limit that sticks: one that has slipped may round.
 pub(crate) const LENGTH_SLIP_THRESHOLD: f64 = 1.0 + 1e-12;
 
-/// A force within Coulomb's bound.
-pub(crate) fn within_friction_limit(force: PerAxis<f64>, bound: f64) -> PerAxis<f64> {
-    match per_length_beyond(force, bound) {
-        Some(per_length) => force.map(|force| force * (bound * per_length)),
-        None => force,
-    }
-}
-
-/// 1 over the length of a force that exceeds a bound. Not inlined, as [`ReleasedSpring::new`].
+/// A force within Coulomb's bound. Not inlined, as [`released`].
 #[inline(never)]
-pub(crate) fn per_length_beyond(force: PerAxis<f64>, bound: f64) -> Option<f64> {
-    let length = length(force);
-    (length > bound).then(|| quotient(1.0, length))
+pub(crate) fn within_friction_limit<T: Number>(force: PerAxis<T>, bound: T) -> PerAxis<T> {
+    let length = length_of(force);
+    let slips = length.value() > LENGTH_SLIP_THRESHOLD * bound.value();
+    if slips { force.map(|force| force * bound.quotient(length)) } else { force }
 }

@@ -12,10 +12,10 @@ use super::nodes::{FLAT_EDGE, Matrix, NEIGHBOUR, Nodes, PerAxis, Row, SHIFT, SPR
 use super::shells::{ScaledNormalState, Shells, Springs, minus_next};
 use super::slip::{Set, Slip, set_metric, within};
 use super::step::{
-    Displacements, LENGTH_SLIP_THRESHOLD, LoadedContact, ReleasedSpring, SMALLEST_LENGTH, SpringMotion, StepWork,
-    per_length_beyond,
+    Displacements, GrossSlipBlend, LoadedContact, SpringMotion, StepWork, edge_spring, released, releases,
+    within_friction_limit,
 };
-use crate::numerics::guard::quotient;
+use crate::numerics::dual::{Dual, Number};
 use crate::numerics::lanes::Lanes;
 
 /// Changes of each spring.
@@ -190,6 +190,11 @@ impl ParameterTerms {
         }
     };
 
+    /// The derivative of the limit of a spring.
+    fn limit(&self, axis: usize, j: usize) -> f64 {
+        self.shift[axis] - self.nodes[axis][j]
+    }
+
     /// Sets the terms of a parameter by which the contact at the start, that at the end, or both have derivatives, and the nodes.
     #[inline(never)]
     pub fn set(
@@ -266,16 +271,11 @@ impl ParameterChanges<'_> {
         let [by_a, by_b, by_c] = self.changes;
         term(a) * by_a + term(b) * by_b + term(c) * by_c
     }
-
-    /// Changes of the limit of a spring.
-    fn limit(&self, axis: usize, j: usize) -> Lanes<4> {
-        self.sum(|terms| terms.shift[axis] - terms.nodes[axis][j])
-    }
 }
 
-/// A step through which changes are propagated: the contact at its end, and what the parameters add.
+/// A step through which changes are propagated: the contact at both ends, and what the parameters add.
 pub(crate) struct Propagation<'a> {
-    pub contact: &'a LoadedContact,
+    pub contacts: [&'a LoadedContact; 2],
     pub nodes: &'a Nodes,
     pub motion: &'a SpringMotion,
     pub step: &'a StepWork,
@@ -283,6 +283,13 @@ pub(crate) struct Propagation<'a> {
 }
 
 impl Propagation<'_> {
+    /// A number that the parameters change.
+    fn dual<const L: usize>(&self, value: f64, slope: impl Fn(&ParameterTerms) -> f64) -> Dual<L> {
+        let mut dual = Dual::constant(value);
+        dual.slopes.add_first(self.parameters.sum(slope));
+        dual
+    }
+
     /// Propagates changes of the springs and of the displacement: those of the springs after the step, in place, and of the force, which is
     /// not yet bounded.
     pub fn propagate<const L: usize>(
@@ -290,27 +297,35 @@ impl Propagation<'_> {
         displacement: &PerAxis<Lanes<L>>,
         springs: &mut SpringChanges<L>,
     ) -> PerAxis<Lanes<L>> {
-        let Propagation { contact, motion, step, parameters, .. } = self;
-        let used = contact.used();
-        let old = springs.v;
+        let Propagation { contacts: [from, to], nodes, motion, step, parameters } = self;
+        let (used, limits, old) = (to.used(), to.limits(nodes), *springs);
+        let displacement = by_axis(|axis| Dual { value: motion.displacement[axis], slopes: displacement[axis] });
+        let before = by_axis(|axis| self.dual(from.now.shift[axis], |terms| terms.shift_before[axis]));
+        let shift = by_axis(|axis| self.dual(to.now.shift[axis], |terms| terms.shift[axis]));
+        let limit = |j: usize| by_axis(|axis| self.dual(limits[axis][j], |terms| used[j] * terms.limit(axis, j)));
         let v = &mut springs.v;
         for axis in 0..2 {
-            let rise = contact.now.shift[axis] - motion.shift_before[axis];
+            let rise = shift[axis] - before[axis];
             for j in 0..SPRINGS {
-                v[axis][j] = used[j] * (v[axis][j] + step.parts[axis][j] * displacement[axis]);
+                v[axis][j] = used[j] * (v[axis][j] + step.parts[axis][j] * displacement[axis].slopes);
                 if step.parts[axis][j] < 1.0 {
                     // The part of springs that are engaged in the step is their limit over the rise.
-                    let rises = parameters.sum(|terms| terms.shift[axis] - terms.shift_before[axis]);
-                    let part = used[j] * parameters.limit(axis, j) - step.parts[axis][j] * rises;
-                    v[axis][j].add_first((motion.displacement[axis] / rise.max(SMALLEST_LENGTH)) * part);
+                    v[axis][j] += displacement[axis].value * limit(j)[axis].quotient(rise).slopes;
                 }
             }
         }
-        self.release(v);
+        let fall = before[0] - shift[0];
+        if releases(fall.value, limits[0][to.shells.last.min(SPRINGS - 1)]) {
+            for j in to.shells.range() {
+                let follow = |axis: usize| step.old.v[axis][j] + step.parts[axis][j] * motion.displacement[axis];
+                let trial = by_axis(|axis| Dual { value: follow(axis), slopes: v[axis][j] });
+                [v[0][j], v[1][j]] = released(limit(j), fall, trial).map(|trial| trial.slopes);
+            }
+        }
         if step.blend.part < 1.0 {
             for axis in 0..2 {
                 for j in 0..SPRINGS {
-                    v[axis][j] = 0.5 * (v[axis][j] + old[axis][j]);
+                    v[axis][j] = 0.5 * (v[axis][j] + old.v[axis][j]);
                 }
             }
             let tangent = parameters.tangent;
@@ -318,167 +333,51 @@ impl Propagation<'_> {
                 .differentiate(&tangent.middle, step.middle_springs(motion), v, parameters, |terms| &terms.middle);
             for axis in 0..2 {
                 for j in 0..SPRINGS {
-                    v[axis][j] = used[j] * (2.0 * v[axis][j] - old[axis][j]);
+                    v[axis][j] = used[j] * (2.0 * v[axis][j] - old.v[axis][j]);
                 }
             }
             step.end.differentiate(&tangent.end, &step.springs, v, parameters, |terms| &terms.end);
         }
-        springs.edge = self.move_edge(displacement, &springs.edge);
+        let old_edge = by_axis(|axis| Dual { value: step.old.edge[axis], slopes: old.edge[axis] });
+        let [edge_before, edge_limit] = [from, to].map(|contact| contact.edge_limits());
+        let edge_before = by_axis(|axis| self.dual(edge_before[axis], |terms| terms.edge_limit_before[axis]));
+        let edge_limit = by_axis(|axis| self.dual(edge_limit[axis], |terms| terms.edge_limit[axis]));
+        let rise = by_axis(|axis| shift[axis] - before[axis]);
+        springs.edge = edge_spring([edge_before, edge_limit], rise, &displacement, old_edge).map(|edge| edge.slopes);
         if step.blend.part > 0.0 {
-            self.blend(displacement, &old, springs);
+            let first = to.shells.innermost();
+            let innermost = by_axis(|axis| Dual { value: step.old.v[axis][first], slopes: old.v[axis][first] });
+            let blend = GrossSlipBlend::new([before, shift], &displacement, innermost);
+            for axis in 0..2 {
+                for j in 0..SPRINGS {
+                    let v = Dual { value: step.end.points.v[axis][j], slopes: springs.v[axis][j] };
+                    springs.v[axis][j] = blend.of_spring(axis, v, limit(j)[axis]).slopes;
+                }
+                let edge = Dual { value: step.edge[axis], slopes: springs.edge[axis] };
+                springs.edge[axis] = blend.of_spring(axis, edge, edge_limit[axis]).slopes;
+            }
         }
         let mut force = [Lanes::ZERO; 2];
         for axis in 0..2 {
             for j in 0..SPRINGS {
                 force[axis] += step.springs.stiffness[axis][j] * springs.v[axis][j];
             }
-            force[axis] += contact.shells.edge_stiffness[axis] * springs.edge[axis];
+            force[axis] += to.shells.edge_stiffness[axis] * springs.edge[axis];
             force[axis].add_first(parameters.sum(|terms| terms.force[axis]));
         }
         force
-    }
-
-    /// Changes of the trial state of springs that are released.
-    fn release<const L: usize>(&self, v: &mut PerAxis<Changes<L>>) {
-        let Propagation { contact, nodes, motion, step, parameters, .. } = self;
-        let fall = motion.shift_before[0] - contact.now.shift[0];
-        if motion.constant_load || fall <= 0.0 {
-            return;
-        }
-        let limits = contact.limits(nodes);
-        for j in contact.shells.range() {
-            let limit = [limits[0][j].max(SMALLEST_LENGTH), limits[1][j].max(SMALLEST_LENGTH)];
-            let trial = [step.old.v[0][j] + motion.displacement[0], step.old.v[1][j] + motion.displacement[1]];
-            let released = ReleasedSpring::new(limit, fall, trial);
-            if released.scale >= 1.0 {
-                continue;
-            }
-            // Four divisors, not three: the compiler would divide by what is beside them in the vector register.
-            let divisors = Lanes([limit[0], limit[1], released.length.max(1.0), limit[0] + fall]);
-            let [per_x, per_y, per_length, per_before] = *(1.0 / divisors);
-            let by_limit = by_axis(|axis| parameters.limit(axis, j));
-            let by_before = parameters.sum(|terms| terms.shift_before[0] - terms.nodes[0][j]);
-            let by_part = released.excess_share * (per_x * by_limit[0] - per_before * by_before);
-            let mut ratio = [v[0][j], v[1][j]];
-            for axis in 0..2 {
-                ratio[axis].add_first(-released.ratio[axis] * by_limit[axis]);
-                ratio[axis] = [per_x, per_y][axis] * ratio[axis];
-            }
-            let length = per_length * (released.ratio[0] * ratio[0] + released.ratio[1] * ratio[1]);
-            let mut scale = per_length * (released.excess_share - released.scale) * length;
-            scale.add_first((per_length * (released.length - 1.0)) * by_part);
-            for axis in 0..2 {
-                v[axis][j] = limit[axis] * (released.scale * ratio[axis] + released.ratio[axis] * scale);
-                v[axis][j].add_first((released.ratio[axis] * released.scale) * by_limit[axis]);
-            }
-        }
-    }
-
-    /// Changes of the spring at the edge, from those of its old displacement.
-    fn move_edge<const L: usize>(
-        &self,
-        displacement: &PerAxis<Lanes<L>>,
-        old: &PerAxis<Lanes<L>>,
-    ) -> PerAxis<Lanes<L>> {
-        let Propagation { contact, motion, step, parameters, .. } = self;
-        let (mut ratio, edge) = ([Lanes::ZERO; 2], &step.edge);
-        let limit = contact.edge_limits().map(|limit| limit.max(SMALLEST_LENGTH));
-        for axis in 0..2 {
-            ratio[axis] = edge.part[axis] * displacement[axis] + edge.kept[axis] * old[axis];
-            let rise = (contact.now.shift[axis] - motion.shift_before[axis]).max(limit[axis]);
-            let [per_rise, per_before] =
-                [motion.displacement[axis] / rise, step.old.edge[axis] / edge.limit_before[axis]];
-            ratio[axis].add_first(parameters.sum(|terms| {
-                let (rise, mut sum) =
-                    (terms.shift[axis] - terms.shift_before[axis], -edge.ratio[axis] * terms.edge_limit[axis]);
-                if edge.part[axis] < 1.0 {
-                    sum += per_rise * (terms.edge_limit[axis] - edge.part[axis] * rise);
-                }
-                if edge.kept[axis] < 1.0 && edge.kept[axis] > 0.0 {
-                    sum +=
-                        per_before * (terms.edge_limit[axis] - rise - edge.kept[axis] * terms.edge_limit_before[axis]);
-                }
-                sum
-            }));
-            ratio[axis] = (1.0 / limit[axis]) * ratio[axis];
-        }
-        let (mut end, mut e) = (ratio, edge.ratio);
-        if edge.slips {
-            e = edge.ratio.map(|ratio| edge.scale * ratio);
-            end = across(e, edge.scale, ratio);
-        }
-        for axis in 0..2 {
-            end[axis] = limit[axis] * end[axis];
-            end[axis].add_first(e[axis] * parameters.sum(|terms| terms.edge_limit[axis]));
-        }
-        end
-    }
-
-    /// Changes of the springs that end in gross slip to a part, `v = (1 - part) v + part l e`, from those of the springs before the step.
-    fn blend<const L: usize>(
-        &self,
-        displacement: &PerAxis<Lanes<L>>,
-        old: &PerAxis<Changes<L>>,
-        springs: &mut SpringChanges<L>,
-    ) {
-        let Propagation { contact, nodes, motion, step, parameters, .. } = self;
-        let (blend, first) = (&step.blend, contact.shells.innermost());
-        let (mut travel, mut distance) = (*displacement, Lanes::ZERO);
-        for axis in 0..2 {
-            let (limit, before) =
-                (contact.now.shift[axis].max(SMALLEST_LENGTH), motion.shift_before[axis].max(SMALLEST_LENGTH));
-            travel[axis] += blend.cut[axis] * old[axis][first];
-            // A constant load is the limit of falling ones.
-            if contact.now.shift[axis] <= motion.shift_before[axis] {
-                let cut = parameters.sum(|terms| (limit / before) * terms.shift_before[axis] - terms.shift[axis]);
-                travel[axis].add_first((step.old.v[axis][first] / before) * cut);
-            }
-            let mut ratio = travel[axis];
-            ratio.add_first(-blend.ratio[axis] * parameters.sum(|terms| terms.shift[axis]));
-            distance += (quotient(blend.ratio[axis], blend.distance) / limit) * ratio;
-        }
-        let (by_part, by_e) = (blend.part_slope * distance, across(blend.e, blend.per_length, travel));
-        let blended = |axis: usize, value: f64, changes: Lanes<L>, limit: f64, by_limit: Lanes<4>| {
-            let (part, e) = (blend.part, blend.e[axis]);
-            let mut changes = (1.0 - part) * changes + (limit * e - value) * by_part + (part * limit) * by_e[axis];
-            changes.add_first((part * e) * by_limit);
-            changes
-        };
-        let (used, limits, edge_limits) = (contact.used(), contact.limits(nodes), contact.edge_limits());
-        for axis in 0..2 {
-            for (j, changes) in springs.v[axis].iter_mut().enumerate() {
-                let (value, by_limit) = (step.end.points.v[axis][j], used[j] * parameters.limit(axis, j));
-                *changes = blended(axis, value, *changes, limits[axis][j], by_limit);
-            }
-            let by_limit = parameters.sum(|terms| terms.edge_limit[axis]);
-            let (limit, end) = (edge_limits[axis], &step.edge);
-            let value = limit * end.scale * end.ratio[axis];
-            springs.edge[axis] = blended(axis, value, springs.edge[axis], limit, by_limit);
-        }
     }
 
     /// Changes of a force that Coulomb's law bounds.
     pub fn within_friction_limit<const L: usize>(
         &self,
         force: PerAxis<f64>,
-        [x, y]: PerAxis<Lanes<L>>,
+        slopes: PerAxis<Lanes<L>>,
     ) -> PerAxis<Lanes<L>> {
-        let bound = self.contact.now.load;
-        let Some(per) = per_length_beyond(force, LENGTH_SLIP_THRESHOLD * bound) else { return [x, y] };
-        let e = force.map(|force| force * per);
-        let by_bound = self.parameters.sum(|terms| terms.load);
-        let mut slopes = across(e, bound * per, [x, y]);
-        for axis in 0..2 {
-            slopes[axis].add_first(e[axis] * by_bound);
-        }
-        slopes
+        let bound = self.dual(self.contacts[1].now.load, |terms| terms.load);
+        let force = by_axis(|axis| Dual { value: force[axis], slopes: slopes[axis] });
+        within_friction_limit(force, bound).map(|force| force.slopes)
     }
-}
-
-/// The part of changes across a direction, times a factor.
-fn across<const L: usize>(e: PerAxis<f64>, factor: f64, [x, y]: PerAxis<Lanes<L>>) -> PerAxis<Lanes<L>> {
-    let turn = factor * (e[0] * y - e[1] * x);
-    [-e[1] * turn, e[0] * turn]
 }
 
 impl Slip {
