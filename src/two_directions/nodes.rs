@@ -24,7 +24,8 @@
 //! All is in units of N, of S across the line and of the leg, √(s² - a²), of the reference size.
 
 use crate::element::Element;
-use crate::numerics::guard::{TINY, quotient, root};
+use crate::numerics::dual::Number;
+use crate::numerics::guard::{TINY, quotient};
 use crate::numerics::lanes::Lanes;
 
 /// Springs, one a shell. The first one is under the flat.
@@ -53,7 +54,7 @@ const EDGE_SHARE: f64 = 0.765;
 /// The distance from the edge of the last node over that of the first one, in √S.
 const GRADING: f64 = 0.028;
 /// The position of x_i in its shell: in its inner half F_ij/ΔS_j decreases with j. Values from 0.03 to 0.2 are nearly as good.
-/// The rule is used in `fill`, twice, in `pressure_at_edge` and in its derivative.
+/// The rule is used in `fill`, twice, and in `pressure_at_edge`.
 const POINT_FRACTION: f64 = 0.05;
 /// Intervals in the leg between which the cumulative distribution of the nodes is inverted linearly: what follows from it need not be exact,
 /// but smooth.
@@ -144,7 +145,7 @@ pub(crate) fn fill(nodes: &mut Nodes, element: &Element, units: &Units, referenc
             nodes[SHIFT_STEP + axis][j] = (nodes[SHIFT + axis][j + 1] - nodes[SHIFT + axis][j]).max(TINY);
         }
         for i in FLAT_EDGE..=j {
-            nodes[PRESSURE + j][i] = pressure(nodes, j, nodes[LEG_SQUARED][j + 1], i);
+            nodes[PRESSURE + j][i] = pressure(|row, i| nodes[row][i], j, nodes[LEG_SQUARED][j + 1], i);
         }
     }
     if flat > 0.0 {
@@ -157,7 +158,7 @@ pub(crate) fn fill(nodes: &mut Nodes, element: &Element, units: &Units, referenc
         }
         nodes[PRESSURE][0] = 0.25 * load_unit * (1.0 / POINT_FRACTION).acosh() / flat;
         for j in FLAT_EDGE..SPRINGS - 1 {
-            nodes[PRESSURE + j][0] = pressure(nodes, j, nodes[LEG_SQUARED][j + 1], 0);
+            nodes[PRESSURE + j][0] = pressure(|row, i| nodes[row][i], j, nodes[LEG_SQUARED][j + 1], 0);
         }
     }
     let first = first_shell(nodes);
@@ -170,54 +171,27 @@ pub(crate) fn fill(nodes: &mut Nodes, element: &Element, units: &Units, referenc
 }
 
 /// F_ij of shell j up to a size: `ψ_j [√(s² - x_i²) - √(s_j² - x_i²)]`, from leg² = s² - a² and x_i² - a². The second root is 0 if x_i is
-/// beyond s_j. Free of cancellation.
-pub(crate) fn pressure(nodes: &Nodes, j: usize, to: f64, i: usize) -> f64 {
-    let (upper, lower) = (to - nodes[POINT_SQUARED][i], nodes[LEG_SQUARED][j] - nodes[POINT_SQUARED][i]);
-    let (height, inner) = (root(upper), root(lower));
-    let sum = height + inner;
-    let rise = quotient(to - nodes[LEG_SQUARED][j], sum);
-    nodes[PSI][j] * if lower > 0.0 { rise } else { height }
-}
-
-/// Derivative of the pressure of a shell by a parameter, from those of leg² and of the nodes.
-pub(crate) fn pressure_slope(nodes: &Nodes, slopes: Option<&Nodes>, j: usize, [to, by_to]: [f64; 2], i: usize) -> f64 {
-    let slope = |row: usize, i: usize| slopes.map_or(0.0, |slopes| slopes[row][i]);
-    let (upper, lower) = (to - nodes[POINT_SQUARED][i], nodes[LEG_SQUARED][j] - nodes[POINT_SQUARED][i]);
-    let [by_upper, by_lower] = [by_to, slope(LEG_SQUARED, j)].map(|slope_of| slope_of - slope(POINT_SQUARED, i));
-    let inner = if lower > 0.0 { by_lower / lower.max(TINY).sqrt() } else { 0.0 };
-    let own = 0.5 * nodes[PSI][j] * (by_upper / upper.max(TINY).sqrt() - inner);
-    own + quotient(slope(PSI, j), nodes[PSI][j]) * pressure(nodes, j, to, i)
+/// beyond s_j. Free of cancellation. Values of the nodes are given by row and place.
+pub(crate) fn pressure<T: Number>(node: impl Fn(usize, usize) -> T, j: usize, to: T, i: usize) -> T {
+    let (upper, lower) = (to - node(POINT_SQUARED, i), node(LEG_SQUARED, j) - node(POINT_SQUARED, i));
+    let height = upper.root();
+    let rise = (to - node(LEG_SQUARED, j)).quotient(height + lower.root());
+    node(PSI, j) * if lower.value() > 0.0 { rise } else { height }
 }
 
 /// F at the own point of the last shell, which lies at the same part of it as in a whole shell.
-pub(crate) fn pressure_at_edge(nodes: &Nodes, j: usize, to: f64) -> f64 {
-    let flat = -nodes[LEG_SQUARED][0];
-    let [outer, inner] = [to, nodes[LEG_SQUARED][j]].map(|square| root(square + flat));
-    let sum = outer + inner;
-    let distance = quotient(to - nodes[LEG_SQUARED][j], sum);
-    nodes[PSI][j] * root((1.0 - POINT_FRACTION) * distance * (2.0 * inner + (1.0 + POINT_FRACTION) * distance))
-}
-
-/// Derivative of the pressure at the edge by a parameter, from those of leg² and of the nodes.
-pub(crate) fn pressure_at_edge_slope(nodes: &Nodes, slopes: Option<&Nodes>, j: usize, [to, by_to]: [f64; 2]) -> f64 {
-    let slope = |row: usize, i: usize| slopes.map_or(0.0, |slopes| slopes[row][i]);
-    let (flat, at) = (-nodes[LEG_SQUARED][0], pressure_at_edge(nodes, j, to));
-    let [outer, inner] = [to, nodes[LEG_SQUARED][j]].map(|square| root(square + flat));
-    let sum = outer + inner;
-    let distance = quotient(to - nodes[LEG_SQUARED][j], sum);
-    let [by_outer, by_inner] = [(by_to, outer), (slope(LEG_SQUARED, j), inner)].map(|(by, s)| quotient(0.5 * by, s));
-    let by_distance = by_outer - if inner > 0.0 { by_inner } else { 0.0 };
-    let weight = nodes[PSI][j].max(TINY);
-    let by_square = (1.0 - POINT_FRACTION)
-        * (by_distance * (2.0 * inner + 2.0 * (1.0 + POINT_FRACTION) * distance)
-            + 2.0 * distance * if inner > 0.0 { by_inner } else { 0.0 });
-    quotient(0.5 * weight * weight * by_square, at) + slope(PSI, j) / weight * at
+pub(crate) fn pressure_at_edge<T: Number>(node: impl Fn(usize, usize) -> T, j: usize, to: T) -> T {
+    let flat = node(LEG_SQUARED, 0);
+    let [outer, inner] = [to, node(LEG_SQUARED, j)].map(|square| (square - flat).root());
+    let distance = (to - node(LEG_SQUARED, j)).quotient(outer + inner);
+    let [inner_part, outer_part] = [1.0 - POINT_FRACTION, 1.0 + POINT_FRACTION].map(T::constant);
+    node(PSI, j) * (inner_part * distance * (inner + inner + outer_part * distance)).root()
 }
 
 /// F_ij cut so that F_ij/ΔS_j does not exceed that of the shell before, given the ratios of ΔS of both.
-pub(crate) fn monotone_pressure(pressure: f64, before: f64, steps: PerAxis<f64>) -> f64 {
-    let bound = before * if steps[0] < steps[1] { steps[0] } else { steps[1] };
-    if pressure < bound { pressure } else { bound }
+pub(crate) fn monotone_pressure<T: Number>(pressure: T, before: T, [x, y]: PerAxis<T>) -> T {
+    let bound = before * if x.value() < y.value() { x } else { y };
+    if pressure.value() < bound.value() { pressure } else { bound }
 }
 
 /// The legs of the nodes, from their cumulative distribution.

@@ -13,21 +13,22 @@
 
 use super::nodes::{
     FLAT_EDGE, LOAD, LOAD_STEP, Matrix, Nodes, PRESSURE, PerAxis, Row, SHIFT, SHIFT_STEP, SPRINGS, Units, by_axis,
-    first_shell, last_node, monotone_pressure, pressure, pressure_at_edge, pressure_at_edge_slope, pressure_slope,
+    first_shell, last_node, monotone_pressure, pressure, pressure_at_edge,
 };
 use crate::element::{Element, Normal, SMALLEST_LOAD};
-use crate::numerics::guard::{TINY, quotient};
+use crate::numerics::dual::{Dual, Number};
+use crate::numerics::guard::quotient;
 use crate::numerics::lanes::Lanes;
 use core::ops::Range;
 
 /// The normal state in the units of the springs: N, S of both directions, leg²; N and S of a slightly smaller size, inside the edge.
 #[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct ScaledNormalState {
-    pub load: f64,
-    pub shift: PerAxis<f64>,
-    pub leg_squared: f64,
-    pub inside: f64,
-    pub inside_shift: PerAxis<f64>,
+pub(crate) struct ScaledNormalState<T = f64> {
+    pub load: T,
+    pub shift: PerAxis<T>,
+    pub leg_squared: T,
+    pub inside: T,
+    pub inside_shift: PerAxis<T>,
 }
 
 /// Values of a normal state.
@@ -58,14 +59,16 @@ impl ScaledNormalState {
             .map(|values| ScaledNormalState::from_values(core::array::from_fn(|i| values[i] * per[i])))
     }
 
-    /// A normal state from all its values, in order.
-    pub fn from_values([load, x, y, leg_squared, inside, inside_x, inside_y]: [f64; VALUES]) -> ScaledNormalState {
-        ScaledNormalState { load, shift: [x, y], leg_squared, inside, inside_shift: [inside_x, inside_y] }
-    }
-
     pub fn values(&self) -> [f64; VALUES] {
         let ScaledNormalState { load, shift: [x, y], leg_squared, inside, inside_shift: [inside_x, inside_y] } = *self;
         [load, x, y, leg_squared, inside, inside_x, inside_y]
+    }
+}
+
+impl<T> ScaledNormalState<T> {
+    /// A normal state from all its values, in order.
+    pub fn from_values([load, x, y, leg_squared, inside, inside_x, inside_y]: [T; VALUES]) -> ScaledNormalState<T> {
+        ScaledNormalState { load, shift: [x, y], leg_squared, inside, inside_shift: [inside_x, inside_y] }
     }
 }
 
@@ -113,66 +116,35 @@ impl Shells {
         shells
     }
 
-    /// The last shell.
+    /// Sets the last shell.
     fn set_last(&mut self, nodes: &Nodes, now: &ScaledNormalState) {
-        let last = self.last.min(SPRINGS - 1);
-        let (next_to_last, mut steps) = (last.max(1) - 1, [0.0; 2]);
-        for axis in 0..2 {
-            let (node, shift) = (nodes[SHIFT + axis][last], now.shift[axis] - nodes[SHIFT + axis][last]);
-            // The polygon of N(S) has its last corner at the size inside.
-            let secant = quotient(now.inside - nodes[LOAD][last], now.inside_shift[axis] - node);
-            let outer = quotient(now.load - now.inside, now.shift[axis] - now.inside_shift[axis]);
-            (self.load_step[axis][last], self.shift_step[axis][last]) = (secant * shift, shift);
-            self.edge_stiffness[axis] = outer - secant;
-            steps[axis] = quotient(shift, nodes[SHIFT_STEP + axis][next_to_last]);
-        }
-        for i in self.first..last {
-            let own = pressure(nodes, last, now.leg_squared, i);
-            let bound = monotone_pressure(own, nodes[PRESSURE + next_to_last][i], steps);
-            self.last_pressure[i] = if i <= next_to_last { bound } else { own };
-        }
-        self.last_pressure[last] = pressure_at_edge(nodes, last, now.leg_squared);
+        let shell = LastShell::new([self.first, self.last], |row, i| nodes[row][i], now);
+        self.put_last(&shell, |value| value);
     }
 
-    /// Derivatives of the last shell, from those of the normal state and of the nodes by one parameter.
+    /// Sets the derivatives of the last shell, from those of the normal state and of the nodes by one parameter.
     pub fn set_last_slopes(
         &mut self,
         nodes: &Nodes,
         of: &Shells,
-        now: &ScaledNormalState,
-        slopes: &ScaledNormalState,
+        [now, slopes]: [&ScaledNormalState; 2],
         by_nodes: Option<&Nodes>,
     ) {
-        let last = of.last.min(SPRINGS - 1);
-        let slope = |row: usize, i: usize| by_nodes.map_or(0.0, |nodes| nodes[row][i]);
-        let (next_to_last, mut steps, mut by_steps) = (last.max(1) - 1, [0.0; 2], [0.0; 2]);
+        let dual = |value, slope| Dual { value, slopes: Lanes([slope]) };
+        let node = |row: usize, i: usize| dual(nodes[row][i], by_nodes.map_or(0.0, |nodes| nodes[row][i]));
+        let (now, slopes) = (now.values(), slopes.values());
+        let now = ScaledNormalState::from_values(core::array::from_fn(|i| dual(now[i], slopes[i])));
+        self.put_last(&LastShell::new([of.first, of.last], node, &now), |value: Dual<1>| value.slopes[0]);
+    }
+
+    fn put_last<T: Number>(&mut self, shell: &LastShell<T>, part: impl Fn(T) -> f64) {
+        let last = self.last.min(SPRINGS - 1);
         for axis in 0..2 {
-            let inner = (now.inside_shift[axis] - nodes[SHIFT + axis][last]).max(TINY);
-            let (shift, secant) = (of.shift_step[axis][last], (now.inside - nodes[LOAD][last]) / inner);
-            let by_shift = slopes.shift[axis] - slope(SHIFT + axis, last);
-            let by_inner = slopes.inside_shift[axis] - slope(SHIFT + axis, last);
-            let by_secant = (slopes.inside - slope(LOAD, last) - secant * by_inner) / inner;
-            let edge = (now.shift[axis] - now.inside_shift[axis]).max(TINY);
-            let by_edge = slopes.shift[axis] - slopes.inside_shift[axis];
-            self.load_step[axis][last] = by_secant * shift + secant * by_shift;
-            self.shift_step[axis][last] = by_shift;
-            self.edge_stiffness[axis] =
-                (slopes.load - slopes.inside - (of.edge_stiffness[axis] + secant) * by_edge) / edge - by_secant;
-            let step = nodes[SHIFT_STEP + axis][next_to_last].max(TINY);
-            steps[axis] = shift / step;
-            by_steps[axis] = (by_shift - steps[axis] * slope(SHIFT_STEP + axis, next_to_last)) / step;
+            self.load_step[axis][last] = part(shell.load_step[axis]);
+            self.shift_step[axis][last] = part(shell.shift_step[axis]);
+            self.edge_stiffness[axis] = part(shell.edge_stiffness[axis]);
         }
-        let axis = usize::from(steps[1] <= steps[0]);
-        for i in of.first..last {
-            let own = pressure(nodes, last, now.leg_squared, i);
-            let is_bound = i <= next_to_last && of.last_pressure[i] < own;
-            self.last_pressure[i] = if is_bound {
-                nodes[PRESSURE + next_to_last][i] * by_steps[axis] + slope(PRESSURE + next_to_last, i) * steps[axis]
-            } else {
-                pressure_slope(nodes, by_nodes, last, [now.leg_squared, slopes.leg_squared], i)
-            };
-        }
-        self.last_pressure[last] = pressure_at_edge_slope(nodes, by_nodes, last, [now.leg_squared, slopes.leg_squared]);
+        self.last_pressure = Lanes(shell.pressure.map(part));
     }
 
     /// F_ij of a shell. Without the tables of the nodes, only that of the last shell is not 0.
@@ -220,6 +192,41 @@ impl Shells {
             before = secant[j];
         }
         stiffness
+    }
+}
+
+/// The last shell: ΔN and ΔS for both directions, F at the points, and the stiffness of the spring at the edge.
+struct LastShell<T> {
+    load_step: PerAxis<T>,
+    shift_step: PerAxis<T>,
+    pressure: [T; SPRINGS],
+    edge_stiffness: PerAxis<T>,
+}
+
+impl<T: Number> LastShell<T> {
+    /// The last one of the shells from one on, from the nodes by row and place.
+    fn new([first, last]: [usize; 2], node: impl Fn(usize, usize) -> T, now: &ScaledNormalState<T>) -> LastShell<T> {
+        let last = last.min(SPRINGS - 1);
+        let next_to_last = last.max(1) - 1;
+        let shift_step = by_axis(|axis| now.shift[axis] - node(SHIFT + axis, last));
+        // The polygon of N(S) has its last corner at the size inside.
+        let secant =
+            by_axis(|axis| (now.inside - node(LOAD, last)).quotient(now.inside_shift[axis] - node(SHIFT + axis, last)));
+        let outer = by_axis(|axis| (now.load - now.inside).quotient(now.shift[axis] - now.inside_shift[axis]));
+        let steps = by_axis(|axis| shift_step[axis].quotient(node(SHIFT_STEP + axis, next_to_last)));
+        let mut pressures = [T::constant(0.0); SPRINGS];
+        for i in first..last {
+            let own = pressure(&node, last, now.leg_squared, i);
+            let bound = monotone_pressure(own, node(PRESSURE + next_to_last, i), steps);
+            pressures[i] = if i <= next_to_last { bound } else { own };
+        }
+        pressures[last] = pressure_at_edge(&node, last, now.leg_squared);
+        LastShell {
+            load_step: by_axis(|axis| secant[axis] * shift_step[axis]),
+            shift_step,
+            pressure: pressures,
+            edge_stiffness: by_axis(|axis| outer[axis] - secant[axis]),
+        }
     }
 }
 

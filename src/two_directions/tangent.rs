@@ -59,7 +59,7 @@ impl ContactSlopes {
             slopes_of_contact.edge_limit = by_axis(|axis| slopes.shift[axis] - slopes.inside_shift[axis]);
             (slopes_of_contact.shells.first, slopes_of_contact.shells.last) =
                 (contact.shells.first, contact.shells.last);
-            slopes_of_contact.shells.set_last_slopes(nodes, &contact.shells, &contact.now, slopes, None);
+            slopes_of_contact.shells.set_last_slopes(nodes, &contact.shells, [&contact.now, slopes], None);
         }
         slopes_of_contact
     }
@@ -72,8 +72,7 @@ impl ContactSlopes {
             slopes_of_contact.shells.set_last_slopes(
                 nodes,
                 &contact.shells,
-                &contact.now,
-                &ScaledNormalState::default(),
+                [&contact.now, &ScaledNormalState::default()],
                 Some(slopes),
             );
         }
