@@ -43,6 +43,9 @@ const THINNEST: f64 = 1e-9;
 const LEAST_STIFFNESS: f64 = 1e-12;
 
 impl ScaledNormalState {
+    pub const NONE: ScaledNormalState =
+        ScaledNormalState { load: 0.0, shift: [0.0; 2], leg_squared: 0.0, inside: 0.0, inside_shift: [0.0; 2] };
+
     /// The state of a contact that is closed, and its derivatives by the normal component over its scale.
     pub fn new(element: &Element, units: &Units, input: f64, normal: &Normal) -> [ScaledNormalState; 2] {
         // Products only: the compiler may divide by what is beside a number in its vector register.
@@ -65,7 +68,12 @@ impl ScaledNormalState {
     }
 }
 
-impl<T> ScaledNormalState<T> {
+impl<T: Number> ScaledNormalState<T> {
+    /// The limits of the spring at the edge.
+    pub fn edge_limits(&self) -> PerAxis<T> {
+        by_axis(|axis| self.shift[axis] - self.inside_shift[axis])
+    }
+
     /// A normal state from all its values, in order.
     pub fn from_values([load, x, y, leg_squared, inside, inside_x, inside_y]: [T; VALUES]) -> ScaledNormalState<T> {
         ScaledNormalState { load, shift: [x, y], leg_squared, inside, inside_shift: [inside_x, inside_y] }
@@ -99,18 +107,18 @@ impl Shells {
 
     pub fn new(nodes: &Nodes, now: &ScaledNormalState) -> Shells {
         let last = last_node(nodes, now.inside_shift[0] * (1.0 - THINNEST)).min(SPRINGS - 1);
-        let mut shells = Shells::before(nodes, first_shell(nodes), last);
+        let mut shells = Shells::before(Some(nodes), first_shell(nodes), last);
         shells.set_last(nodes, now);
         shells
     }
 
-    /// The shells from one to the one before the last one.
-    pub fn before(nodes: &Nodes, first: usize, last: usize) -> Shells {
+    /// The shells from one to the one before the last one, with the tables of nodes or without.
+    pub fn before(nodes: Option<&Nodes>, first: usize, last: usize) -> Shells {
         let mut shells = Shells { first, last: last.min(SPRINGS - 1), ..Shells::NONE };
         for j in 0..shells.last {
             for axis in 0..2 {
-                shells.load_step[axis][j] = nodes[LOAD_STEP][j];
-                shells.shift_step[axis][j] = nodes[SHIFT_STEP + axis][j];
+                shells.load_step[axis][j] = nodes.map_or(0.0, |nodes| nodes[LOAD_STEP][j]);
+                shells.shift_step[axis][j] = nodes.map_or(0.0, |nodes| nodes[SHIFT_STEP + axis][j]);
             }
         }
         shells

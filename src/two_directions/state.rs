@@ -108,7 +108,7 @@ impl Law for TwoDirections {
         let within = (0..2).all(|axis| {
             let (limits, rounding) = (contact.limits(nodes)[axis], 1e-9 * now.shift[axis] + 1e-30);
             at.springs.v[axis].iter().zip(limits.iter()).all(|(v, limit)| v.abs() <= limit + rounding)
-                && at.springs.edge[axis].abs() <= contact.edge_limits()[axis] + rounding
+                && at.springs.edge[axis].abs() <= now.edge_limits()[axis] + rounding
         });
         let all_digits = memory.header[0][ALL_DIGITS_AT];
         let positive = positive.iter().all(|value| *value > 0.0);

@@ -36,11 +36,6 @@ impl LoadedContact {
         by_axis(|axis| self.used() * (self.now.shift[axis] - Lanes(nodes[SHIFT + axis])))
     }
 
-    /// The limit of the spring at the edge.
-    pub fn edge_limits(&self) -> PerAxis<f64> {
-        by_axis(|axis| self.now.shift[axis] - self.now.inside_shift[axis])
-    }
-
     /// 1 for the springs in use, 0 for others.
     pub fn used(&self) -> Row {
         lanes_of(within([self.shells.first, self.shells.last + 1]))
@@ -83,13 +78,13 @@ pub(crate) struct GrossSlipBlend<T> {
 impl<T: Number> GrossSlipBlend<T> {
     /// For a motion of several times the innermost limit: the displacement, and that part of the innermost spring which a falling load cuts off.
     pub fn new(
-        [before, limit]: [PerAxis<T>; 2],
+        [before, now]: [&ScaledNormalState<T>; 2],
         displacement: &PerAxis<T>,
         innermost: PerAxis<T>,
     ) -> GrossSlipBlend<T> {
-        let limit = limit.map(at_least_smallest);
+        let limit = now.shift.map(at_least_smallest);
         let travel = by_axis(|axis| {
-            let cut = T::constant(1.0) - limit[axis].quotient(before[axis].or_larger(limit[axis]));
+            let cut = T::constant(1.0) - limit[axis].quotient(before.shift[axis].or_larger(limit[axis]));
             displacement[axis] + cut * innermost[axis]
         });
         let distance = length_of(by_axis(|axis| travel[axis].quotient(limit[axis])));
@@ -136,15 +131,15 @@ pub(crate) fn released<T: Number>(limit: PerAxis<T>, fall: T, trial: PerAxis<T>)
 /// The spring at the edge after a step. It is another one under another load: a rising load keeps that part of it which is still at the edge.
 #[inline(never)]
 pub(crate) fn edge_spring<T: Number>(
-    [before, limit]: [PerAxis<T>; 2],
-    rise: PerAxis<T>,
+    states: [&ScaledNormalState<T>; 2],
     displacement: &PerAxis<T>,
     old: PerAxis<T>,
 ) -> PerAxis<T> {
-    let limit = limit.map(at_least_smallest);
+    let [before, limit] = states.map(|state| state.edge_limits().map(at_least_smallest));
     let ratio = by_axis(|axis| {
-        let part = limit[axis].quotient(limit[axis].or_larger(rise[axis]));
-        let kept = (limit[axis] - rise[axis]).quotient(at_least_smallest(before[axis])).share();
+        let rise = states[1].shift[axis] - states[0].shift[axis];
+        let part = limit[axis].quotient(limit[axis].or_larger(rise));
+        let kept = (limit[axis] - rise).quotient(before[axis]).share();
         (kept * old[axis] + part * displacement[axis]).quotient(limit[axis])
     });
     let length = length_of(ratio);
@@ -202,25 +197,23 @@ impl StepWork {
         }
         self.old = *springs;
         let first = to.shells.innermost();
-        let shifts = [from.now.shift, to.now.shift];
-        self.blend = GrossSlipBlend::new(shifts, &motion.displacement, by_axis(|axis| springs.v[axis][first]));
+        let states = [&from.now, &to.now];
+        self.blend = GrossSlipBlend::new(states, &motion.displacement, by_axis(|axis| springs.v[axis][first]));
         self.stick(nodes, [from, to], motion);
         if self.blend.part < 1.0 {
             self.slip(nodes, [from, to], motion);
         } else {
             (self.middle.points.set, self.end.points.set) = (0, 0);
         }
-        let edge_limits = [from.edge_limits(), to.edge_limits()];
-        let rise = by_axis(|axis| to.now.shift[axis] - from.now.shift[axis]);
-        self.edge = edge_spring(edge_limits, rise, &motion.displacement, springs.edge);
+        self.edge = edge_spring(states, &motion.displacement, springs.edge);
         (springs.v, springs.edge) = (self.end.points.v, self.edge);
         if self.blend.part > 0.0 {
-            let limits = to.limits(nodes);
+            let (limits, edge_limits) = (to.limits(nodes), to.now.edge_limits());
             for axis in 0..2 {
                 for j in 0..SPRINGS {
                     springs.v[axis][j] = self.blend.of_spring(axis, springs.v[axis][j], limits[axis][j]);
                 }
-                springs.edge[axis] = self.blend.of_spring(axis, springs.edge[axis], edge_limits[1][axis]);
+                springs.edge[axis] = self.blend.of_spring(axis, springs.edge[axis], edge_limits[axis]);
             }
         }
         by_axis(|axis| {

@@ -42,41 +42,28 @@ pub(crate) const PARAMETERS: usize = 3;
 /// A contact's derivatives by one of its parameters.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct ContactSlopes {
+    pub now: ScaledNormalState,
     pub shells: Shells,
-    pub shift: PerAxis<f64>,
-    pub load: f64,
-    /// The limit of the spring at the edge.
-    pub edge_limit: PerAxis<f64>,
 }
 
 impl ContactSlopes {
-    /// Derivatives by the normal component: those of the last shell only.
+    /// Derivatives by the normal component: of the shells only those of the last one.
     pub fn by_load(nodes: &Nodes, contact: &LoadedContact) -> ContactSlopes {
-        let slopes = &contact.slopes;
-        let mut slopes_of_contact =
-            ContactSlopes { shift: slopes.shift, load: slopes.load, ..ContactSlopes::default() };
-        if contact.now.load > 0.0 {
-            slopes_of_contact.edge_limit = by_axis(|axis| slopes.shift[axis] - slopes.inside_shift[axis]);
-            (slopes_of_contact.shells.first, slopes_of_contact.shells.last) =
-                (contact.shells.first, contact.shells.last);
-            slopes_of_contact.shells.set_last_slopes(nodes, &contact.shells, [&contact.now, slopes], None);
-        }
-        slopes_of_contact
+        ContactSlopes::new(nodes, contact, &contact.slopes, None)
     }
 
     /// Derivatives by the reference size of the nodes, from those of the nodes.
-    pub fn by_reference(nodes: &Nodes, slopes: &Nodes, contact: &LoadedContact) -> ContactSlopes {
-        let mut slopes_of_contact = ContactSlopes::default();
+    pub fn by_reference(nodes: &Nodes, by_nodes: &Nodes, contact: &LoadedContact) -> ContactSlopes {
+        ContactSlopes::new(nodes, contact, &ScaledNormalState::default(), Some(by_nodes))
+    }
+
+    fn new(nodes: &Nodes, contact: &LoadedContact, now: &ScaledNormalState, by_nodes: Option<&Nodes>) -> ContactSlopes {
+        let mut slopes = ContactSlopes { now: *now, ..ContactSlopes::default() };
         if contact.now.load > 0.0 {
-            slopes_of_contact.shells = Shells::before(slopes, contact.shells.first, contact.shells.last);
-            slopes_of_contact.shells.set_last_slopes(
-                nodes,
-                &contact.shells,
-                [&contact.now, &ScaledNormalState::default()],
-                Some(slopes),
-            );
+            slopes.shells = Shells::before(by_nodes, contact.shells.first, contact.shells.last);
+            slopes.shells.set_last_slopes(nodes, &contact.shells, [&contact.now, now], by_nodes);
         }
-        slopes_of_contact
+        slopes
     }
 }
 
@@ -91,16 +78,11 @@ pub(crate) fn slopes_of_nodes([larger, smaller]: [&Nodes; 2]) -> Nodes {
 
 /// Terms of the derivative by one parameter of a contact in the changes of its springs.
 pub(crate) struct ParameterTerms {
-    /// Derivatives of S at the start and at the end, of S of the nodes and of N.
-    shift_before: PerAxis<f64>,
-    shift: PerAxis<f64>,
+    /// Derivatives of the normal state at the start and at the end, and of S of the nodes.
+    states: [ScaledNormalState; 2],
     nodes: PerAxis<Row>,
-    load: f64,
-    /// What the derivatives of the stiffnesses add to that of the force, and the derivatives of the limit of the spring at the edge at the end
-    /// and at the start.
+    /// What the derivatives of the stiffnesses add to that of the force.
     force: PerAxis<f64>,
-    edge_limit: PerAxis<f64>,
-    edge_limit_before: PerAxis<f64>,
     middle: SlipTerms,
     end: SlipTerms,
 }
@@ -177,13 +159,9 @@ impl ParameterTerms {
     pub const NONE: ParameterTerms = {
         let (none, rows) = ([0.0; 2], [Row::ZERO; 2]);
         ParameterTerms {
-            shift_before: none,
-            shift: none,
+            states: [ScaledNormalState::NONE; 2],
             nodes: rows,
-            load: 0.0,
             force: none,
-            edge_limit: none,
-            edge_limit_before: none,
             middle: SlipTerms::NONE,
             end: SlipTerms::NONE,
         }
@@ -191,7 +169,7 @@ impl ParameterTerms {
 
     /// The derivative of the limit of a spring.
     fn limit(&self, axis: usize, j: usize) -> f64 {
-        self.shift[axis] - self.nodes[axis][j]
+        self.states[1].shift[axis] - self.nodes[axis][j]
     }
 
     /// Sets the terms of a parameter by which the contact at the start, that at the end, or both have derivatives, and the nodes.
@@ -216,8 +194,7 @@ impl ParameterTerms {
                 + new.edge[axis] * to.shells.edge_stiffness[axis]
         });
         self.nodes = by_axis(|axis| nodes.map_or(Row::ZERO, |nodes| Lanes(nodes[SHIFT + axis])));
-        (self.shift_before, self.shift, self.load) = (from.shift, to.shift, to.load);
-        (self.edge_limit_before, self.edge_limit) = (from.edge_limit, to.edge_limit);
+        self.states = [from.now, to.now];
     }
 }
 
@@ -289,6 +266,15 @@ impl Propagation<'_> {
         dual
     }
 
+    /// The normal states at the start and at the end.
+    fn states<const L: usize>(&self) -> [ScaledNormalState<Dual<L>>; 2] {
+        core::array::from_fn(|end| {
+            let values = self.contacts[end].now.values();
+            let number = |i: usize| self.dual(values[i], |terms| terms.states[end].values()[i]);
+            ScaledNormalState::from_values(core::array::from_fn(number))
+        })
+    }
+
     /// Propagates changes of the springs and of the displacement: those of the springs after the step, in place, and of the force, which is
     /// not yet bounded.
     pub fn propagate<const L: usize>(
@@ -296,15 +282,14 @@ impl Propagation<'_> {
         displacement: &PerAxis<Lanes<L>>,
         springs: &mut SpringChanges<L>,
     ) -> PerAxis<Lanes<L>> {
-        let Propagation { contacts: [from, to], nodes, motion, step, parameters } = self;
+        let Propagation { contacts: [_, to], nodes, motion, step, parameters } = self;
         let (used, limits, old) = (to.used(), to.limits(nodes), *springs);
         let displacement = by_axis(|axis| Dual { value: motion.displacement[axis], slopes: displacement[axis] });
-        let before = by_axis(|axis| self.dual(from.now.shift[axis], |terms| terms.shift_before[axis]));
-        let shift = by_axis(|axis| self.dual(to.now.shift[axis], |terms| terms.shift[axis]));
+        let [before, now] = self.states();
         let limit = |j: usize| by_axis(|axis| self.dual(limits[axis][j], |terms| used[j] * terms.limit(axis, j)));
         let v = &mut springs.v;
         for axis in 0..2 {
-            let rise = shift[axis] - before[axis];
+            let rise = now.shift[axis] - before.shift[axis];
             for j in 0..SPRINGS {
                 v[axis][j] = used[j] * (v[axis][j] + step.parts[axis][j] * displacement[axis].slopes);
                 if step.parts[axis][j] < 1.0 {
@@ -313,7 +298,7 @@ impl Propagation<'_> {
                 }
             }
         }
-        let fall = before[0] - shift[0];
+        let fall = before.shift[0] - now.shift[0];
         if releases(fall.value, limits[0][to.shells.last.min(SPRINGS - 1)]) {
             for j in to.shells.range() {
                 let follow = |axis: usize| step.old.v[axis][j] + step.parts[axis][j] * motion.displacement[axis];
@@ -338,22 +323,19 @@ impl Propagation<'_> {
             step.end.differentiate(&tangent.end, &step.springs, v, parameters, |terms| &terms.end);
         }
         let old_edge = by_axis(|axis| Dual { value: step.old.edge[axis], slopes: old.edge[axis] });
-        let [edge_before, edge_limit] = [from, to].map(|contact| contact.edge_limits());
-        let edge_before = by_axis(|axis| self.dual(edge_before[axis], |terms| terms.edge_limit_before[axis]));
-        let edge_limit = by_axis(|axis| self.dual(edge_limit[axis], |terms| terms.edge_limit[axis]));
-        let rise = by_axis(|axis| shift[axis] - before[axis]);
-        springs.edge = edge_spring([edge_before, edge_limit], rise, &displacement, old_edge).map(|edge| edge.slopes);
+        springs.edge = edge_spring([&before, &now], &displacement, old_edge).map(|edge| edge.slopes);
         if step.blend.part > 0.0 {
             let first = to.shells.innermost();
             let innermost = by_axis(|axis| Dual { value: step.old.v[axis][first], slopes: old.v[axis][first] });
-            let blend = GrossSlipBlend::new([before, shift], &displacement, innermost);
+            let blend = GrossSlipBlend::new([&before, &now], &displacement, innermost);
+            let edge_limits = now.edge_limits();
             for axis in 0..2 {
                 for j in 0..SPRINGS {
                     let v = Dual { value: step.end.points.v[axis][j], slopes: springs.v[axis][j] };
                     springs.v[axis][j] = blend.of_spring(axis, v, limit(j)[axis]).slopes;
                 }
                 let edge = Dual { value: step.edge[axis], slopes: springs.edge[axis] };
-                springs.edge[axis] = blend.of_spring(axis, edge, edge_limit[axis]).slopes;
+                springs.edge[axis] = blend.of_spring(axis, edge, edge_limits[axis]).slopes;
             }
         }
         let mut force = [Lanes::ZERO; 2];
@@ -373,7 +355,7 @@ impl Propagation<'_> {
         force: PerAxis<f64>,
         slopes: PerAxis<Lanes<L>>,
     ) -> PerAxis<Lanes<L>> {
-        let bound = self.dual(self.contacts[1].now.load, |terms| terms.load);
+        let bound = self.dual(self.contacts[1].now.load, |terms| terms.states[1].load);
         let force = by_axis(|axis| Dual { value: force[axis], slopes: slopes[axis] });
         within_friction_limit(force, bound).map(|force| force.slopes)
     }
