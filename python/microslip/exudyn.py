@@ -29,13 +29,14 @@ class Contacts:
         mbs.SetPreStepUserFunction(self.accept)
 
     def accept(self, mbs: Any, t: float) -> bool:
+        """Accept the last step. Call the function that was to be called before each step; without one, the simulation goes on."""
         for number, (contact, state) in self.contacts.items():
             displacement = float(mbs.GetObjectOutput(number, exudyn.OutputVariableType.Displacement))
             self.contacts[number] = contact, contact.update(state, displacement).state
-        return self.before_step is None or bool(self.before_step(mbs, t))
+        return bool(self.before_step(mbs, t)) if self.before_step else True
 
     def add(self, markers: list[Any], contact: microslip.Contact, stiffness: float = 0.0, damping: float = 0.0) -> Any:
-        """A contact between two markers, with a spring and a damper beside it: the object's number."""
+        """Add a contact between two markers, with a spring and a damper beside it. Return the number of the object."""
 
         def force(mbs: Any, t: float, item: int, u: float, v: float, k: float, d: float, offset: float) -> float:
             return float(contact.update(self.contacts[number][1], u).force) + k * u + d * v

@@ -3,7 +3,9 @@
 use microslip::constant_load::state::state_length;
 use microslip::constant_load::{ConstantLoad, Law};
 use microslip::{Layer, Parameters};
-use microslip_fit::{Contact, DisplacementReference, Estimate, Geometry, Material, Measurement, NormalForce, Report};
+use microslip_fit::{
+    Contact, ContactParameters, DisplacementReference, Estimate, Geometry, Material, Measurement, NormalForce, Report,
+};
 use std::f64::consts::TAU;
 use std::{env, fs, thread};
 
@@ -84,19 +86,8 @@ pub fn flat() -> Contact {
 
 /// The same contact as the library takes it.
 pub fn library_parameters(contact: &Contact, normal_force: f64) -> Parameters {
-    let Geometry::Flat { flat_half_width, edge_radius, length, .. } = contact.geometry else { panic!("a flat") };
-    let material = contact.material;
-    let friction_coefficient = contact.friction_coefficient;
-    Parameters {
-        flat_half_width,
-        edge_radius,
-        length,
-        normal_force,
-        friction_coefficient,
-        material,
-        displacement_reference: microslip::parameters::CENTRE_POINT,
-        ..Parameters::default()
-    }
+    let ContactParameters::Flat(parameters) = contact.parameters(Layer::none()) else { panic!("a flat") };
+    Parameters { normal_force, ..parameters }
 }
 
 pub fn library_contact(contact: &Contact, normal_force: f64) -> microslip::Contact {
