@@ -10,6 +10,8 @@
 //! its direction, `v_j = (S_b - S_j) δ/|δ|`.
 //!
 //! The edge spring is one more spring from a size just inside the edge on, on its own: it makes the stuck stiffness that of the contact.
+//!
+//! The bounds beside the points are formulas of any number. With numbers that carry derivatives they are their own tangent.
 
 use super::matrix::dot;
 use super::nodes::{Nodes, PerAxis, Row, SHIFT, SPRINGS, by_axis};
