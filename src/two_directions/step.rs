@@ -287,6 +287,6 @@ pub(crate) const LENGTH_SLIP_THRESHOLD: f64 = 1.0 + 1e-12;
 #[inline(never)]
 pub(crate) fn within_friction_limit<T: Number>(force: PerAxis<T>, bound: T) -> PerAxis<T> {
     let length = length_of(force);
-    let slips = length.value() > LENGTH_SLIP_THRESHOLD * bound.value();
-    if slips { force.map(|force| force * bound.quotient(length)) } else { force }
+    let exceeds = length.value() > bound.value();
+    if exceeds { force.map(|force| force * bound.quotient(length)) } else { force }
 }
