@@ -1,4 +1,4 @@
-"""The element of pyHarm: forced responses, a varying normal force, and the conventions of pyHarm."""
+"""The element of pyHarm: a forced response, forces on an inclined face, and the conventions of pyHarm."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ import pytest
 from numpy.testing import assert_allclose
 from pyHarm import extension
 from pyHarm.Maestro import Maestro
-from pyharm_two_masses import LENGTH, deviation, response_at, two_masses
+from pyharm_two_masses import LENGTH, deviation, two_masses
 from tables import REPOSITORY, differences
-from two_masses import CONTACT, DAMPING, MASS, STIFFNESS
+from two_masses import CONTACT
 
 pytestmark = [
     pytest.mark.filterwarnings("ignore::numba.NumbaPerformanceWarning"),
@@ -38,19 +38,26 @@ def test_the_costs_of_the_benchmarks_are_measured(capsys):
     assert all(float(row[5]) < float(row[3]) < 1e3 for row in rows[5:])
 
 
-def connector(law, **others):
-    """The contact alone, of nodes with two or three directions, in pyHarm's units."""
-    dirs = [0] if law is contact else list(range(law.directions + 1))
-    data = {"type": "microslip", "dirs": dirs, "law": law, **others}
-    system = Maestro(two_masses(data, [300.0, 900.0], ndofs=max(len(dirs), 1))).system
-    return next(e for e in system.LE if e.name == "contact"), system.ndofs
+def connector(idata):
+    """The contact alone, in pyHarm's units."""
+    return next(e for e in Maestro(idata).system.LE if e.name == "contact")
 
 
 @pytest.mark.parametrize("directions", [0, 1, 2])
-def test_jacobian_is_the_derivative_of_the_residual(directions):
+def test_force_and_jacobian(directions):
+    """Of a contact, and of elements on a face whose normal is the last direction."""
+    components, random = directions + 1, np.random.default_rng(1)
     law = microslip.Element(**CONTACT, directions=directions) if directions else contact
-    element, unknowns = connector(law, **({"interference": law.approach} if directions else {}))
-    x = 0.3 * SLIP / LENGTH * np.random.default_rng(1).standard_normal(unknowns)
+    face = np.linalg.qr(random.standard_normal((components, components)))[0] if directions else np.eye(1)
+    data = {"type": "microslip", "dirs": list(range(components)), "law": law}
+    data |= {"interference": law.approach, "coordinatesystem": "face"} if directions else {}
+    element = connector(two_masses(data, [300.0, 900.0], ndofs=components) | {"coordinates": {"face": face.tolist()}})
+    x = 0.3 * SLIP / LENGTH * random.standard_normal(22 * components)
+    displacement = LENGTH * face @ x.reshape(11, 2, components)[:, 1].T
+    displacement[-1, 0] += law.approach if directions else 0
+    space = microslip.ElementWorkspace(directions, 5, 128) if directions else microslip.Workspace(5, 128)
+    force = law.harmonic_force(space, displacement if directions else displacement[0]).force
+    assert_allclose(element.evalResidual(x, 1.0).reshape(11, components), np.reshape(force, (components, 11)).T @ face, rtol=1e-9)
     jacobian, by_frequency = element.evalJacobian(x, 1.0)
     assert (by_frequency == 0).all()
     expected = differences(lambda x: element.evalResidual(x, 1.0), x, 1e-6 * SLIP / LENGTH)[:, element.indices]
@@ -58,56 +65,14 @@ def test_jacobian_is_the_derivative_of_the_residual(directions):
     assert_allclose(jacobian, expected, rtol=0, atol=1e-4 * abs(jacobian).max())
 
 
-def test_element_with_a_varying_normal_force():
-    """Masses that move in a plane, the second one pressed against an inclined face by 150 N: undeformed in equilibrium."""
-    element = microslip.Element(**CONTACT)
-    angle = np.radians(70)
-    inclined = {"coordinates": {"face": [[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]]}}
-    data = {"type": "microslip", "dirs": [0, 1], "law": element, "interference": element.approach, "coordinatesystem": "face"}
-    idata = two_masses(data, [600.0, 760.0], forcing=8.0, ndofs=2) | inclined
-    for direction, component in enumerate(inclined["coordinates"]["face"][1]):
-        preload = {
-            "type": "GOForcing",
-            "connect": {"masses": [1]},
-            "dirs": [direction],
-            "dto": 0,
-            "ho": 0,
-            "amp": 150.0 * component,
-        }
-        idata["connectors"][f"preload {direction}"] = preload
-    maestro = Maestro(idata)
-    frequencies = np.array([620.0, 700.0, 750.0])
-    found = response_at(maestro, frequencies)
-    workspace = microslip.ElementWorkspace(1, 5, 128)
-    face = np.array(inclined["coordinates"]["face"])
-    for frequency, x in zip(frequencies, found):
-        # The equations of motion with the element called directly; rows: mass 1 x, y, mass 2 x, y.
-        displacement = face @ x[2:]
-        displacement[1, 0] += element.approach
-        law = element.harmonic_force(workspace, displacement)
-        residual = np.kron(STIFFNESS, np.eye(2)) @ x
-        residual[2:] += face.T @ law.force
-        residual[2:, 0] -= 150.0 * face[1]
-        residual[0, 1] -= 8.0
-        for k in range(1, 6):
-            omega = 2 * np.pi * frequency * k
-            c, s = x[:, 2 * k - 1], x[:, 2 * k]
-            mass, damping = np.kron(MASS, np.eye(2)), np.kron(DAMPING, np.eye(2))
-            residual[:, 2 * k - 1] += -(omega**2) * mass @ c + omega * damping @ s
-            residual[:, 2 * k] += -(omega**2) * mass @ s - omega * damping @ c
-        assert abs(residual).max() < 1e-9  # N, of forces of some 100 N with rounding errors
-        # The normal force varies.
-        assert np.hypot(*law.force[1, 1:3]) > 0.01 * law.force[1, 0]
-
-
 def test_harmonics_may_be_chosen():
-    full, unknowns = connector(contact)
     idata = two_masses({"type": "microslip", "dirs": [0], "law": contact}, [300.0, 900.0])
+    full = connector(idata)
     idata["system"]["nh"] = [1, 3, 5]
-    odd = next(e for e in Maestro(idata).system.LE if e.name == "contact")
+    odd = connector(idata)
     x = SLIP / LENGTH * np.random.default_rng(3).standard_normal(12)
     places = np.array([2 * i + m for k in (1, 3, 5) for i in (2 * k - 1, 2 * k) for m in (0, 1)])
-    embedded = np.zeros(unknowns)
+    embedded = np.zeros(22)
     embedded[places] = x
     of_second = places[1::2] // 2
     assert (odd.evalResidual(x, 1.0) == full.evalResidual(embedded, 1.0)[of_second]).all()
@@ -125,7 +90,7 @@ def test_extension_is_pyharms_slider_in_the_limits_of_stick_and_slip(amplitude):
     for law in laws:
         idata = two_masses({"dirs": [0], **law}, [300.0, 900.0])
         del idata["plugin"]
-        element = next(e for e in Maestro(idata).system.LE if e.name == "contact")
+        element = connector(idata)
         x = np.zeros(22)
         x[3] = amplitude * SLIP / LENGTH  # cosine of the second mass
         forces.append(element.evalResidual(x, 1.0)[1:3])
