@@ -33,10 +33,8 @@ const MEASURED: [(f64, [f64; 3], [f64; 2]); 5] = [
     (0.75, [1.272, 1.336, 1.200], [0.9, 0.94]),
     (1.00, [1.552, 1.658, 1.430], [0.95, 1.0]),
 ];
-/// Steps of a cycle.
+/// Steps of a cycle: energies of 720 and of 1440 steps differ by 1e-5.
 const STEPS: u32 = 720;
-/// Of energies, relative: loop areas and dissipated energies differ by 2e-5, energies of 720 and of 1440 steps by 1e-5.
-const STEP_ERROR: f64 = 5e-5;
 /// Of the sliding amplitude, relative.
 const CONVERGED: f64 = 1e-9;
 
@@ -46,9 +44,6 @@ struct Cycle {
     /// Half of the opening of the loop at zero force \[m\].
     sliding: f64,
     dissipated: f64,
-    /// The integral of the tangential force over the imposed displacement, less the energy, over the energy: 0, if no force changes
-    /// without work.
-    work_error: f64,
 }
 
 fn element(edge_radius: f64, length: f64, normal_force: f64, friction_coefficient: f64) -> Element {
@@ -69,15 +64,14 @@ fn element(edge_radius: f64, length: f64, normal_force: f64, friction_coefficien
 /// periods; `rig`: the compliance of the rig.
 fn cycle(element: &Element, amplitude: f64, rig: f64, periods: u32, at: impl Fn(f64) -> [f64; 2]) -> Cycle {
     let mut path = Path::new(element, 64);
-    let (mut imposed, mut force, mut area) = (0.0, 0.0, 0.0);
-    let mut cycle = Cycle { imposed: amplitude, sliding: 0.0, dissipated: 0.0, work_error: 0.0 };
+    let (mut imposed, mut force) = (0.0, 0.0);
+    let mut cycle = Cycle { imposed: amplitude, sliding: 0.0, dissipated: 0.0 };
     for i in 1..=periods * STEPS {
         let [displacement, load] = at(f64::from(i) / f64::from(STEPS));
         let target = amplitude * displacement;
         let step = path.pull([1.0, rig], target, load * element.normal_force, 4.0 * amplitude);
         if i > (periods - 1) * STEPS {
             cycle.dissipated += step.dissipated;
-            area += 0.5 * (force + step.force[0]) * (target - imposed);
             if (step.force[0] > 0.0) != (force > 0.0) {
                 let crossing = imposed + (target - imposed) * force / (force - step.force[0]);
                 cycle.sliding += 0.5 * crossing * force.signum();
@@ -85,7 +79,6 @@ fn cycle(element: &Element, amplitude: f64, rig: f64, periods: u32, at: impl Fn(
         }
         (imposed, force) = (target, step.force[0]);
     }
-    cycle.work_error = (area / cycle.dissipated - 1.0).abs();
     cycle
 }
 
@@ -137,7 +130,6 @@ pub fn opening(documents: &mut Documents) {
             (false, "6") => 1.3..1.4,
             (false, _) => 0.69..0.93,
         };
-        documents.check(computed.work_error < STEP_ERROR, format!("table 3, test {number}: area and energy differ"));
         documents.check(range.contains(&share), format!("table 3, test {number}: {share} of the energy"));
     }
     documents.page("opening.csv", |_| Ok(csv(&text)));
@@ -160,10 +152,7 @@ pub fn compare(documents: &mut Documents) {
          |---:|---:|---:|---:|---:|---:|---:|\n",
     );
     for (ratio, measured, [least, most]) in MEASURED {
-        let cycles = [0, 1].map(|i: usize| held(&elements[i], ratio, rigs[i]));
-        let error = cycles.iter().map(|cycle| cycle.work_error).fold(0.0, f64::max);
-        documents.check(error < STEP_ERROR, format!("fretting, ratio {ratio}: area and energy differ by {error:e}"));
-        let computed = cycles.map(|cycle| cycle.dissipated);
+        let computed = [0, 1].map(|i: usize| held(&elements[i], ratio, rigs[i]).dissipated);
         let share = measured.iter().sum::<f64>() / 3.0 / (0.5 * (computed[0] + computed[1]));
         documents.check((least..=most).contains(&share), format!("fretting, ratio {ratio}: {share} of the energy"));
         // A rigid contact: 4 mu N SLIDING with the mean load.

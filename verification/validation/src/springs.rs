@@ -8,7 +8,6 @@ use crate::two_directions::{Point, difference, drive, percent, signed, sums, wor
 use microslip::element::{Directions, Element, NormalInput};
 use microslip::parameters::CENTRE_POINT;
 use microslip::{EllipticParameters, Layer, Material, Parameters};
-use reference::Input;
 use reference::family::load_of_size;
 use std::f64::consts::{PI, TAU};
 
@@ -16,7 +15,6 @@ use std::f64::consts::{PI, TAU};
 struct Case {
     row: Row,
     contact: &'static str,
-    input: Input,
     motion: &'static str,
     numbers: Vec<f64>,
 }
@@ -32,53 +30,35 @@ const FRICTION: f64 = 0.5;
 const SLIP_FORCE: f64 = FRICTION * LARGEST_LOAD;
 const BODY: Material = Material { young_modulus: 2e11, poisson_ratio: 0.3 };
 
-/// A flat of a/b under the largest load, b = 0.5 mm.
-fn flat(ratio: f64, layer: Layer) -> Input {
-    let (b, length) = (5e-4, 3.25e-3);
-    let modulus = 0.5 * BODY.young_modulus / (1.0 - BODY.poisson_ratio.powi(2));
-    let size = b * b * load_of_size(ratio, (1.0 - ratio * ratio).sqrt());
-    Input::Flat(Parameters {
-        flat_half_width: ratio * b,
-        edge_radius: modulus * length * size / (4.0 * LARGEST_LOAD),
-        length,
-        normal_force: LARGEST_LOAD,
-        friction_coefficient: FRICTION,
-        displacement_reference: CENTRE_POINT,
-        material: [BODY; 2],
-        layer,
-        ..Parameters::default()
-    })
-}
-
-fn ellipse([semi_axis_x, semi_axis_y]: [f64; 2], layer: Layer) -> Input {
-    Input::Ellipse(EllipticParameters {
-        semi_axis_x,
-        semi_axis_y,
-        normal_force: LARGEST_LOAD,
-        friction_coefficient: FRICTION,
-        material: [BODY; 2],
-        layer,
-    })
-}
-
-/// The same contact by parameters for another normal force.
-fn at_load(input: &Input, normal_force: f64) -> Input {
-    match *input {
-        Input::Flat(parameters) => Input::Flat(Parameters { normal_force, ..parameters }),
-        Input::Ellipse(parameters) => {
-            let factor = (normal_force / parameters.normal_force).cbrt();
-            let [semi_axis_x, semi_axis_y] = [parameters.semi_axis_x, parameters.semi_axis_y].map(|axis| factor * axis);
-            Input::Ellipse(EllipticParameters { semi_axis_x, semi_axis_y, normal_force, ..parameters })
+/// The contact of a shape, by parameters for a multiple of the largest load. The half-width of a flat of a/b is 0.5 mm under the largest
+/// load.
+fn element(shape: &str, layer: Layer, factor: f64) -> Element {
+    let (normal_force, friction_coefficient, material) = (factor * LARGEST_LOAD, FRICTION, [BODY; 2]);
+    let semi_axes: [f64; 2] = match shape {
+        "sphere" => [5e-4; 2],
+        "ellipse" => [9e-4, 3e-4],
+        ratio => {
+            let (b, length, ratio) = (5e-4, 3.25e-3, ratio.parse::<f64>().expect("a/b"));
+            let modulus = 0.5 * BODY.young_modulus / (1.0 - BODY.poisson_ratio.powi(2));
+            let size = b * b * load_of_size(ratio, (1.0 - ratio * ratio).sqrt());
+            let parameters = Parameters {
+                flat_half_width: ratio * b,
+                edge_radius: modulus * length * size / (4.0 * LARGEST_LOAD),
+                length,
+                normal_force,
+                friction_coefficient,
+                displacement_reference: CENTRE_POINT,
+                material,
+                layer,
+                ..Parameters::default()
+            };
+            return Element::rounded_flat(&parameters, Directions::Two, NormalInput::Force).expect("an element");
         }
-    }
-}
-
-fn element(input: &Input) -> Element {
-    match input {
-        Input::Flat(parameters) => Element::rounded_flat(parameters, Directions::Two, NormalInput::Force),
-        Input::Ellipse(parameters) => Element::elliptic(parameters, Directions::Two, NormalInput::Force),
-    }
-    .expect("an element")
+    };
+    let [semi_axis_x, semi_axis_y] = semi_axes.map(|axis| factor.cbrt() * axis);
+    let parameters =
+        EllipticParameters { semi_axis_x, semi_axis_y, normal_force, friction_coefficient, material, layer };
+    Element::elliptic(&parameters, Directions::Two, NormalInput::Force).expect("an element")
 }
 
 /// Rows of the table.
@@ -88,28 +68,10 @@ const CONTACTS: [&str; 7] =
 /// All rows of the file, which the contacts with layers have for a few motions of each kind only.
 fn cases() -> Vec<Case> {
     let case = |row: Row| {
-        let contact = row.text("contact");
-        let (shape, layer) = contact.split_once(' ').unwrap_or((contact, ""));
-        let with = |layer: Layer| match shape {
-            "sphere" => ellipse([5e-4; 2], layer),
-            "ellipse" => ellipse([9e-4, 3e-4], layer),
-            ratio => flat(ratio.parse().expect("a/b"), layer),
-        };
-        let mut input = with(Layer::none());
-        if !layer.is_empty() {
-            // As compliant as the contact; rough: N_c = N/100.
-            let compliance = 1.0 / element(&input).tangential_stiffness;
-            input = with(Layer {
-                tangential_compliance: compliance,
-                normal_compliance: 0.6 * compliance,
-                stiffening_load: if layer == "rough layer" { 0.01 * LARGEST_LOAD } else { 0.0 },
-                reference_load: LARGEST_LOAD,
-            });
-        }
         let mut words = row.text("motion").split(' ');
         let motion = words.next().expect("a motion");
         let numbers = words.map(|word| word.parse().expect("a number")).collect();
-        Case { row, contact, input, motion, numbers }
+        Case { contact: row.text("contact"), row, motion, numbers }
     };
     table("two_directions_reference").into_iter().map(case).collect()
 }
@@ -178,7 +140,19 @@ impl Case {
 
     /// The law by parameters for a multiple of the largest load.
     fn law(&self, factor: f64) -> Vec<Point> {
-        let element = element(&at_load(&self.input, factor * LARGEST_LOAD));
+        let (shape, kind) = self.contact.split_once(' ').unwrap_or((self.contact, ""));
+        let mut layer = Layer::none();
+        if !kind.is_empty() {
+            // As compliant as the contact; rough: N_c = N/100.
+            let compliance = 1.0 / element(shape, layer, 1.0).tangential_stiffness;
+            layer = Layer {
+                tangential_compliance: compliance,
+                normal_compliance: 0.6 * compliance,
+                stiffening_load: if kind == "rough layer" { 0.01 * LARGEST_LOAD } else { 0.0 },
+                reference_load: LARGEST_LOAD,
+            };
+        }
+        let element = element(shape, layer, factor);
         Case::counted(&drive(&element, self.path(&element).into_iter()))
     }
 

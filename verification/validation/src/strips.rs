@@ -13,10 +13,10 @@ const POISSON_RATIO: f64 = 0.3;
 /// T/(mu N) in the names of the columns; the energies begin with the second one.
 const LEVELS: [(&str, f64); 4] = [("0.3", 0.3), ("0.6", 0.6), ("0.9", 0.9), ("0.98", 0.98)];
 
-/// The range of errors in per cent.
+/// The range of errors.
 type Range = [f64; 2];
 
-fn range(errors: impl Iterator<Item = f64>) -> Range {
+pub fn range(errors: impl Iterator<Item = f64>) -> Range {
     errors.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)])
 }
 

@@ -7,8 +7,9 @@
 //! 12 substeps are extrapolated.
 
 use crate::documents::Documents;
-use crate::golden;
+use crate::golden::{self, Row};
 use crate::histories::line_or_sphere;
+use crate::strips::range;
 use crate::{PAGE, csv};
 use microslip::element::{Directions, Element};
 use microslip::law::StepResult;
@@ -35,36 +36,28 @@ struct Path {
 }
 
 fn paths() -> Vec<Path> {
-    let mut paths: Vec<Path> = Vec::new();
-    for row in ["two_directions", "two_directions_sphere"].into_iter().flat_map(golden::table) {
-        let name = row.text("path");
+    let place = |row: &Row| {
         let shape = match (row["a"] > 0.0, row["L"] > 0.0) {
             (true, _) => "flat",
             (false, true) => "cylinder",
             (false, false) => "sphere",
         };
-        let (displacement, load) = (["u", "v", "N"].map(|name| row[name]), row["N"]);
-        let solved = Point { force: [row["Tx"], row["Ty"]], dissipated: row["dissipated"] };
-        match paths.last_mut() {
-            Some(path) if (path.shape, path.name) == (shape, name) => {
-                path.parameters.normal_force = path.parameters.normal_force.max(load);
-                path.displacements.push(displacement);
-                path.solved.push(solved);
-            }
-            _ => {
-                let body = Material { young_modulus: row["E"], poisson_ratio: row["nu"] };
-                let parameters = Parameters {
-                    normal_force: load,
-                    friction_coefficient: row["mu"],
-                    material: [body; 2],
-                    ..golden::geometry(&row)
-                };
-                let (displacements, solved) = (vec![displacement], vec![solved]);
-                paths.push(Path { shape, name, parameters, displacements, solved });
-            }
-        }
-    }
-    paths
+        (shape, row.text("path"))
+    };
+    let path = |rows: &[Row]| {
+        let ((shape, name), row) = (place(&rows[0]), &rows[0]);
+        let parameters = Parameters {
+            normal_force: rows.iter().map(|row| row["N"]).fold(0.0, f64::max),
+            friction_coefficient: row["mu"],
+            material: [Material { young_modulus: row["E"], poisson_ratio: row["nu"] }; 2],
+            ..golden::geometry(row)
+        };
+        let displacements = rows.iter().map(|row| ["u", "v", "N"].map(|name| row[name])).collect();
+        let solved = |row: &Row| Point { force: [row["Tx"], row["Ty"]], dissipated: row["dissipated"] };
+        Path { shape, name, parameters, displacements, solved: rows.iter().map(solved).collect() }
+    };
+    let rows: Vec<Row> = ["two_directions", "two_directions_sphere"].into_iter().flat_map(golden::table).collect();
+    rows.chunk_by(|one, next| place(one) == place(next)).map(path).collect()
 }
 
 /// The law along displacements; pressed at the first one without tangential force.
@@ -195,11 +188,8 @@ pub fn compare(documents: &mut Documents) {
                 continue;
             }
             let cells = [0, 1].map(|kind| {
-                let range = found.iter().fold([f64::MAX, f64::MIN], |[least, most], errors| {
-                    [errors[kind][1].min(least), errors[kind][1].max(most)]
-                });
-                let force = found.iter().fold(0.0, |most: f64, errors| errors[kind][0].max(most));
-                let [least, most] = range.map(signed);
+                let force = range(found.iter().map(|errors| errors[kind][0]))[1];
+                let [least, most] = range(found.iter().map(|errors| errors[kind][1])).map(signed);
                 let energy = if least == most { least } else { format!("{least} to {most}") };
                 format!(" {} | {energy} |", percent(force))
             });
