@@ -129,6 +129,47 @@ fn values() {
     });
 }
 
+/// The curve of an element, which is not in the table: its two inputs depend on each other.
+#[test]
+fn forces_and_normal_forces() {
+    let curve = Call {
+        name: "mslip_element_displacement",
+        flat: false,
+        one_direction: false,
+        function: |a| unsafe {
+            mslip_element_displacement(a[0].get(), a[1].get(), 1, a[2].get(), a[3].get(), a[4].get(), a[5].get())
+        },
+        arguments: &[],
+    };
+    for law in calls::elements() {
+        let (element, most, load) = (Memory::of_law(law, 1), law.force, law.normal_force);
+        for (direction, force, normal_force, status) in [
+            (law.directions - 1, most, load, MSLIP_OK),
+            (law.directions, most, load, MSLIP_BAD_DIRECTIONS),
+            (-1, most, load, MSLIP_BAD_DIRECTIONS),
+            (0, f64::NAN, load, MSLIP_BAD_FORCE),
+            (0, -1.001 * most, load, MSLIP_FORCE_EXCEEDS_SLIP),
+            (0, most, 0.999 * load, MSLIP_FORCE_EXCEEDS_SLIP),
+            (0, 0.0, f64::NAN, MSLIP_BAD_NORMAL_FORCE),
+            (0, 0.0, -1.0, MSLIP_BAD_NORMAL_FORCE),
+        ] {
+            let values = [force, normal_force, f64::NAN, f64::NAN].map(|value| Memory::of(&[value]));
+            let [force, normal_force, displacement, compliance] =
+                values.each_ref().map(|memory| Slot::Pointer(memory.start));
+            let element = Slot::Pointer(element.start);
+            let mut slots = [element, Slot::Choice(direction), force, normal_force, displacement, compliance];
+            assert_eq!(curve.make(&slots), status, "{slots:?}");
+            let is_written = |memory: &Memory| !memory.values::<f64>()[0].is_nan();
+            assert!(values[2..].iter().all(|memory| is_written(memory) == (status == MSLIP_OK)), "{slots:?}");
+            for required in [0, 2, 3] {
+                let valid = std::mem::replace(&mut slots[required], Slot::Pointer(null_mut()));
+                assert_eq!(curve.make(&slots), MSLIP_NULL_POINTER, "{slots:?}");
+                slots[required] = valid;
+            }
+        }
+    }
+}
+
 /// Harmonics, samples and periods; directions, normal inputs and rules. What follows an invalid choice is not read.
 #[test]
 fn sizes_and_choices() {
