@@ -302,6 +302,12 @@ fn nothing_drifts_after_separation() {
     // A sample of the normal force that is negative by rounding is open.
     let rounded = from_fn(|c| if c == 2 * ROW + 1 { (1.0 + 1e-15) * opening[c] } else { opening[c] });
     assert_eq!(harmonic(&element, 1, &rounded).drift, 0.0);
+    // Without friction nothing but the normal force remains.
+    let smooth = element_of(&Parameters { friction_coefficient: 0.0, ..parameters(0.0) });
+    let Harmonic { force, dissipated, drift, .. } = harmonic(&smooth, 1, &opening);
+    let expected: [f64; COEFFICIENTS] = from_fn(|c| if c < 2 * ROW { 0.0 } else { opening[c] });
+    let error = force.iter().zip(expected).fold(0.0, |error: f64, (found, given)| error.max((found - given).abs()));
+    assert!(error < 1e-13 * full && (dissipated, drift) == (0.0, 0.0), "{force:?}");
     // By steps, the first period of the opening contact contains the first loading, all others are equal.
     let [before, one, last] = [0, 1, 2].map(|periods| walked(&element, periods, &opening));
     assert!(one != before && one == last);
