@@ -24,7 +24,7 @@ export RUSTC_WORKSPACE_WRAPPER="$build/rustc" CARGO_TARGET_DIR="$build" LLVM_PRO
 export RUST_TEST_THREADS=1
 "$CARGO" test --locked --package microslip --lib --test ffi --test histories --test two_directions -- \
     --skip arbitrary_bytes --skip sixteen_nodes --skip states_as_text \
-    --skip jacobians_of > "$build/log" 2>&1 ||
+    --skip jacobians_of --skip the_mean_force > "$build/log" 2>&1 ||
     { cat "$build/log"; echo '0 passed, 1 failed'; exit 1; }
 "$tools/llvm-profdata" merge --sparse "$build"/profiles/*.profraw -o "$build/merged.profdata"
 
@@ -33,12 +33,12 @@ sed -n 's/^ *Running .*(\(.*\))$/\1/p' "$build/log" | while read -r program; do
     "$tools/llvm-cov" export --format=lcov --instr-profile "$build/merged.profdata" "$program" --sources src
 done > "$build/lcov"
 
-# A test module is the end of its file.
+# A test module is the end of its file, or tests.rs.
 grep -n '^#\[cfg(test)\]$' -r src --include='*.rs' | sed 's/:#.*//' > "$build/test_modules"
 awk -v least="$least" -v root="$PWD/" '
     NR == FNR { split($0, at, ":"); end[at[1]] = at[2]; next }
     sub(/^SF:/, "") { name = index($0, root) == 1 ? substr($0, length(root) + 1) : $0 }
-    sub(/^DA:/, "") && name ~ /^src\// {
+    sub(/^DA:/, "") && name ~ /^src\// && name !~ /\/tests\.rs$/ {
         split($0, at, ",")
         if (!(name in end) || at[1] + 0 < end[name]) count[name ":" at[1]] += at[2]
     }
