@@ -5,14 +5,15 @@
 
 mod common;
 
+use common::one_direction::Path;
 use common::{Random, advance, as_text, harmonic, outputs, seed, unloaded};
 use microslip::constant_load::harmonic_force::Rule;
 use microslip::constant_load::{ConstantLoad, Law};
 use microslip::element::{Directions, Element, NormalInput};
 use microslip::law::{StepOf, StepResult};
+use microslip::one_direction::OneDirection;
 use microslip::one_direction::harmonic_force as line;
 use microslip::one_direction::tractions::tractions;
-use microslip::one_direction::{self as varying, OneDirection};
 use microslip::two_directions::TwoDirections;
 use microslip::{Contact, EllipticParameters, Error, Layer, Material, Parameters};
 use std::f64::consts::{PI, TAU};
@@ -170,24 +171,6 @@ fn work(displacement: &[f64], force: &[f64]) -> f64 {
     PI * (1..).zip(pairs).map(|(k, ([a, b], [of_cos, of_sin]))| f64::from(k) * (of_cos * b - of_sin * a)).sum::<f64>()
 }
 
-/// An element in a history.
-struct History<'a> {
-    element: &'a Element,
-    state: Vec<f64>,
-}
-
-impl History<'_> {
-    fn new(element: &Element, pieces: usize) -> History<'_> {
-        let mut state = vec![0.0; varying::state_length(pieces)];
-        OneDirection::state_init(&mut state).unwrap();
-        History { element, state }
-    }
-
-    fn step(&mut self, u: f64, w: f64) -> StepOf<OneDirection> {
-        OneDirection::step(self.element, &mut self.state, [u, w]).unwrap()
-    }
-}
-
 /// Force, Jacobian and energy of a motion of an element.
 fn element_harmonic(element: &Element, samples: usize, motion: &[f64]) -> Result<(Vec<f64>, Vec<f64>, f64), Error> {
     outputs(motion.len(), |output| {
@@ -201,14 +184,14 @@ fn element_harmonic(element: &Element, samples: usize, motion: &[f64]) -> Result
 fn second_period(element: &Element, u: &[f64], w: &[f64]) -> (Vec<f64>, Vec<f64>, f64) {
     let (samples, largest) = (u.len(), w.iter().copied().fold(f64::MIN, f64::max));
     let start = w.iter().position(|w| *w == largest).unwrap();
-    let mut history = History::new(element, 2 * samples);
+    let mut history = Path::new(element, 2 * samples);
     for u in [0.0, u[start]] {
-        history.step(u, largest);
+        history.displace(u, largest);
     }
     let (mut force, mut load, mut energy) = (vec![0.0; samples], vec![0.0; samples], 0.0);
     for step in 1..=2 * samples {
         let n = (start + step) % samples;
-        let StepResult { force: [tangential, normal], dissipated, .. } = history.step(u[n], w[n]);
+        let StepResult { force: [tangential, normal], dissipated, .. } = history.displace(u[n], w[n]);
         (force[n], load[n]) = (tangential, normal);
         energy += if step > samples { dissipated } else { 0.0 };
     }
@@ -353,8 +336,8 @@ fn static_displacements_of_elements_are_those_of_contacts() {
             let (contact, element) = (input.contact(), input.element(Directions::One, normal_input));
             // A rise of the load that is mostly rounding.
             let whole = if normal_input == NormalInput::Force { NORMAL_FORCE } else { element.approach };
-            let mut memory = History::new(&element, 64);
-            let stuck = [1.0 - 1e-12, 1.0].map(|share| memory.step(0.0, share * whole).tangent[0]);
+            let mut memory = Path::new(&element, 64);
+            let stuck = [1.0 - 1e-12, 1.0].map(|share| memory.displace(0.0, share * whole).tangent[0]);
             assert!((stuck[1] / contact.initial_stiffness - 1.0).abs() < 1e-9, "{input:?} {stuck:?}");
             static_forces(&element, 0, &contact, NORMAL_FORCE);
             assert_eq!(element.check_direction(1), Err(Error::BadDirections));
@@ -383,12 +366,12 @@ fn elements_with_rough_layers_lose_digits() {
         let (mut random, mut force, mut energy) = (Random(1), 0.0_f64, 0.0_f64);
         for input in inputs(&[0.01, 0.1, 0.3, 1.0, 3.0, 10.0, 100.0].map(|share| (share, ratio))) {
             let (contact, element) = (input.contact(), input.element(Directions::One, NormalInput::Approach));
-            let (mut memory, mut state) = (History::new(&element, 64), unloaded(64));
-            memory.step(0.0, element.approach);
+            let (mut memory, mut state) = (Path::new(&element, 64), unloaded(64));
+            memory.displace(0.0, element.approach);
             for _ in 0..40 {
                 let u = 1.3 * random.signed() * contact.slip_displacement;
                 let (expected, _, dissipated) = advance(&contact, &mut state, u);
-                let step = memory.step(u, element.approach);
+                let step = memory.displace(u, element.approach);
                 force = force.max((step.force[0] - expected).abs() / contact.slip_force);
                 let unit = contact.slip_force * contact.slip_displacement;
                 energy = energy.max((step.dissipated - dissipated).abs() / unit);
@@ -406,8 +389,8 @@ fn steps_of_no_length_keep_the_state() {
         let [one, two] =
             [Directions::One, Directions::Two].map(|directions| input.element(directions, NormalInput::Force));
         for u in [0.3, 3.0].map(|size| size * input.contact().slip_displacement) {
-            let mut memory = History::new(&one, 64);
-            let [_, last, again] = [0.0, u, u].map(|u| memory.step(u, NORMAL_FORCE));
+            let mut memory = Path::new(&one, 64);
+            let [_, last, again] = [0.0, u, u].map(|u| memory.displace(u, NORMAL_FORCE));
             assert_eq!((last.force, last.tangent, 0.0), (again.force, again.tangent, again.dissipated), "{input:?}");
             let mut contact = common::two_directions::Contact::new(&two);
             let mut step = |u: f64| (contact.to([u, 0.0, NORMAL_FORCE]), contact.state.clone());
@@ -429,12 +412,12 @@ fn the_smallest_components_open_a_contact() {
         for closes in [false, true] {
             let [first, second] =
                 [-150, -80].map(|power| whole * 2f64.powi(power) * if closes { 1.0 + 1e-15 } else { 1.0 });
-            assert_eq!(History::new(&one, 4).step(0.0, first).force[1] > 0.0, closes);
+            assert_eq!(Path::new(&one, 4).displace(0.0, first).force[1] > 0.0, closes);
             assert_eq!(common::two_directions::Contact::new(&two).to([0.0, 0.0, second]).force[2] > 0.0, closes);
         }
         // A size below the rounding of displacements keeps the direction of its slip.
-        let mut far = History::new(&one, 4);
-        let steps = [(0.0, 1e-30), (-1.0, 1e-30), (-1.0, 2e-30)].map(|(u, share)| far.step(u, share * whole));
+        let mut far = Path::new(&one, 4);
+        let steps = [(0.0, 1e-30), (-1.0, 1e-30), (-1.0, 2e-30)].map(|(u, share)| far.displace(u, share * whole));
         assert_eq!(steps[2].force[0], -FRICTION * steps[2].force[1]);
     }
 }
@@ -461,11 +444,11 @@ fn tractions_integrate_to_the_forces() {
     let elements = [0.0, 6e-5, 5e-4].map(|a| Input::flat(a).element(Directions::One, NormalInput::Force));
     for element in &elements {
         let unit = SLIP_FORCE / element.tangential_stiffness;
-        let mut memory = History::new(element, 4);
+        let mut memory = Path::new(element, 4);
         for (u, w) in MERGED {
-            let step = memory.step(u * unit, w * NORMAL_FORCE);
+            let step = memory.displace(u * unit, w * NORMAL_FORCE);
             // Forces of a step are those before a merge; a restart from the state has those of the merged pieces.
-            let again = memory.step(u * unit, w * NORMAL_FORCE);
+            let again = memory.displace(u * unit, w * NORMAL_FORCE);
             let error = OneDirection::force_error(&memory.state);
             assert!((again.force[0] - step.force[0]).abs() <= error + 1e-13 * SLIP_FORCE);
             // The midpoint rule in the angle, x = b cos: its error is that of the logarithms at the edges of the pieces.
@@ -665,7 +648,7 @@ fn states_as_text_are_right_or_rejected() {
         let on_line: Vec<[f64; 2]> = path.iter().map(|[u, _, w]| [*u, *w]).collect();
         line.check::<OneDirection>(
             one,
-            History::new(one, capacity).state,
+            Path::new(one, capacity).state,
             on_line.split_at(steps),
             &ALL,
             |step, other| (step.force[0] - other.force[0]).abs(),

@@ -2,6 +2,7 @@
 //! random numbers.
 #![allow(dead_code, reason = "not every crate uses all of them")]
 
+pub mod one_direction;
 pub mod two_directions;
 
 use microslip::Contact;

@@ -9,6 +9,7 @@ mod claims;
 mod documents;
 mod drawings;
 mod equations;
+#[path = "../../../tests/common/one_direction.rs"]
 mod path;
 mod periods;
 mod samples;

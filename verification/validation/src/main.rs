@@ -14,7 +14,7 @@ mod golden;
 mod histories;
 mod mindlin;
 mod parts;
-#[path = "../../paper/src/path.rs"]
+#[path = "../../../tests/common/one_direction.rs"]
 mod path;
 mod rebound;
 mod springs;

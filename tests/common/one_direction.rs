@@ -4,9 +4,10 @@ use microslip::element::Element;
 use microslip::law::StepOf;
 use microslip::one_direction::{Law, OneDirection, state_length};
 
+/// An element with its state, and the displacement that it has reached.
 pub struct Path<'a> {
     pub element: &'a Element,
-    state: Vec<f64>,
+    pub state: Vec<f64>,
     pub displacement: f64,
 }
 
