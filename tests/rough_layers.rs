@@ -166,7 +166,7 @@ fn jumps(random: &mut Random, elements: usize, by_load: f64) -> f64 {
 /// by the part of the load between both sizes.
 #[test]
 fn the_force_does_not_jump() {
-    for (seed, elements) in [(15, 8), (23, 48), (1096, 8)] {
+    for (seed, elements) in [(15, 8), (23, 48), (1096, 8), (3220, 8)] {
         for (by_load, bound) in [(0.0, 1e-6), (-0.03, 2e-5)] {
             let size = jumps(&mut Random(seed), elements, by_load);
             assert!(size <= bound, "{seed} {by_load}: {size:e}");
