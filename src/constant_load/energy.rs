@@ -32,7 +32,7 @@ impl Contact {
     /// amplitude \[N\].
     pub(crate) fn cycle_energy(&self, amplitude: Complement) -> (f64, f64) {
         let zones = self.stick_zones();
-        let (load, increase) = self.load_at(amplitude);
+        let (load, increase) = self.load_of_energy(amplitude);
         let (dissipation, slope) = zones.dissipation(load, increase);
         (self.energy_scale() * dissipation, self.slip_force * slope / (zones.small_load.compliance + increase))
     }

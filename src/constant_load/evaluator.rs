@@ -33,7 +33,22 @@ impl Contact {
     /// The load at a displacement up to that of gross slip, with an accurate complement, and λ.
     pub(crate) fn load_at(&self, displacement: Complement) -> (Complement, f64) {
         let [force, remaining, stiffness] = self.at_one(displacement);
-        let load = Complement { consumed: force / self.slip_force.max(f64::MIN_POSITIVE), remaining };
+        self.load_of(Complement { consumed: force / self.slip_force.max(f64::MIN_POSITIVE), remaining }, stiffness)
+    }
+
+    /// The same, for energies: next to gross slip by the polynomials of the integrals, because 1 - τ is a small part of the energy there.
+    pub(crate) fn load_of_energy(&self, displacement: Complement) -> (Complement, f64) {
+        let roots = self.roots(Lanes([displacement.remaining]));
+        let piece = piece_in_integral(roots[0]);
+        if piece <= PIECES || !self.interpolant().is_converged() {
+            return self.load_at(displacement);
+        }
+        let [rest, slope] = self.interpolant().last_values_and_slopes(piece, roots);
+        let remaining = rest[0] * (displacement.remaining * self.outer_scale);
+        self.load_of(Complement::of_remaining(remaining), slope[0] * self.outer_stiffness())
+    }
+
+    fn load_of(&self, load: Complement, stiffness: f64) -> (Complement, f64) {
         // At most 1e100 instead of infinite.
         let compliance = self.stiffness_scale / stiffness.max(1e-100 * self.stiffness_scale);
         (load, compliance - self.stick_zones().small_load.compliance)
@@ -63,7 +78,7 @@ impl Contact {
                 continue;
             }
             let values = if piece > PIECES && self.interpolant().is_converged() {
-                self.interpolant().last_slopes(piece, roots) * self.outer_stiffness()
+                self.interpolant().last_values_and_slopes(piece, roots)[1] * self.outer_stiffness()
             } else {
                 self.on_piece::<4, true>(piece, roots, displacement, remaining)[2]
             };

@@ -130,17 +130,17 @@ impl ForceInterpolant {
         (remaining, if SLOPES { power * slope / root } else { slope })
     }
 
-    /// The derivatives of 1 - τ with respect to ρ at roots √ρ of a piece of [`piece_in_integral`] beyond those of the force, if converged; any value
-    /// elsewhere.
+    /// (1 - τ)/ρ, and the derivatives of 1 - τ with respect to ρ, at roots √ρ of a piece of [`piece_in_integral`] beyond those of the force, if
+    /// converged; any values elsewhere.
     #[inline(never)]
-    pub fn last_slopes(&self, piece: u64, roots: Lanes<4>) -> Lanes<4> {
+    pub fn last_values_and_slopes<const L: usize>(&self, piece: u64, roots: Lanes<L>) -> [Lanes<L>; 2] {
         let j = (piece - 1 - PIECES) / 4;
         let z = (roots * (1 << PIECES) as f64).sqrt().sqrt().max(1.0 / (1 << LAST_PIECES) as f64);
         let argument = 4.0 * (power_of_2(j) * z) - 3.0;
         let piece = self.last.get(j as usize).unwrap_or(self.secant());
-        let (value, slope) = values_and_slopes::<_, 4, true>(piece, argument);
+        let (value, slope) = values_and_slopes::<_, L, true>(piece, argument);
         // With f = (1 - τ)/ρ and ρ ~ z⁸, d(ρ f)/dρ = f + z/8 df/dz.
-        value + (0.125 * (3.0 + argument)) * slope
+        [value, value + (0.125 * (3.0 + argument)) * slope]
     }
 }
 
