@@ -300,7 +300,7 @@ impl<'a> PeriodIntegration<'a> {
             }
             let contacts = [&self.from, &self.contact];
             unbounded = self.step.advance(self.nodes, contacts, &motion, &mut self.springs);
-            force = within_friction_limit(unbounded, self.contact.now.load);
+            force = within_friction_limit(unbounded, self.contact.now.load, 1.0);
         } else {
             (self.contact, self.springs, self.normal) = (LoadedContact::default(), Displacements::NONE, Normal::OPEN);
             self.slopes = [None; 2];

@@ -242,7 +242,7 @@ impl State<'_> {
         (step.middle.turned, step.end.turned) = (Lanes(self.turned[0]), Lanes(self.turned[1]));
         let contacts = [&from, &contact];
         let force = step.advance(self.nodes, contacts, &motion, &mut at.springs);
-        let [x, y] = within_friction_limit(force, contact.now.load);
+        let [x, y] = within_friction_limit(force, contact.now.load, 1.0);
         let mut result = StepResult { force: [unit * x, unit * y, normal.load], ..StepResult::NONE };
         if requested.tangent {
             let units = [unit * path.per_distance, unit / element.input_scale()];

@@ -283,10 +283,11 @@ pub(crate) fn releases(fall: f64, outermost: f64) -> bool {
 /// The largest length of a state over its limit that sticks: one that has slipped may round.
 pub(crate) const LENGTH_SLIP_THRESHOLD: f64 = 1.0 + 1e-12;
 
-/// A force within Coulomb's bound. Not inlined, as [`released`].
+/// A force within Coulomb's bound, unless it exceeds this by an allowed factor only: one that sticks at the bound may round, and has the tangent
+/// of the stuck contact. Not inlined, as [`released`].
 #[inline(never)]
-pub(crate) fn within_friction_limit<T: Number>(force: PerAxis<T>, bound: T) -> PerAxis<T> {
+pub(crate) fn within_friction_limit<T: Number>(force: PerAxis<T>, bound: T, allowed: f64) -> PerAxis<T> {
     let length = length_of(force);
-    let exceeds = length.value() > bound.value();
+    let exceeds = length.value() > allowed * bound.value();
     if exceeds { force.map(|force| force * bound.quotient(length)) } else { force }
 }

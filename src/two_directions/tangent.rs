@@ -12,8 +12,8 @@ use super::nodes::{FLAT_EDGE, Matrix, NEIGHBOUR, Nodes, PerAxis, Row, SHIFT, SPR
 use super::shells::{ScaledNormalState, Shells, Springs, minus_next};
 use super::slip::{Set, Slip, set_metric, within};
 use super::step::{
-    Displacements, GrossSlipBlend, LoadedContact, SpringMotion, StepWork, edge_spring, released, releases,
-    within_friction_limit,
+    Displacements, GrossSlipBlend, LENGTH_SLIP_THRESHOLD, LoadedContact, SpringMotion, StepWork, edge_spring, released,
+    releases, within_friction_limit,
 };
 use crate::numerics::dual::{Dual, Number};
 use crate::numerics::lanes::Lanes;
@@ -357,7 +357,7 @@ impl Propagation<'_> {
     ) -> PerAxis<Lanes<L>> {
         let bound = self.dual(self.contacts[1].now.load, |terms| terms.states[1].load);
         let force = by_axis(|axis| Dual { value: force[axis], slopes: slopes[axis] });
-        within_friction_limit(force, bound).map(|force| force.slopes)
+        within_friction_limit(force, bound, LENGTH_SLIP_THRESHOLD).map(|force| force.slopes)
     }
 }
 
