@@ -180,14 +180,14 @@ impl Contact {
     /// The curve, continued to negative displacements, has a point of zero compliance, to first order at this distance from 0, in
     /// displacements of gross slip.
     fn relative_distance_of_zero_compliance(&self) -> f64 {
-        let series = self.stick_zones().small_load;
-        series.compliance * series.compliance / (2.0 * series.initial_curvature() * self.stick_zones().slip_shift)
+        let series = &self.zones.small_load;
+        series.compliance * series.compliance / (2.0 * series.initial_curvature() * self.zones.slip_shift)
     }
 
     /// The weights of F in gross slip; 0 without an interpolant, or if Λ is so small that few nodes are not enough.
     #[inline(never)]
     pub(crate) fn weights_of_curve(&self) -> PolynomialRows<BLOCKS_IN_SLIP> {
-        if !self.interpolant().is_converged() || self.relative_distance_of_zero_compliance() < 0.7 {
+        if !self.interpolant.is_converged() || self.relative_distance_of_zero_compliance() < 0.7 {
             return PolynomialRows::default();
         }
         RULE_IN_SLIP.map(|[rho, x, weights]| {
@@ -235,7 +235,7 @@ impl Contact {
     fn real_stiffness(&self, amplitude: f64) -> ValueAndSlope {
         let (initial, y) = (self.initial_stiffness, amplitude * self.inner_scale);
         if y <= 1.0
-            && let Some((real, slope)) = self.interpolant().cycle_stiffness(y)
+            && let Some((real, slope)) = self.interpolant.cycle_stiffness(y)
         {
             return (initial * real, (initial * self.inner_scale * slope).min(0.0));
         }
@@ -264,7 +264,7 @@ impl Contact {
         if self.is_frictionless() {
             return (0.0, 0.0);
         }
-        let series = self.stick_zones().small_load;
+        let series = &self.zones.small_load;
         let slope = 0.5 * series.initial_curvature() / (series.compliance * series.compliance * series.compliance);
         let unit = self.stiffness_scale / self.displacement_scale.max(f64::MIN_POSITIVE);
         (-slope * unit, 4.0 / (3.0 * PI) * slope * unit)

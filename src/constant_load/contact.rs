@@ -53,10 +53,10 @@ pub struct Contact {
     pub(crate) outer_scale: f64,
     /// The inverse of `slip_displacement`; 0 without friction.
     pub(crate) per_slip_displacement: f64,
-    interpolant: ForceInterpolant,
+    pub(crate) interpolant: ForceInterpolant,
     /// Weights of K' in gross slip; 0 if there are none.
     pub(crate) weights_in_slip: [[f64; 4]; BLOCKS_IN_SLIP],
-    zones: StickZones,
+    pub(crate) zones: StickZones,
     /// mu N over each parameter; over b instead of a.
     pub(crate) sensitivity_scales: Sensitivity,
     /// dχ/d(ln b): 0 unless the displacement reference depends on b/L.
@@ -148,7 +148,7 @@ impl Contact {
         }
         let [by_size, by_radius, by_length, by_modulus] = parameters.map(|parameter| slip_force / parameter);
         let displacement_scale = slip_force / self.stiffness_scale;
-        let zones = self.stick_zones();
+        let zones = &self.zones;
         let gross_slip = zones.at_load(Complement::of_remaining(0.0));
         let (energy, _) = zones.dissipation(gross_slip.load, gross_slip.compliance_increase);
         let slip_energy = slip_force * displacement_scale * energy;
@@ -184,17 +184,9 @@ impl Contact {
         if self.tag == TAG { Ok(()) } else { Err(Error::BadContact) }
     }
 
-    pub(crate) fn interpolant(&self) -> &ForceInterpolant {
-        &self.interpolant
-    }
-
     /// Whether a layer bends the curve strongly near gross slip.
     pub(crate) fn has_knee(&self) -> bool {
         self.zones.layer.has_knee()
-    }
-
-    pub(crate) fn stick_zones(&self) -> &StickZones {
-        &self.zones
     }
 
     /// No tangential force is possible: an open contact, or one without friction.

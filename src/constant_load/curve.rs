@@ -61,14 +61,14 @@ impl Contact {
         let remaining = self.slip_force - force;
         // mu N in twice the precision: the distance to gross slip is then as accurate as the force.
         let remaining = if remaining > 0.0 { (remaining + self.slip_force_rounding).max(0.0) } else { 0.0 };
-        self.stick_zones().at_load(Complement { consumed: force / unit, remaining: remaining / unit })
+        self.zones.at_load(Complement { consumed: force / unit, remaining: remaining / unit })
     }
 
     /// The stick zone at a displacement up to that of gross slip.
     pub(crate) fn stick_zone_before_slip(&self, displacement: Complement) -> StickZone {
         let unit = self.displacement_scale.max(f64::MIN_POSITIVE);
         let Complement { consumed, remaining } = displacement;
-        self.stick_zones().at_shift(Complement { consumed: consumed / unit, remaining: remaining / unit })
+        self.zones.at_shift(Complement { consumed: consumed / unit, remaining: remaining / unit })
     }
 
     /// Force \[N\] of a stick zone.
@@ -82,7 +82,7 @@ impl Contact {
 
     /// dT/d(displacement) \[N/m\] at a stick zone.
     pub(crate) fn stiffness_of(&self, zone: &StickZone) -> f64 {
-        self.stiffness_scale / self.stick_zones().compliance(zone)
+        self.stiffness_scale / self.zones.compliance(zone)
     }
 }
 
@@ -93,7 +93,7 @@ impl CurvePoint<'_> {
             KnownBy::StickZone(zone) => Some(zone),
             KnownBy::Displacement(displacement) => {
                 let (load, _) = self.contact.load_at(self.contact.before_slip(displacement));
-                Some(self.contact.stick_zones().at_load(load))
+                Some(self.contact.zones.at_load(load))
             }
             KnownBy::GrossSlip => None,
         }
@@ -135,12 +135,12 @@ impl CurvePoint<'_> {
     /// d(displacement)/dT \[m/N\]; infinite in gross slip, without friction, and at mu N if the stick zone shrinks to a point.
     pub fn compliance(&self) -> f64 {
         let unit = self.contact.stiffness_scale.max(f64::MIN_POSITIVE);
-        self.stick_zone().map_or(f64::INFINITY, |zone| self.contact.stick_zones().compliance(&zone) / unit)
+        self.stick_zone().map_or(f64::INFINITY, |zone| self.contact.zones.compliance(&zone) / unit)
     }
 
     /// Half-width c of the stick zone \[m\]. At the onset of gross slip, a force of mu N or a displacement of `slip_displacement`, it
     /// is the half-width a of the flat (0 for a cylinder and an ellipse); beyond that displacement it is 0.
     pub fn stick_half_width(&self) -> f64 {
-        self.stick_zone().map_or(0.0, |zone| self.contact.half_width * self.contact.stick_zones().size(&zone))
+        self.stick_zone().map_or(0.0, |zone| self.contact.half_width * self.contact.zones.size(&zone))
     }
 }

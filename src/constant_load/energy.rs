@@ -16,7 +16,7 @@ impl Contact {
     pub fn dissipated_energy(&self, force_amplitude: f64) -> Result<f64, Error> {
         self.check_force_amplitude(force_amplitude)?;
         let point = self.curve_at_force(force_amplitude)?;
-        let dissipation = |zone: StickZone| self.stick_zones().dissipation(zone.load, zone.compliance_increase).0;
+        let dissipation = |zone: StickZone| self.zones.dissipation(zone.load, zone.compliance_increase).0;
         Ok(point.stick_zone().map_or(0.0, |zone| self.energy_scale() * dissipation(zone)))
     }
 
@@ -31,7 +31,7 @@ impl Contact {
     /// Energy \[J\] dissipated per cycle with a displacement amplitude up to that of gross slip, and its derivative with respect to the
     /// amplitude \[N\].
     pub(crate) fn cycle_energy(&self, amplitude: Complement) -> (f64, f64) {
-        let zones = self.stick_zones();
+        let zones = &self.zones;
         let (load, increase) = self.load_of_energy(amplitude);
         let (dissipation, slope) = zones.dissipation(load, increase);
         (self.energy_scale() * dissipation, self.slip_force * slope / (zones.small_load.compliance + increase))

@@ -90,7 +90,7 @@ pub fn iwan(contact: &Contact, sliders: usize, mut emit: impl FnMut(SpringSlider
         (0..sliders).for_each(|_| emit(SpringSlider { stiffness: 0.0, slip_force: 0.0 }));
         return Ok(0.0);
     }
-    let zones = contact.stick_zones();
+    let zones = &contact.zones;
     let (mut low, mut high) = (1e-18_f64, 1.0_f64);
     for _ in 0..100 {
         let error = (low * high).sqrt();

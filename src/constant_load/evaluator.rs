@@ -40,10 +40,10 @@ impl Contact {
     pub(crate) fn load_of_energy(&self, displacement: Complement) -> (Complement, f64) {
         let roots = self.roots(Lanes([displacement.remaining]));
         let piece = piece_in_integral(roots[0]);
-        if piece <= PIECES || !self.interpolant().is_converged() {
+        if piece <= PIECES || !self.interpolant.is_converged() {
             return self.load_at(displacement);
         }
-        let [rest, slope] = self.interpolant().last_values_and_slopes(piece, roots);
+        let [rest, slope] = self.interpolant.last_values_and_slopes(piece, roots);
         let remaining = rest[0] * (displacement.remaining * self.outer_scale);
         self.load_of(Complement::of_remaining(remaining), slope[0] * self.outer_stiffness())
     }
@@ -51,7 +51,7 @@ impl Contact {
     fn load_of(&self, load: Complement, stiffness: f64) -> (Complement, f64) {
         // At most 1e100 instead of infinite.
         let compliance = self.stiffness_scale / stiffness.max(1e-100 * self.stiffness_scale);
-        (load, compliance - self.stick_zones().small_load.compliance)
+        (load, compliance - self.zones.small_load.compliance)
     }
 
     fn at_one(&self, Complement { consumed, remaining }: Complement) -> [f64; 3] {
@@ -77,8 +77,8 @@ impl Contact {
             if k > 0 && pieces[..k].contains(&piece) {
                 continue;
             }
-            let values = if piece > PIECES && self.interpolant().is_converged() {
-                self.interpolant().last_values_and_slopes(piece, roots)[1] * self.outer_stiffness()
+            let values = if piece > PIECES && self.interpolant.is_converged() {
+                self.interpolant.last_values_and_slopes(piece, roots)[1] * self.outer_stiffness()
             } else {
                 self.on_piece::<4, true>(piece, roots, displacement, remaining)[2]
             };
@@ -104,7 +104,7 @@ impl Contact {
         displacement: Lanes<L>,
         remaining: Lanes<L>,
     ) -> [Lanes<L>; 3] {
-        let interpolant = self.interpolant();
+        let interpolant = &self.interpolant;
         if !interpolant.is_converged() || piece > PIECES {
             let mut values = [Lanes::ZERO; 3];
             for k in 0..L {

@@ -19,7 +19,7 @@ impl CurvePoint<'_> {
         }
         let unit = self.contact.friction_coefficient * self.contact.pressure_scale;
         let point = self.contact.surface_point(x);
-        self.sign * unit * self.contact.stick_zones().shear(&point, &self.stick_zone_or_smallest())
+        self.sign * unit * self.contact.zones.shear(&point, &self.stick_zone_or_smallest())
     }
 
     /// Relative slip \[m\] at x \[m\] (Eq. 15), in gross slip that at its onset: 0 in the stick zone and outside the contact.
@@ -27,7 +27,7 @@ impl CurvePoint<'_> {
     pub fn slip(&self, x: f64) -> Result<f64, Error> {
         let point = self.contact.surface_point(x);
         let zone = self.stick_zone_or_smallest();
-        let slip = self.contact.stick_zones().slip(&point, &zone).ok_or(Error::NotAvailable)?;
+        let slip = self.contact.zones.slip(&point, &zone).ok_or(Error::NotAvailable)?;
         let slips = point.from_edge >= 0.0 && !self.contact.is_frictionless();
         Ok(if slips { self.sign * self.contact.displacement_scale * slip } else { 0.0 })
     }
@@ -47,11 +47,7 @@ impl CurvePoint<'_> {
 impl Contact {
     /// Normal pressure \[Pa\] at x \[m\] (Eq. 17); 0 outside the contact.
     pub fn pressure(&self, x: f64) -> f64 {
-        if self.half_width > 0.0 {
-            self.pressure_scale * self.stick_zones().pressure(&self.surface_point(x))
-        } else {
-            0.0
-        }
+        if self.half_width > 0.0 { self.pressure_scale * self.zones.pressure(&self.surface_point(x)) } else { 0.0 }
     }
 
     fn surface_point(&self, x: f64) -> SurfacePoint {

@@ -26,6 +26,9 @@ use crate::constant_load::contact::Contact;
 use crate::error::Error;
 use crate::fourier::workspace::{HEADER, Layout, SamplingSize};
 
+use event_driven::EventWorkspace;
+use uniform_sampling::UniformWorkspace;
+
 pub use crate::fourier::HarmonicOutput;
 
 /// Quadrature rule for the integrals over a period, with the constant of the C interface.
@@ -43,8 +46,8 @@ impl Rule {
     pub fn workspace_length(self, harmonics: usize, samples: usize) -> usize {
         let size = SamplingSize { harmonics, samples, periods: 0 };
         match self {
-            Rule::UniformSampling => uniform_sampling::UniformWorkspace::length_or_zero(size),
-            Rule::EventDriven => event_driven::EventWorkspace::length_or_zero(size),
+            Rule::UniformSampling => UniformWorkspace::length_or_zero(size),
+            Rule::EventDriven => EventWorkspace::length_or_zero(size),
         }
     }
 
@@ -54,8 +57,8 @@ impl Rule {
     pub fn workspace_init(self, harmonics: usize, samples: usize, workspace: &mut [f64]) -> Result<(), Error> {
         let size = SamplingSize { harmonics, samples, periods: 0 };
         match self {
-            Rule::UniformSampling => uniform_sampling::UniformWorkspace::init(size, workspace),
-            Rule::EventDriven => event_driven::EventWorkspace::init(size, workspace),
+            Rule::UniformSampling => UniformWorkspace::init(size, workspace),
+            Rule::EventDriven => EventWorkspace::init(size, workspace),
         }
     }
 }
@@ -64,22 +67,25 @@ impl Rule {
 ///
 /// Errors: `BadWorkspace` if uninitialised.
 pub(crate) fn workspace_size(header: &[f64; HEADER]) -> Result<(Rule, SamplingSize, usize), Error> {
-    let (rule, (size, length)) = if event_driven::EventWorkspace::KIND.is_tag(header[0]) {
-        (Rule::EventDriven, event_driven::EventWorkspace::read(header)?)
+    let (rule, (size, length)) = if EventWorkspace::KIND.is_tag(header[0]) {
+        (Rule::EventDriven, EventWorkspace::read(header)?)
     } else {
-        (Rule::UniformSampling, uniform_sampling::UniformWorkspace::read(header)?)
+        (Rule::UniformSampling, UniformWorkspace::read(header)?)
     };
     Ok((rule, size, length))
 }
 
 /// An opened workspace.
 #[derive(Debug)]
-pub struct Workspace<'a>(ByRule<'a>);
+pub struct Workspace<'a> {
+    size: SamplingSize,
+    by_rule: ByRule<'a>,
+}
 
 #[derive(Debug)]
 enum ByRule<'a> {
-    UniformSampling(uniform_sampling::UniformWorkspace<'a>),
-    EventDriven(event_driven::EventWorkspace<'a>),
+    UniformSampling(UniformWorkspace<'a>),
+    EventDriven(EventWorkspace<'a>),
 }
 
 impl<'a> Workspace<'a> {
@@ -93,20 +99,16 @@ impl<'a> Workspace<'a> {
     /// A workspace of this rule and size, which were read from its header.
     /// Errors: `BadWorkspace` if too short.
     pub(crate) fn of_size(rule: Rule, size: SamplingSize, memory: &'a mut [f64]) -> Result<Workspace<'a>, Error> {
-        Ok(Workspace(match rule {
-            Rule::UniformSampling => {
-                ByRule::UniformSampling(uniform_sampling::UniformWorkspace::of_size(size, memory)?)
-            }
-            Rule::EventDriven => ByRule::EventDriven(event_driven::EventWorkspace::of_size(size, memory)?),
-        }))
+        let by_rule = match rule {
+            Rule::UniformSampling => ByRule::UniformSampling(UniformWorkspace::of_size(size, memory)?),
+            Rule::EventDriven => ByRule::EventDriven(EventWorkspace::of_size(size, memory)?),
+        };
+        Ok(Workspace { size, by_rule })
     }
 
     /// 2H + 1.
     pub fn coefficients(&self) -> usize {
-        match &self.0 {
-            ByRule::UniformSampling(workspace) => workspace.coefficients(),
-            ByRule::EventDriven(workspace) => workspace.coefficients(),
-        }
+        self.size.coefficients()
     }
 }
 
@@ -149,21 +151,16 @@ pub fn harmonic_force(
     mut output: HarmonicOutput,
 ) -> Result<(), Error> {
     output.check(workspace.coefficients(), displacement)?;
-    if let Some(jacobian) = &mut output.jacobian {
-        jacobian.fill(0.0);
-    }
     if let Some(drift) = &mut output.drift {
         **drift = 0.0;
     }
     if contact.is_frictionless() {
-        if let Some(force) = output.force {
-            force.fill(0.0);
-        }
+        [output.force, output.jacobian].into_iter().flatten().for_each(|output| output.fill(0.0));
         if let Some(dissipated) = output.dissipated {
             *dissipated = 0.0;
         }
-    } else if output.force.is_some() || output.jacobian.is_some() || output.dissipated.is_some() {
-        match &mut workspace.0 {
+    } else {
+        match &mut workspace.by_rule {
             ByRule::UniformSampling(of_rule) => {
                 uniform_sampling::harmonic_force(contact, of_rule, displacement, output);
             }
@@ -189,7 +186,7 @@ pub(crate) fn harmonic_sensitivity(
         sensitivity.fill(0.0);
         return;
     }
-    match &mut workspace.0 {
+    match &mut workspace.by_rule {
         ByRule::UniformSampling(of_rule) => {
             uniform_sampling::harmonic_sensitivity(contact, of_rule, displacement, sensitivity);
         }

@@ -57,7 +57,7 @@ impl Contact {
     /// The derivatives over the scales. Those of a contact with a layer are, at the same force, those of the contact alone over the
     /// compliance of both, but for the displacement of the layer.
     fn shares(&self, displacement: f64) -> Sensitivity {
-        let (zones, layer) = (self.stick_zones(), &self.stick_zones().layer);
+        let (zones, layer) = (&self.zones, &self.zones.layer);
         let (load, increase) = self.load_at(self.before_slip(displacement));
         let moments = zones.moments(load, increase);
         let (tau, full_stick) = (load.consumed, zones.contact.compliance);

@@ -105,13 +105,6 @@ impl<'a> Layout<'a> for EventWorkspace<'a> {
     }
 }
 
-impl EventWorkspace<'_> {
-    /// 2H + 1.
-    pub fn coefficients(&self) -> usize {
-        self.buffers.coefficients()
-    }
-}
-
 /// Computes the requested outputs.
 pub(super) fn harmonic_force(
     contact: &Contact,

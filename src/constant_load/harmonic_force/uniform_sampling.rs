@@ -63,13 +63,6 @@ impl<'a> Layout<'a> for UniformWorkspace<'a> {
     }
 }
 
-impl UniformWorkspace<'_> {
-    /// 2H + 1.
-    pub fn coefficients(&self) -> usize {
-        self.size.coefficients()
-    }
-}
-
 /// Computes the requested outputs.
 pub(super) fn harmonic_force(
     contact: &Contact,
