@@ -83,13 +83,13 @@ fn two_doublings<const L: usize>(mut square: Lanes<L>) -> (Lanes<L>, Lanes<L>) {
 }
 
 /// F and dF/dx_0 from the terms of F and of 2 dF/dx_0 at blocks of nodes.
-fn sum<B>(blocks: impl Iterator<Item = B>, at: impl Fn(B) -> [[f64; 4]; 2]) -> [f64; 2] {
-    let mut sums = [[0.0; 4]; 2];
+fn sum<B>(blocks: impl Iterator<Item = B>, at: impl Fn(B) -> [Lanes<4>; 2]) -> [f64; 2] {
+    let mut sums = [Lanes::ZERO; 2];
     for block in blocks {
         let [terms, rates] = at(block);
-        sums = [(Lanes(sums[0]) + Lanes(terms)).0, (Lanes(sums[1]) + 0.5 * Lanes(rates)).0];
+        sums = [sums[0] + terms, sums[1] + 0.5 * rates];
     }
-    sums.map(|sum| (sum[0] + sum[2]) + (sum[1] + sum[3]))
+    sums.map(Lanes::total)
 }
 
 /// K' or K'' and its derivative with respect to the amplitude.
@@ -136,7 +136,7 @@ impl Contact {
         }
         sum(self.weights_in_slip.iter().zip(&RULE_IN_SLIP), |(weights, [rho, ..])| {
             let (weights, roots) = (Lanes(*weights), (Lanes(*rho) - rho_0).sqrt());
-            [(weights * roots).0, (weights / roots).0]
+            [weights * roots, weights / roots]
         })
     }
 
@@ -173,7 +173,7 @@ impl Contact {
             let (rest, x, rho) = (rise + excess, (top - rise).max(0.0), below + rise);
             let weights = weights * ((x * rest).sqrt() * (12.0 * y * y) * (scale * end * rate * fraction * t));
             let stiffness = self.relative_stiffnesses(x, rho);
-            [(weights * stiffness).0, (weights / rest * stiffness).0]
+            [weights * stiffness, weights / rest * stiffness]
         })
     }
 

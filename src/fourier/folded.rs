@@ -170,9 +170,9 @@ impl<'a> FoldedFourier<'a> {
             *totals = sums.map(|sum| sum.0);
         }
         // Summed from memory, which keeps the loop above vectorised along the positions.
-        *first = sum_of(*constant);
+        *first = Lanes(*constant).total();
         for (sum, total) in sums.iter_mut().zip(totals.iter()) {
-            *sum = sum_of(*total);
+            *sum = Lanes(*total).total();
         }
     }
 
@@ -207,10 +207,6 @@ pub(crate) fn continue_periodically(values: &mut [f64], samples: usize) {
             beyond.copy_from_slice(continued);
         }
     }
-}
-
-fn sum_of([a, b, c, d]: [f64; 4]) -> f64 {
-    (a + c) + (b + d)
 }
 
 fn reversed([a, b, c, d]: [f64; 4]) -> [f64; 4] {

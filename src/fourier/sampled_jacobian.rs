@@ -117,8 +117,7 @@ impl<'a> Assembly<'a> {
                 rest.iter_mut().zip(last).zip(factors).for_each(|((value, last), factor)| *value += factor * last);
             }
             for (block, product) in blocks.iter_mut().zip(product) {
-                let ([a, b, c, d], [e, f, g, h]) = (*block, *product);
-                *block = [a + factors[0] * e, b + factors[1] * f, c + factors[2] * g, d + factors[3] * h];
+                *block = (Lanes(*block) + Lanes(factors) * Lanes(*product)).0;
             }
             column.set(0, constant + 0.5 * factors[0] * product.or_zero(0)[0]);
         }

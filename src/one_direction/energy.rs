@@ -133,7 +133,7 @@ fn mean_load(element: &Element, [from, to]: [f64; 2]) -> f64 {
     let (low, high) = (from.min(to), from.max(to));
     let part = |[places, weights]: Block| {
         let (loads, _) = element.loads_at::<false, 4>(&places.map(|t| high - t * (high - low)));
-        dot(&weights, &loads)
+        (Lanes(weights) * Lanes(loads)).total()
     };
     if 16.0 * width.abs() < room(element, low, high) {
         return PATH_RULE.map(part)[0];
@@ -178,7 +178,7 @@ impl SlipPiece {
         let inner = if 16.0 * swept < room(element, c1, c0) {
             let [[nodes, weights]] = PATH_RULE;
             let (loads, slopes) = element.loads_at::<true, 4>(&nodes.map(|node| c0 - node * swept));
-            dot(&weights, &(Lanes(loads) + Lanes(slopes) * self.width(Lanes(nodes))))
+            (Lanes(weights) * (Lanes(loads) + Lanes(slopes) * self.width(Lanes(nodes)))).total()
         } else {
             let at = |s: f64, width: f64| element.load_under(s) * width;
             let ends = at(c0, b0 - c0) - at(c1, b1 - c1);
@@ -209,7 +209,7 @@ impl SlipPiece {
                     remainders += (*t * *part) * curvatures.max(0.0);
                 }
             }
-            sum += dot(&weights, &remainders);
+            sum += (weights * remainders).total();
         }
         (self.inner[0] - self.inner[1]) * sum
     }
@@ -252,10 +252,6 @@ fn squared(block: Block) -> Block {
 /// the largest shift.
 fn room(element: &Element, low: f64, high: f64) -> f64 {
     low.min(1.007 * element.largest_shift - high)
-}
-
-fn dot(weights: &[f64; 4], values: &[f64; 4]) -> f64 {
-    (weights[0] * values[0] + weights[1] * values[1]) + (weights[2] * values[2] + weights[3] * values[3])
 }
 
 #[cfg(test)]

@@ -34,11 +34,11 @@ impl Reversed {
     pub fn product_term(&self, other: &Series, k: usize) -> f64 {
         let reversed =
             self.0.get((ORDER - 1).wrapping_sub(k)..).and_then(<[f64]>::first_chunk).unwrap_or(&[0.0; ORDER]);
-        let mut sums = Lanes::<4>::ZERO;
+        let mut sums = Lanes::ZERO;
         for (one, two) in other.blocks().iter().zip(reversed.blocks()) {
             sums += Lanes(*one) * Lanes(*two);
         }
-        (sums[0] + sums[1]) + (sums[2] + sums[3])
+        sums.total()
     }
 
     /// Term k of this series as a quotient, from the terms before it, given term k of the numerator and the reciprocal of term 0 of the

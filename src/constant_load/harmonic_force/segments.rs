@@ -113,7 +113,6 @@ impl<'a> NodalFourier<'a> {
 
     /// Adds the products of weights and values at the nodes of a panel with 1, cos t, sin t, cos 2t, ..., one for each of `sums`.
     fn add(&self, weights: &[[f64; 4]], values: &PanelNodes, sums: &mut [f64]) {
-        let total = |[one, two, three, four]: [f64; 4]| (one + two) + (three + four);
         let Some((constant, pairs)) = sums.split_first_mut() else { return };
         let mut products: PanelNodes = [[0.0; 4]; _];
         let mut sum = Lanes::ZERO;
@@ -121,7 +120,7 @@ impl<'a> NodalFourier<'a> {
             *product = *(Lanes(*weight) * Lanes(*value));
             sum += Lanes(*product);
         }
-        *constant += total(*sum);
+        *constant += sum.total();
         let products = products.part(..weights.len());
         for ([by_cosine, by_sine], [cosines, sines]) in pairs.blocks_mut::<2>().iter_mut().zip(self.rows.iter()) {
             let (mut c, mut s) = (Lanes::ZERO, Lanes::ZERO);
@@ -129,8 +128,8 @@ impl<'a> NodalFourier<'a> {
                 c += Lanes(*product) * Lanes(*cosine);
                 s += Lanes(*product) * Lanes(*sine);
             }
-            *by_cosine += total(*c);
-            *by_sine += total(*s);
+            *by_cosine += c.total();
+            *by_sine += s.total();
         }
     }
 }
