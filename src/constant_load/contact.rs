@@ -36,7 +36,7 @@ pub struct Contact {
     tag: u64,
     /// Displacement for a shift of 1 \[m\].
     pub(crate) displacement_scale: f64,
-    /// 1 over the number before; 0 without friction.
+    /// 1/`displacement_scale`; 0 without friction.
     pub(crate) per_displacement_scale: f64,
     /// Stiffness for a compliance of 1 \[N/m\].
     pub(crate) stiffness_scale: f64,

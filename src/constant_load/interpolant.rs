@@ -157,7 +157,7 @@ pub(crate) fn piece_of(root: f64) -> u64 {
     1023u64.wrapping_sub(root.to_bits() >> 52)
 }
 
-/// The same; beyond the pieces of the force the first of four on which ρ falls by 256, at most the last one.
+/// The piece of a root √ρ in an integral: beyond the pieces of the force it is the first of four on which ρ falls by 256, at most the last one.
 pub(crate) fn piece_in_integral(root: f64) -> u64 {
     let piece = piece_of(root);
     if piece > PIECES { PIECES + 1 + ((piece - 1 - PIECES).min(4 * LAST_PIECES as u64 - 1) & !3) } else { piece }

@@ -67,7 +67,7 @@ pub(crate) struct Branch {
     pub end: f64,
     /// Masing scale: 2 after a reversal, 1 on the initial loading curve.
     pub scale: f64,
-    /// 1 over the number before.
+    /// 1/`scale`.
     pub inverse_scale: f64,
     pub gross_slip: bool,
 }

@@ -14,7 +14,7 @@ use crate::shape::series::{ORDER, Series};
 
 /// Coefficients of a quarter.
 const TERMS: usize = 12;
-/// Octaves below the largest argument.
+/// Dyadic intervals below the largest argument.
 const DYADIC_INTERVALS: usize = 12;
 /// Bits of the mantissa that choose the quarter.
 const BITS: u32 = 2;

@@ -27,7 +27,7 @@ pub(crate) struct Crossing {
 }
 
 impl Crossing {
-    /// Between two displacements, of which one closes the contact.
+    /// The crossing between two displacements, of which one closes the contact.
     pub fn between(element: &Element, [u0, w0]: [f64; 2], [u1, w1]: [f64; 2]) -> Crossing {
         let before = element.crossing(w0, w1);
         let displacement = u0 + before * (u1 - u0);

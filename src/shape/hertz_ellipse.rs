@@ -70,7 +70,7 @@ impl Geometry for EllipticParameters {
         })
     }
 
-    /// By loads and displacements up to 2^498.
+    /// The largest size, with loads and displacements up to 2^498.
     fn largest_size(&self, shape: &Shape, _directions: usize) -> Result<f64, Error> {
         // The approach, free of overflow.
         for axis in [self.semi_axis_x, self.semi_axis_y] {

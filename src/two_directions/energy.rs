@@ -82,7 +82,7 @@ pub(crate) fn separated(
     energy.max(0.0)
 }
 
-/// The first x in [0, 1] at which `a x² + 2 b x + c` becomes positive; 1 if there is none.
+/// The first x in [0, 1] at which `a x² + 2 b x + c` becomes positive; otherwise 1.
 fn first_exceedance(a: f64, b: f64, c: f64) -> f64 {
     let root = root(b * b - a * c);
     // Quotients are at most 1 by their divisors: others may overflow.

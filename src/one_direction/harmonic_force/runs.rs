@@ -110,7 +110,7 @@ impl RunKnot {
     const CORE: RunKnot = RunKnot { xi: -1e200, eta: 1e200, end: PieceEnd::CENTRE };
 }
 
-/// A walk along samples: the stack of knots, and the runs and packed boundaries so far.
+/// The state of a pass along the samples: the stack of knots, and the runs and packed boundaries so far.
 #[derive(Debug)]
 pub(super) struct PeriodicPath<'a> {
     pub knots: Stack<'a, RunKnot>,
