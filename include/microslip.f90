@@ -2221,7 +2221,7 @@ contains
     integer(mslip_size), intent(in) :: harmonics  !! Highest harmonic H, >= 1.
     integer(mslip_size), intent(in) :: samples  !! Samples per period, > 2H.
     integer(mslip_size), intent(in) :: periods
-      !! Periods that are applied before the returned one, at most 65536; 0 is the default: 3 with two directions, 1
+      !! Periods that are applied before the returned one, at most 65536; 0 is the default: 4 with two directions, 1
       !! with one.
     real(mslip_real), intent(inout), target, contiguous :: workspace(:)
       !! The workspace, of at least `mslip_element_workspace_length(directions, harmonics, samples, rule)` values.
@@ -2251,12 +2251,12 @@ contains
     !! any variation of w moves the start to another sample, and the mean tangential force may depend on the start.
     !!
     !! With one direction the returned period is the steady state. With two, a vibration across a mean tangential force
-    !! reduces that force over many periods, all but the last of which are advanced by 32 samples for each cycle of the
-    !! highest harmonic, if there are more. With 3 periods or more, the memory after the second is extrapolated by 1.75
-    !! times its change in that period. drift estimates the largest difference of the tangential force between the
-    !! returned period and the steady state, over mu times the largest normal force; 0 with one direction, and for a
-    !! contact that opens, because that erases its memory. A drift is not an error. While the force drifts, dissipated
-    !! contains the change of the stored energy.
+    !! reduces that force over many periods. Before the last two, of which the second is returned, the motion advances
+    !! by 32 samples for each cycle of the highest harmonic, if there are more. With 3 periods or more, the memory after
+    !! the second is extrapolated by 1.75 times its change in that period. drift estimates the largest difference of the
+    !! tangential force between the returned period and the steady state, over mu times the largest normal force; 0 with
+    !! one direction, and for a contact that opens, because that erases its memory. A drift is not an error. While the
+    !! force drifts, dissipated contains the change of the stored energy.
     !!
     !! Since 0.1.0 (interface 6).
     type(mslip_element), intent(in) :: element  !! An initialised element.

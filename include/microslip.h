@@ -716,7 +716,8 @@ int32_t mslip_element_workspace_size(const double *workspace,
 // tangential force may depend on the start.
 //
 // With one direction the returned period is the steady state. With two, a vibration across a mean tangential force reduces that force
-// over many periods, all but the last of which are advanced by 32 samples for each cycle of the highest harmonic, if there are more.
+// over many periods. Before the last two, of which the second is returned, the motion advances by 32 samples for each cycle of the highest
+// harmonic, if there are more.
 // With 3 periods or more, the memory after the second is extrapolated by 1.75 times its change in that period.
 // drift estimates the largest difference of the tangential force between the returned period and the steady state, over mu times the
 // largest normal force; 0 with one direction, and for a contact that opens, because that erases its memory. A drift is not an error.

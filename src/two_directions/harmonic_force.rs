@@ -401,7 +401,7 @@ fn extrapolate(values: &mut [f64], before: &[f64]) {
     values.iter_mut().zip(before).for_each(|(value, before)| *value += EXTRAPOLATION * (*value - before));
 }
 
-/// Changes below are 0, after this number of steps: memory that fades would end in subnormal numbers, which are slow.
+/// Changes below this are set to 0, every `FADING` steps: they would decay to subnormal numbers, which are slow.
 const NEGLIGIBLE_CHANGE: f64 = 1e-200;
 const FADING: usize = 8;
 

@@ -20,8 +20,8 @@ pub(crate) fn dot(x: &Row, y: &Row) -> f64 {
     (sums[0] + sums[1]) + (sums[2] + sums[3])
 }
 
-/// Eliminates a point from a symmetric matrix: what is left of it between others, its row times its reciprocal, and minus this reciprocal.
-/// Minus the inverse is left when all points are eliminated.
+/// Eliminates point i of a symmetric matrix A, in place: the Schur complement of A_ii between the others, A_im/A_ii in row and column i, -1/A_ii
+/// on the diagonal. When all points are eliminated, -A⁻¹ is left.
 pub(super) fn eliminate(matrix: &mut Matrix, i: usize, [first, end]: [usize; 2]) {
     let i = i.min(SPRINGS - 1);
     let pivot = matrix[i][i];

@@ -10,10 +10,10 @@ use super::step::{Displacements, LoadedContact, SMALLEST_LENGTH, StepWork};
 use crate::element::Element;
 use crate::numerics::guard::quotient;
 
-/// The largest load of the nodes over the present one of which gross slip does not erase the memory: nodes of such a load are accurate enough.
+/// Gross slip leaves nodes whose load is at most this multiple of the present one: they are accurate enough.
 const REMEMBERED: f64 = 3.0;
-/// Relative distance of the force from Coulomb's bound up to which all points count as slipping in one direction; the effect vanishes linearly
-/// at twice it. Springs at any nodes then carry the same force, but for rounding.
+/// If the force is within this relative distance of Coulomb's bound, all points slip in one direction, and springs at any nodes carry the same
+/// force but for rounding. Between one and two times this distance the effect vanishes linearly.
 const SAME_DIRECTION: f64 = 1e-13;
 /// Changes of the load of the nodes that are worth new ones.
 const WORTH_NEW_NODES: f64 = 1e-3;

@@ -54,10 +54,10 @@ const EDGE_SHARE: f64 = 0.765;
 /// The distance from the edge of the last node over that of the first one, in √S.
 const GRADING: f64 = 0.028;
 /// The position of x_i in its shell: in its inner half F_ij/ΔS_j decreases with j. Values from 0.03 to 0.2 are nearly as good.
-/// The rule is used in `fill`, twice, and in `pressure_at_edge`.
+/// The rule is used in `fill`, three times, and in `pressure_at_edge`.
 const POINT_FRACTION: f64 = 0.05;
-/// Intervals in the leg between which the cumulative distribution of the nodes is inverted linearly: what follows from it need not be exact,
-/// but smooth.
+/// Number of intervals in the leg on which the cumulative distribution of the nodes is inverted by linear interpolation. The nodes need not be
+/// exact, but must depend smoothly on the load.
 const INTERVALS: usize = 48;
 /// The smallest flat over the leg that has a spring: its points would round to one value.
 const SMALLEST_FLAT: f64 = 1e-9;
@@ -65,8 +65,8 @@ const SMALLEST_FLAT: f64 = 1e-9;
 /// maps between them lose their digits.
 const LEAST_REFERENCE: f64 = 1.0 / 4096.0;
 
-/// Relative distance of the reference sizes by whose nodes these are differentiated: the error is the square of it times the third derivative,
-/// up to 1e5 where nodes are close, and a rounding error over it.
+/// Relative step of the central difference of nodes by the reference size. The error is the square of the step times the third derivative,
+/// up to 1e5 where nodes are close, and the rounding error over the step.
 pub(crate) const NEIGHBOUR: f64 = 1e-6;
 
 // Rows of the tables. Those of S have one for each direction, `SHIFT + axis`.

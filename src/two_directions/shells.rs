@@ -212,7 +212,7 @@ struct LastShell<T> {
 }
 
 impl<T: Number> LastShell<T> {
-    /// The last one of the shells from one on, from the nodes by row and place.
+    /// The last shell, given the first and the last one. `node(row, j)` reads the tables of the nodes, with derivatives or without.
     fn new([first, last]: [usize; 2], node: impl Fn(usize, usize) -> T, now: &ScaledNormalState<T>) -> LastShell<T> {
         let last = last.min(SPRINGS - 1);
         let next_to_last = last.max(1) - 1;

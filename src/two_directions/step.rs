@@ -78,7 +78,7 @@ pub(crate) struct GrossSlipBlend<T> {
 }
 
 impl<T: Number> GrossSlipBlend<T> {
-    /// For a motion of several times the innermost limit: the displacement, and that part of the innermost spring which a falling load cuts off.
+    /// The blend for a displacement, to which the part of the innermost spring is added that a falling load cuts off.
     pub fn new(
         [before, now]: [&ScaledNormalState<T>; 2],
         displacement: &PerAxis<T>,
@@ -130,7 +130,8 @@ pub(crate) fn released<T: Number>(limit: PerAxis<T>, fall: T, trial: PerAxis<T>)
     trial.map(|trial| trial * scale)
 }
 
-/// The spring at the edge after a step. It is another one under another load: a rising load keeps that part of it which is still at the edge.
+/// The spring at the edge after a step. It moves with the edge: under a rising load only that part of the old spring is kept which is still at
+/// the edge.
 #[inline(never)]
 pub(crate) fn edge_spring<T: Number>(
     states: [&ScaledNormalState<T>; 2],
@@ -280,11 +281,11 @@ pub(crate) fn releases(fall: f64, outermost: f64) -> bool {
     fall > (RELEASE_RATIO - 1.0) * outermost
 }
 
-/// The largest length of a state over its limit that sticks: one that has slipped may round.
+/// A spring slips if its length over its limit is more than this: one that is at its limit may exceed it by rounding.
 pub(crate) const LENGTH_SLIP_THRESHOLD: f64 = 1.0 + 1e-12;
 
-/// A force within Coulomb's bound, unless it exceeds this by an allowed factor only: one that sticks at the bound may round, and has the tangent
-/// of the stuck contact. Not inlined, as [`released`].
+/// Scales a force to Coulomb's bound if it exceeds an allowed factor times the bound. A factor slightly above 1 keeps the tangent of a stuck
+/// contact whose force exceeds the bound by rounding. Not inlined, as [`released`].
 #[inline(never)]
 pub(crate) fn within_friction_limit<T: Number>(force: PerAxis<T>, bound: T, allowed: f64) -> PerAxis<T> {
     let length = length_of(force);

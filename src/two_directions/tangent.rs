@@ -241,7 +241,7 @@ pub(crate) struct ParameterChanges<'a> {
 }
 
 impl ParameterChanges<'_> {
-    /// What a term of all parameters adds.
+    /// The sum of a term times the change of its parameter, over all parameters.
     fn sum(&self, term: impl Fn(&ParameterTerms) -> f64) -> Lanes<4> {
         let [a, b, c] = &self.tangent.terms;
         let [by_a, by_b, by_c] = self.changes;
@@ -423,7 +423,7 @@ impl Slip {
             }
         }
         if sticks != 0 {
-            // What these take from the tractions of others.
+            // Subtract the effect of the points that slip on the tractions of those that stick.
             for axis in 0..2 {
                 for i in first..end {
                     for m in first..end {
