@@ -14,7 +14,7 @@
 //! propagated for a few coefficients at once.
 
 use super::matrix::dot;
-use super::nodes::{NEIGHBOUR, Nodes, PerAxis, ROWS, SPRINGS, Units, by_axis, fill, length};
+use super::nodes::{DIFFERENCE_STEP, Nodes, PerAxis, ROWS, SPRINGS, Units, by_axis, fill, length};
 use super::path::ContactPath;
 use super::shells::ScaledNormalState;
 use super::step::{Displacements, LoadedContact, SpringMotion, StepWork, within_friction_limit};
@@ -440,8 +440,8 @@ fn integrate_periods(element: &Element, workspace: &mut TwoDirectionsWorkspace, 
     let mut nodes = [[[0.0; SPRINGS]; ROWS]; 3];
     fill(&mut nodes[0], element, &units, 1.0);
     if derivatives {
-        fill(&mut nodes[1], element, &units, 1.0 + NEIGHBOUR);
-        fill(&mut nodes[2], element, &units, 1.0 - NEIGHBOUR);
+        fill(&mut nodes[1], element, &units, 1.0 + DIFFERENCE_STEP);
+        fill(&mut nodes[2], element, &units, 1.0 - DIFFERENCE_STEP);
         workspace.changes.fill(0.0);
         workspace.sums.fill(0.0);
     }

@@ -11,7 +11,7 @@ use crate::element::Element;
 use crate::numerics::guard::quotient;
 
 /// Gross slip leaves nodes whose load is at most this multiple of the present one: they are accurate enough.
-const REMEMBERED: f64 = 3.0;
+const LARGEST_LOAD_OF_NODES: f64 = 3.0;
 /// If the force is within this relative distance of Coulomb's bound, all points slip in one direction, and springs at any nodes carry the same
 /// force but for rounding. Between one and two times this distance the effect vanishes linearly.
 const SAME_DIRECTION: f64 = 1e-13;
@@ -67,8 +67,13 @@ impl ContactState {
 
     /// Gross slip in one direction erases the memory of an overload, as the innermost spring slips: the load to which the nodes move after a
     /// step with this force, if that is worth new nodes.
-    pub fn remembered_load(&self, contact: &LoadedContact, step: &StepWork, force: PerAxis<f64>) -> Option<f64> {
-        let (load, largest) = (REMEMBERED * self.normal_force, self.units.load);
+    pub fn load_of_nodes_after_gross_slip(
+        &self,
+        contact: &LoadedContact,
+        step: &StepWork,
+        force: PerAxis<f64>,
+    ) -> Option<f64> {
+        let (load, largest) = (LARGEST_LOAD_OF_NODES * self.normal_force, self.units.load);
         let aligned = 2.0 - (1.0 - quotient(length(force), contact.now.load)) / SAME_DIRECTION;
         if largest <= load || aligned <= 0.0 {
             return None;
@@ -77,8 +82,8 @@ impl ContactState {
         let slip = by_axis(|axis| {
             (step.trial[axis][first] - self.springs.v[axis][first]) / contact.now.shift[axis].max(SMALLEST_LENGTH)
         });
-        let remembered = load + (largest - load) / (1.0 + aligned.min(1.0) * length(slip));
-        (remembered < largest * (1.0 - WORTH_NEW_NODES)).then_some(remembered)
+        let nodes_load = load + (largest - load) / (1.0 + aligned.min(1.0) * length(slip));
+        (nodes_load < largest * (1.0 - WORTH_NEW_NODES)).then_some(nodes_load)
     }
 }
 

@@ -67,7 +67,7 @@ const LEAST_REFERENCE: f64 = 1.0 / 4096.0;
 
 /// Relative step of the central difference of nodes by the reference size. The error is the square of the step times the third derivative,
 /// up to 1e5 where nodes are close, and the rounding error over the step.
-pub(crate) const NEIGHBOUR: f64 = 1e-6;
+pub(crate) const DIFFERENCE_STEP: f64 = 1e-6;
 
 // Rows of the tables. Those of S have one for each direction, `SHIFT + axis`.
 /// N_j.

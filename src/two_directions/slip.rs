@@ -104,16 +104,16 @@ impl Slip {
     pub fn find(&mut self, metric: &mut Metric, springs: &Springs, trial: &PerAxis<Row>, load: f64) {
         let q = springs.tractions(trial);
         let [x, y] = directions(&q);
-        let mut beyond = members(&square(&q), &Lanes([SQUARED_SLIP_THRESHOLD; SPRINGS]));
+        let mut beyond = points_above(&square(&q), &Lanes([SQUARED_SLIP_THRESHOLD; SPRINGS]));
         let points = &mut self.points;
         (points.set, points.v, points.q, points.r) = (beyond, *trial, q, [Row::ZERO; 2]);
         if beyond == 0 {
             return;
         }
         // First guess: if a point slips, so do those outside that are near their bound, and those inside that turned in the step before.
-        beyond |= members(&square(&q), &Lanes([EXPECTED_SLIP * EXPECTED_SLIP; SPRINGS]))
+        beyond |= points_above(&square(&q), &Lanes([EXPECTED_SLIP * EXPECTED_SLIP; SPRINGS]))
             & within([beyond.trailing_zeros() as usize, SPRINGS]);
-        let turned_before = members(&self.turned.map(f64::abs), &Row::ZERO);
+        let turned_before = points_above(&self.turned.map(f64::abs), &Row::ZERO);
         for _ in 0..SPRINGS {
             beyond |= beyond >> 1 & turned_before;
         }
@@ -238,12 +238,12 @@ impl Points {
             self.q = *q;
         }
         let (directions, beyond) =
-            (directions(&self.q), members(&square(&self.q), &Lanes([SQUARED_SLIP_THRESHOLD; SPRINGS])));
+            (directions(&self.q), points_above(&square(&self.q), &Lanes([SQUARED_SLIP_THRESHOLD; SPRINGS])));
         let mut scale = Row::ZERO;
         for i in 0..SPRINGS {
             scale[i] = metric[0][i][i] + metric[1][i][i];
         }
-        let (backwards, slips) = (members(&(-self.along()), &(BACKSLIP_TOLERANCE * scale)), beyond & !before);
+        let (backwards, slips) = (points_above(&(-self.along()), &(BACKSLIP_TOLERANCE * scale)), beyond & !before);
         self.set = before & !backwards | slips;
         for axis in 0..2 {
             self.e[axis] += lanes_of(slips) * (directions[axis] - self.e[axis]);
@@ -264,7 +264,7 @@ fn directions(q: &PerAxis<Row>) -> PerAxis<Row> {
 }
 
 /// The points at which values exceed limits.
-fn members(values: &Row, limits: &Row) -> Set {
+fn points_above(values: &Row, limits: &Row) -> Set {
     let mut set = 0;
     for i in 0..SPRINGS {
         set |= Set::from(values[i] > limits[i]) << i;

@@ -13,7 +13,7 @@ use super::energy::{dissipated, separated};
 use super::harmonic_force::{HarmonicOutput, TwoDirectionsWorkspace, harmonic_force};
 use super::moving_nodes::{ContactState, OldNodes};
 use super::nodes::{
-    FLAT_EDGE, LEG_SQUARED, NEIGHBOUR, Nodes, POINT_SQUARED, PRESSURE, PerAxis, ROWS, SHIFT, SPRINGS, Units, fill,
+    DIFFERENCE_STEP, FLAT_EDGE, LEG_SQUARED, Nodes, POINT_SQUARED, PRESSURE, PerAxis, ROWS, SHIFT, SPRINGS, Units, fill,
 };
 use super::path::{ContactPath, LONGEST};
 use super::shells::{ScaledNormalState, VALUES};
@@ -32,7 +32,7 @@ use crate::numerics::total::Total;
 use crate::tag::Kind;
 
 /// Lanes of both displacements in a tangent, beside those of the normal component and of the nodes.
-const ALONG: [usize; 2] = [1, 3];
+const DISPLACEMENT_LANES: [usize; 2] = [1, 3];
 /// The rounding error of the load of nodes.
 const LOAD_TOLERANCE: f64 = 1e-12;
 
@@ -256,7 +256,7 @@ impl State<'_> {
         }
         *self.turned = [step.middle.turned.0, step.end.turned.0];
         (at.displacement, at.normal_force, at.load_slope) = (to, normal.load, normal.load_slope);
-        if let Some(load) = at.remembered_load(&contact, &step, [x, y]) {
+        if let Some(load) = at.load_of_nodes_after_gross_slip(&contact, &step, [x, y]) {
             at.move_nodes(element, self.nodes, &contact, load);
         }
         self.write(&at);
@@ -308,21 +308,21 @@ fn tangent(
     tangent.set_slips(step, motion);
     (by_parameters[END][END], by_parameters[REFERENCE][REFERENCE]) = (1.0, 1.0);
     for axis in 0..2 {
-        (displacement[axis][END], displacement[axis][ALONG[axis]]) = (path.per_input[axis][1], 1.0);
+        (displacement[axis][END], displacement[axis][DISPLACEMENT_LANES[axis]]) = (path.per_input[axis][1], 1.0);
     }
     let slopes = ContactSlopes::by_load(nodes, contact);
     let values = (step, motion, springs);
     tangent.terms[END].set(contact, values, [None, Some(&slopes)], None);
     if let Some((old_nodes, element, units)) = old_nodes {
         let mut neighbours = [[[0.0; SPRINGS]; ROWS]; 2];
-        let moved = [1.0 + NEIGHBOUR, 1.0 - NEIGHBOUR].map(|size| {
+        let moved = [1.0 + DIFFERENCE_STEP, 1.0 - DIFFERENCE_STEP].map(|size| {
             let nodes = &mut neighbours[usize::from(size < 1.0)];
             fill(nodes, element, units, size);
             old_nodes.moved_to(nodes, &from.now, units)
         });
         for axis in 0..2 {
             for j in 0..SPRINGS {
-                changes.v[axis][j][REFERENCE] = (0.5 / NEIGHBOUR) * (moved[0].v[axis][j] - moved[1].v[axis][j]);
+                changes.v[axis][j][REFERENCE] = (0.5 / DIFFERENCE_STEP) * (moved[0].v[axis][j] - moved[1].v[axis][j]);
             }
         }
         let [larger, smaller] = &neighbours;
@@ -336,7 +336,11 @@ fn tangent(
     let slopes = propagation.within_friction_limit(force, by_force);
     // The size is the reference size.
     slopes.map(|slopes| {
-        [slopes[END] + 0.5 * contact.slopes.leg_squared * slopes[REFERENCE], slopes[ALONG[0]], slopes[ALONG[1]]]
+        [
+            slopes[END] + 0.5 * contact.slopes.leg_squared * slopes[REFERENCE],
+            slopes[DISPLACEMENT_LANES[0]],
+            slopes[DISPLACEMENT_LANES[1]],
+        ]
     })
 }
 

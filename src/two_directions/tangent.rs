@@ -8,7 +8,7 @@
 //! ```
 
 use super::matrix::{dot, times_symmetric, times_upper, times_upper_transposed};
-use super::nodes::{FLAT_EDGE, Matrix, NEIGHBOUR, Nodes, PerAxis, Row, SHIFT, SPRINGS, by_axis};
+use super::nodes::{DIFFERENCE_STEP, FLAT_EDGE, Matrix, Nodes, PerAxis, Row, SHIFT, SPRINGS, by_axis};
 use super::shells::{ScaledNormalState, Shells, Springs, minus_next};
 use super::slip::{Set, Slip, set_metric, within};
 use super::step::{
@@ -71,7 +71,7 @@ impl ContactSlopes {
 pub(crate) fn slopes_of_nodes([larger, smaller]: [&Nodes; 2]) -> Nodes {
     let mut slopes = *larger;
     for (slope, smaller) in slopes.as_flattened_mut().iter_mut().zip(smaller.as_flattened()) {
-        *slope = (*slope - smaller) * (0.5 / NEIGHBOUR);
+        *slope = (*slope - smaller) * (0.5 / DIFFERENCE_STEP);
     }
     slopes
 }
@@ -393,7 +393,7 @@ impl Slip {
                 v[axis][i].add_first(parameters.sum(|terms| slip_of(terms).slip[axis][i]));
             }
         }
-        self.turn(jacobian, v, range);
+        self.tractions_of(jacobian, v, range);
         for axis in 0..2 {
             times_upper(&springs.inverse[axis], range, &mut v[axis]);
             for j in first..end {
@@ -403,12 +403,12 @@ impl Slip {
     }
 
     /// Changes of the tractions, in place of those of slip at the present tractions.
-    fn turn<const L: usize>(&self, jacobian: &SlipJacobian, slip: &mut PerAxis<Changes<L>>, range: [usize; 2]) {
+    fn tractions_of<const L: usize>(&self, jacobian: &SlipJacobian, slip: &mut PerAxis<Changes<L>>, range: [usize; 2]) {
         let [first, end] = range.map(|i| i.min(SPRINGS));
         let (points, SlipJacobian { metric, inverse }) = (&self.points, jacobian);
         let sticks = !points.set & within([first, end]);
         if sticks != 0 {
-            eliminate(metric, slip, [first, end], (points.set, sticks));
+            condense_sticking_points(metric, slip, [first, end], (points.set, sticks));
         }
         let mut across = [Lanes::ZERO; SPRINGS];
         for m in first..end {
@@ -441,7 +441,7 @@ impl Slip {
 /// Eliminates the points that stick between others: the change of slip of such a point becomes the change of its traction, and is subtracted
 /// from the change of slip of the others by their share.
 #[inline(never)]
-fn eliminate<const L: usize>(
+fn condense_sticking_points<const L: usize>(
     metric: &PerAxis<Matrix>,
     slip: &mut PerAxis<Changes<L>>,
     [first, end]: [usize; 2],
