@@ -28,16 +28,6 @@ pub struct Requested {
     pub energy: bool,
 }
 
-/// Outputs of a path, step after step; `None` is not computed.
-pub struct PathOutput<'a, L: Law> {
-    /// `[T, N]` or `[Tx, Ty, N]` per step \[N\].
-    pub force: Option<&'a mut [L::Vector]>,
-    /// A tangent per step, 2 x 2 or 3 x 3, column-major.
-    pub tangent: Option<&'a mut [L::Tangent]>,
-    /// One double per step \[J\].
-    pub dissipated: Option<&'a mut [f64]>,
-}
-
 /// Result of a step of a law.
 pub type StepOf<L> = StepResult<<L as Law>::Vector, <L as Law>::Tangent>;
 
@@ -112,26 +102,13 @@ pub trait Law: Sized {
         to.iter_mut().zip(from).for_each(|(to, from)| *to = *from);
     }
 
+    /// Applies steps to a copy of a state whose header was checked, which may be shorter.
+    fn in_copy(item: &Self::Item, state: &[f64], steps: impl FnOnce(&mut [f64]));
+
     /// A step with checked arguments whose new state is discarded.
     fn trial(item: &Self::Item, old: &[f64], displacement: Self::Vector, requested: Requested) -> StepOf<Self>;
     /// A step in place with checked arguments.
     fn advance(item: &Self::Item, state: &mut [f64], displacement: Self::Vector, requested: Requested) -> StepOf<Self>;
-    /// Steps in place along a path, with a state and displacements that were checked.
-    fn path(item: &Self::Item, state: &mut [f64], path: &[Self::Vector], output: PathOutput<Self>) {
-        let PathOutput { force, tangent, dissipated } = output;
-        let requested = Requested { tangent: tangent.is_some(), energy: dissipated.is_some() };
-        let mut forces = force.unwrap_or(&mut []).iter_mut();
-        let mut tangents = tangent.unwrap_or(&mut []).iter_mut();
-        let mut energies = dissipated.unwrap_or(&mut []).iter_mut();
-        for displacement in path {
-            let step = Self::advance(item, state, *displacement, requested);
-            forces.next().into_iter().for_each(|force| *force = step.force);
-            tangents.next().into_iter().for_each(|tangent| *tangent = step.tangent);
-            energies.next().into_iter().for_each(|energy| *energy = step.dissipated);
-        }
-    }
-    /// Steps along a path, both checked, in a copy of the state.
-    fn path_in_copy(item: &Self::Item, state: &[f64], path: &[Self::Vector], output: PathOutput<Self>);
 
     /// Checks the coefficients of a motion.
     /// Errors: those of [`Law::harmonic_force`].

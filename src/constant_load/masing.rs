@@ -11,7 +11,7 @@ use crate::constant_load::interpolant::piece_of;
 use crate::constant_load::memory::{Branch, InitialCurve, Memory, Merge, Point, Transition, force_error, push, within};
 use crate::constant_load::state::{self, HEADER, PER_REVERSAL};
 use crate::error::Error;
-use crate::law::{Law, PathOutput, Requested, StepOf, StepResult};
+use crate::law::{Law, Requested, StepOf, StepResult};
 use crate::limits::{check_coefficients, check_displacement};
 use crate::numerics::fp_class::is_finite;
 use crate::numerics::lanes::Lanes;
@@ -174,6 +174,16 @@ impl Law for ConstantLoad {
         force_error(state::memory(state).reversals)
     }
 
+    /// The copy holds at most 128 reversals.
+    #[inline(never)]
+    fn in_copy(contact: &Contact, state: &[f64], steps: impl FnOnce(&mut [f64])) {
+        let mut copy = [0.0; state::state_length(128)];
+        let length = state.len().min(copy.len());
+        let copy = copy.part_mut(..length);
+        state::copy(contact, state, copy);
+        steps(copy);
+    }
+
     fn trial(contact: &Contact, state: &[f64], displacement: f64, requested: Requested) -> StepOf<ConstantLoad> {
         let energy = energy_if(requested, contact, state, displacement);
         let (_, Response { force, stiffness }) = step(contact, state, displacement);
@@ -195,24 +205,11 @@ impl Law for ConstantLoad {
         state::write_header(state, depth, initial.after(contact, &branch, displacement), Point { displacement, force });
         StepResult { force, tangent: stiffness, dissipated: energy }
     }
-
-    /// The copy holds at most `REVERSALS_OF_COPY` reversals.
-    #[inline(never)]
-    fn path_in_copy(contact: &Contact, state: &[f64], path: &[f64], output: PathOutput<Self>) {
-        let mut copy = [0.0; state::state_length(REVERSALS_OF_COPY)];
-        let length = state.len().min(copy.len());
-        let copy = copy.part_mut(..length);
-        state::copy(contact, state, copy);
-        Self::path(contact, copy, path, output);
-    }
 }
 
 fn energy_if(requested: Requested, contact: &Contact, state: &[f64], displacement: f64) -> f64 {
     if requested.energy { dissipated(contact, state, displacement) } else { 0.0 }
 }
-
-/// Nested reversals of the copy in which a path runs whose last state is discarded.
-const REVERSALS_OF_COPY: usize = 128;
 
 /// Shear traction \[Pa\] at x \[m\] after any history: the traction of the initial loading, and twice that of half of each
 /// reversal's change of force (Eq. 21 with Masing's rule).

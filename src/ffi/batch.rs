@@ -1,8 +1,8 @@
 //! Batches of contacts and of elements: all items are checked, in order, before the first output is written.
 
 use super::pointers::{
-    self, call, check_alignment, check_input, check_length, input, item, optional_output, output, outputs, requested,
-    set, state_input, with_law,
+    self, call, check_alignment, check_input, check_length, input, optional_output, output, outputs, requested, set,
+    state_input, with_law,
 };
 use super::{mslip_contact, mslip_element};
 use crate::constant_load::ConstantLoad;
@@ -12,7 +12,7 @@ use crate::constant_load::harmonic_force::HarmonicOutput;
 use crate::element::{Directions, Element};
 use crate::error::Error;
 use crate::fourier::workspace::Layout;
-use crate::law::{Law, PathOutput, Requested};
+use crate::law::{Law, Requested};
 use crate::numerics::total::Total;
 use core::{ptr, slice};
 use libc::size_t;
@@ -23,46 +23,29 @@ type States = (usize, *const f64, *mut f64);
 /// Force, tangent and dissipated energy.
 type Outputs = [*mut f64; 3];
 
-/// Evaluates and writes one step with checked arguments.
-#[inline(never)]
+/// Evaluates one step with checked arguments, and writes it as item i of the outputs.
+#[inline(always)]
 unsafe fn step<L: Law>(
-    item: &L::Item,
-    state_length: usize,
-    state_old: *const f64,
+    law: &L::Item,
+    (state_length, state_old, state_new): States,
     displacement: &L::Vector,
-    state_new: *mut f64,
     [force, tangent, dissipated]: Outputs,
+    i: usize,
 ) {
     let requested = Requested { tangent: !tangent.is_null(), energy: !dissipated.is_null() };
     // No reference to the old state is left when the new one, which may be the same memory, is written.
     let step = if state_new.is_null() {
-        L::trial(item, slice::from_raw_parts(state_old, state_length), *displacement, requested)
+        L::trial(law, slice::from_raw_parts(state_old, state_length), *displacement, requested)
     } else {
         let state = slice::from_raw_parts_mut(state_new, state_length);
         if !ptr::eq(state_old, state_new) {
             L::copy_used(slice::from_raw_parts(state_old, state_length), state);
         }
-        L::advance(item, state, *displacement, requested)
+        L::advance(law, state, *displacement, requested)
     };
-    set(force.cast::<L::Vector>().as_mut(), || step.force);
-    set(tangent.cast::<L::Tangent>().as_mut(), || step.tangent);
-    set(dissipated.as_mut(), || step.dissipated);
-}
-
-/// Advances the state of one contact or element, which is checked.
-pub(super) unsafe fn update_one<L: Law>(
-    law: &L::Item,
-    (state_length, state_old, state_new): States,
-    displacement: *const f64,
-    outputs: Outputs,
-) -> Result<(), Error> {
-    let displacement = item(displacement.cast::<L::Vector>())?;
-    check_alignment(state_new)?;
-    outputs.iter().try_for_each(|output| check_alignment(*output))?;
-    L::check_header(state_input(state_length, state_old)?)?;
-    L::check_step(law, displacement)?;
-    step::<L>(law, state_length, state_old, displacement, state_new, outputs);
-    Ok(())
+    set(item_of(force.cast::<L::Vector>(), i).as_mut(), || step.force);
+    set(item_of(tangent.cast::<L::Tangent>(), i).as_mut(), || step.tangent);
+    set(item_of(dissipated, i).as_mut(), || step.dissipated);
 }
 
 /// Writes the bound on the error of the force in a state.
@@ -74,35 +57,44 @@ pub(super) unsafe fn state_error<L: Law>(n: usize, state: *const f64, error: *mu
 }
 
 /// Advances the state of a contact or element, which is checked, along a path.
+#[inline(always)]
 pub(super) unsafe fn path<L: Law>(
     law: &L::Item,
     (state_length, state_old, state_new): States,
     n: usize,
     displacement: *const f64,
-    [force, tangent, dissipated]: Outputs,
+    outputs: Outputs,
 ) -> Result<(), Error> {
     let path = input(displacement.cast::<L::Vector>(), n)?;
-    let output = PathOutput {
-        force: output(force.cast::<L::Vector>(), n)?,
-        tangent: output(tangent.cast::<L::Tangent>(), n)?,
-        dissipated: output(dissipated, n)?,
-    };
+    check_length::<L::Tangent>(n)?;
     check_alignment(state_new)?;
-    {
-        // The reference ends before the new state, which may be the same memory, is written.
-        let start = state_input(state_length, state_old)?;
-        L::check_header(start)?;
-        path.iter().try_for_each(|displacement| L::check_step(law, displacement))?;
-        if state_new.is_null() {
-            L::path_in_copy(law, start, path, output);
-            return Ok(());
+    outputs.iter().try_for_each(|output| check_alignment(*output))?;
+    L::check_header(state_input(state_length, state_old)?)?;
+    path.iter().try_for_each(|displacement| L::check_step(law, displacement))?;
+    let states = (state_length, state_old, state_new);
+    match path {
+        [displacement] => step::<L>(law, states, displacement, outputs, 0),
+        [] if state_new.is_null() => {}
+        [] => ptr::copy(state_old, state_new, state_length),
+        _ if state_new.is_null() => {
+            let state = slice::from_raw_parts(state_old, state_length);
+            L::in_copy(law, state, |copy| {
+                steps::<L>(law, (copy.len(), copy.as_ptr(), copy.as_mut_ptr()), path, outputs);
+            });
         }
+        _ => steps::<L>(law, states, path, outputs),
     }
-    if !ptr::eq(state_old, state_new) {
-        ptr::copy(state_old, state_new, state_length);
-    }
-    L::path(law, slice::from_raw_parts_mut(state_new, state_length), path, output);
     Ok(())
+}
+
+/// Steps along a path with checked arguments.
+#[inline(never)]
+unsafe fn steps<L: Law>(law: &L::Item, states: States, path: &[L::Vector], outputs: Outputs) {
+    let (state_length, mut state_old, state_new) = states;
+    for (i, displacement) in path.iter().enumerate() {
+        step::<L>(law, (state_length, state_old, state_new), displacement, outputs, i);
+        state_old = state_new;
+    }
 }
 
 /// An error of a batch and, if it is the error of an item, its number.
@@ -217,16 +209,11 @@ unsafe fn update<L: Law>(
             L::check_step(law, displacement)
         })?;
     }
-    let [force, tangent, dissipated] = outputs;
     for (i, law, displacement) in items.with(|i| displacement.get(i)) {
-        prefetch::<4>(states_old.wrapping_add((i + PREFETCH_DISTANCE) * state_length));
-        let outputs = [
-            item_of(force.cast::<L::Vector>(), i).cast(),
-            item_of(tangent.cast::<L::Tangent>(), i).cast(),
-            item_of(dissipated, i),
-        ];
-        let (state_old, state_new) = (states_old.wrapping_add(i * state_length), item_of(states_new, i * state_length));
-        step::<L>(law, state_length, state_old, displacement, state_new, outputs);
+        let state_old = states_old.wrapping_add(i * state_length);
+        prefetch::<4>(state_old.wrapping_add(PREFETCH_DISTANCE * state_length));
+        let states = (state_length, state_old, item_of(states_new, i * state_length));
+        step::<L>(law, states, displacement, outputs, i);
     }
     Ok(())
 }

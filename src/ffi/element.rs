@@ -1,6 +1,6 @@
 //! Friction contact elements: initialisation, the normal law, load histories and tractions under a normal force that varies.
 
-use super::batch::{path, state_error, update_one};
+use super::batch::{path, state_error};
 use super::mslip_element;
 use super::pointers::{
     self, call, each, input, item, memory, optional_output, outputs, set, state_input, sum, with_law,
@@ -250,7 +250,7 @@ pub unsafe extern "C" fn mslip_element_update(
     call(|| {
         let element = pointers::element(element)?;
         let (states, outputs) = ((state_length, state_old, state_new), [force, tangent, dissipated]);
-        with_law!(element.tangential_directions(), L => update_one::<L>(element, states, displacement, outputs))
+        with_law!(element.tangential_directions(), L => path::<L>(element, states, 1, displacement, outputs))
     })
 }
 

@@ -1,7 +1,7 @@
 //! Load histories: states, and Masing's rule with return-point memory.
 
 use crate::constant_load::{ConstantLoad, Law, masing, state};
-use crate::ffi::batch::{path, state_error, update_one};
+use crate::ffi::batch::{path, state_error};
 use crate::ffi::mslip_contact;
 use crate::ffi::pointers::{self, call, each, input, memory, outputs, set, state_input};
 use crate::limits::check_positions;
@@ -61,7 +61,7 @@ pub unsafe extern "C" fn mslip_masing_update(
 ) -> i32 {
     call(|| {
         let (states, outputs) = ((state_length, state_old, state_new), [force, stiffness, dissipated]);
-        update_one::<ConstantLoad>(pointers::contact(contact)?, states, &raw const displacement, outputs)
+        path::<ConstantLoad>(pointers::contact(contact)?, states, 1, &raw const displacement, outputs)
     })
 }
 

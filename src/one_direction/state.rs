@@ -7,7 +7,7 @@
 
 use crate::element::{Directions, Element, Normal};
 use crate::error::Error;
-use crate::law::{Law, PathOutput, Requested, StepOf, StepResult};
+use crate::law::{Law, Requested, StepOf, StepResult};
 use crate::limits::check_displacement;
 use crate::numerics::fp_class::is_finite;
 use crate::numerics::total::Total;
@@ -128,6 +128,23 @@ impl Law for OneDirection {
         }
     }
 
+    /// The copy is as long, but for at most 256 pieces.
+    #[inline(never)]
+    fn in_copy(element: &Element, state: &[f64], steps: impl FnOnce(&mut [f64])) {
+        let mut copy = [0.0; COPY_LENGTH];
+        let copy = copy.part_mut(..state.len().min(COPY_LENGTH));
+        let (Some((header, knots)), Some(source)) = (copy.split_first_chunk_mut::<HEADER>(), state.first_chunk())
+        else {
+            return;
+        };
+        let mut polygon = Polygon::new(element.friction_coefficient, knots, 0);
+        read(state).1.iter().for_each(|knot| polygon.push((*knot).into()));
+        *header = *source;
+        header[1] = stored(polygon.used.saturating_sub(1));
+        header[ERROR] += polygon.error;
+        steps(copy);
+    }
+
     fn trial(element: &Element, state: &[f64], displacement: [f64; 2], requested: Requested) -> StepOf<Self> {
         let (header, mut knots) = read(state);
         step(element, &header, &mut knots, displacement, requested.energy).0
@@ -144,28 +161,7 @@ impl Law for OneDirection {
         *header = [Kind::ElementState.tag(), pieces, displacement, input, load, shift, load_slope, shift_slope, error];
         step
     }
-
-    /// The copy is as long, but for at most 256 pieces.
-    fn path_in_copy(element: &Element, state: &[f64], path: &[[f64; 2]], output: PathOutput<Self>) {
-        let mut buffer = [0.0; COPY_LENGTH];
-        let copied = buffer.part_mut(..state.len().min(COPY_LENGTH));
-        copy(element, state, copied);
-        Self::path(element, copied, path, output);
-    }
 }
 
 /// Length of a state for a path whose new state is discarded.
 const COPY_LENGTH: usize = state_length(256);
-
-/// Copies a state whose header was checked into one that may hold fewer pieces.
-fn copy(element: &Element, from: &[f64], to: &mut [f64]) {
-    let (Some((header, target)), Some(source)) = (to.split_first_chunk_mut::<HEADER>(), from.first_chunk::<HEADER>())
-    else {
-        return;
-    };
-    let mut polygon = Polygon::new(element.friction_coefficient, target, 0);
-    read(from).1.iter().for_each(|knot| polygon.push((*knot).into()));
-    *header = *source;
-    header[1] = stored(polygon.used.saturating_sub(1));
-    header[ERROR] += polygon.error;
-}

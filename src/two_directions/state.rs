@@ -24,7 +24,7 @@ use super::tangent::{
 };
 use crate::element::{Directions, Element, Normal};
 use crate::error::Error;
-use crate::law::{Law, PathOutput, Requested, StepOf, StepResult};
+use crate::law::{Law, Requested, StepOf, StepResult};
 use crate::limits::check_displacement;
 use crate::numerics::fp_class::is_finite;
 use crate::numerics::lanes::Lanes;
@@ -125,15 +125,15 @@ impl Law for TwoDirections {
         Self::advance(element, &mut copy, displacement, requested)
     }
 
-    fn advance(element: &Element, state: &mut [f64], to: [f64; 3], requested: Requested) -> StepOf<Self> {
-        State::split(state).map_or(StepResult::NONE, |mut state| state.advance(element, to, requested))
-    }
-
     #[inline(never)]
-    fn path_in_copy(element: &Element, state: &[f64], path: &[[f64; 3]], output: PathOutput<Self>) {
+    fn in_copy(_: &Element, state: &[f64], steps: impl FnOnce(&mut [f64])) {
         let mut copy = [0.0; LENGTH];
         Self::copy_used(state, &mut copy);
-        Self::path(element, &mut copy, path, output);
+        steps(&mut copy);
+    }
+
+    fn advance(element: &Element, state: &mut [f64], to: [f64; 3], requested: Requested) -> StepOf<Self> {
+        State::split(state).map_or(StepResult::NONE, |mut state| state.advance(element, to, requested))
     }
 }
 
