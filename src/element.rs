@@ -285,28 +285,31 @@ impl Element {
         x: [f64; L],
     ) -> ([f64; L], [f64; L]) {
         let results = x.map(|x| self.one(table, quantities, x));
-        (results.map(|(value, _)| value), results.map(|(_, slope)| slope))
+        (results.map(|point| point.value), results.map(|point| point.slope))
     }
 
     #[inline(never)]
-    fn one(&self, table: Option<&Table>, [quantity, argument]: [Quantity; 2], x: f64) -> (f64, f64) {
-        table.and_then(|table| table.one_at(x)).unwrap_or_else(|| self.outside([quantity, argument], x))
+    fn one(&self, table: Option<&Table>, quantities: [Quantity; 2], x: f64) -> NormalPoint {
+        match table.and_then(|table| table.values::<true, 1>(&[x])) {
+            Some(([value], [slope])) => NormalPoint { value, slope },
+            None => self.outside(quantities, x),
+        }
     }
 
     /// A quantity as a function of an argument >= 0, from the shape. Below the smallest size all are proportional to each other.
-    fn outside(&self, [quantity, argument]: [Quantity; 2], x: f64) -> (f64, f64) {
+    fn outside(&self, [quantity, argument]: [Quantity; 2], x: f64) -> NormalPoint {
         let shape = self.shape();
         if x > 0.0 && x < self.smallest(argument) {
             let slope = self.smallest(quantity) / self.smallest(argument);
-            return (slope * x, slope);
+            return NormalPoint { value: slope * x, slope };
         }
         if x <= 0.0 && shape.half_width(0.0) <= 0.0 {
             // A point is infinitely compliant.
-            return (0.0, if argument == Quantity::Load { f64::INFINITY } else { 0.0 });
+            return NormalPoint { value: 0.0, slope: if argument == Quantity::Load { f64::INFINITY } else { 0.0 } };
         }
         let size = if x > 0.0 { shape.size_at(argument, x) } else { 0.0 };
         let [value, compliance] = shape.value_and_compliance(quantity, size);
-        (value, compliance / shape.compliance(argument, size))
+        NormalPoint { value, slope: compliance / shape.compliance(argument, size) }
     }
 
     /// N, U or S of the smallest size that is distinguished.
@@ -318,8 +321,8 @@ impl Element {
     #[inline(always)]
     pub fn normal_force_at(&self, approach: f64) -> NormalPoint {
         let table = self.by_approach().then_some(&self.of_input);
-        let (value, slope) = self.one(table, [Quantity::Load, Quantity::Approach], approach);
-        NormalPoint { value, slope: if approach > 0.0 { slope } else { 0.0 } }
+        let point = self.one(table, [Quantity::Load, Quantity::Approach], approach);
+        NormalPoint { slope: if approach > 0.0 { point.slope } else { 0.0 }, ..point }
     }
 
     /// The approach under a normal force \[N\] that [`Element::check_normal_force`] accepts. Its derivative at 0 is infinite for a
@@ -327,8 +330,7 @@ impl Element {
     #[inline(always)]
     pub fn approach_under(&self, normal_force: f64) -> NormalPoint {
         let table = (!self.by_approach()).then_some(&self.of_input);
-        let (value, slope) = self.one(table, [Quantity::Approach, Quantity::Load], normal_force);
-        NormalPoint { value, slope }
+        self.one(table, [Quantity::Approach, Quantity::Load], normal_force)
     }
 
     /// Errors: `BadDirections` unless the element has this tangential direction, 0 or 1.
@@ -371,11 +373,12 @@ impl Element {
 
     /// S in a direction and its derivative by the normal force, from the shape.
     fn tangential_shift(&self, direction: usize, load: f64) -> NormalPoint {
-        let (shift, shift_slope) = self.outside([Quantity::Shift, Quantity::Load], load);
+        let point = self.outside([Quantity::Shift, Quantity::Load], load);
         if direction == 0 {
-            return NormalPoint { value: shift, slope: shift_slope };
+            return point;
         }
-        let [value, slope] = self.lateral(&Normal { load, shift, load_slope: 1.0, shift_slope });
+        let [value, slope] =
+            self.lateral(&Normal { load, shift: point.value, load_slope: 1.0, shift_slope: point.slope });
         NormalPoint { value, slope }
     }
 
@@ -388,7 +391,7 @@ impl Element {
 
     /// The tangential shift S \[m\] under a normal force \[N\]; 0 if that is 0.
     pub fn shift_under(&self, load: f64) -> f64 {
-        self.outside([Quantity::Shift, Quantity::Load], load).0
+        self.outside([Quantity::Shift, Quantity::Load], load).value
     }
 
     /// The normal force \[N\] at a tangential shift \[m\].

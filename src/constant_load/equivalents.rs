@@ -7,8 +7,9 @@ use crate::constant_load::complex_stiffness::check_amplitude;
 use crate::constant_load::contact::Contact;
 use crate::error::Error;
 use crate::numerics::roots::logarithmic_newton;
-use crate::shape::Complement;
+use crate::shape::size::Size;
 use crate::shape::stick_zone::StickZones;
+use crate::shape::{Complement, ROUNDED_FLAT};
 use core::f64::consts::PI;
 
 /// A spring in series with a Coulomb slider.
@@ -44,27 +45,18 @@ pub fn jenkins(contact: &Contact, amplitude: f64) -> Result<SpringSlider, Error>
     let sine_and_cosine = |t: f64| (2.0 * t / (1.0 + t * t), (1.0 - t * t) / (1.0 + t * t));
     let t = logarithmic_newton(1.0 / ratio, start, |t| {
         let (sine, cosine) = sine_and_cosine(t);
-        let quotient = minus_sine(4.0 * t.atan2(1.0)) / (2.0 * sine * sine);
+        // The load of a flat with rounded edges is this difference, free of cancellation for angles up to π/2.
+        let difference = if t > 1.0 {
+            2.0 * t.atan2(1.0) - sine * cosine
+        } else {
+            0.5 * Size::new(ROUNDED_FLAT, cosine, sine).load()
+        };
+        let quotient = difference / (sine * sine);
         [quotient, 2.0 * (sine / quotient - cosine)]
     });
     let (sine, half) = (sine_and_cosine(t).0, t / (1.0 + t * t).sqrt());
     let stiffness = PI * imaginary / sine / sine;
     Ok(SpringSlider { stiffness, slip_force: (stiffness * half) * (amplitude * half) })
-}
-
-/// `s - sin s` for s up to 2π, free of cancellation.
-fn minus_sine(s: f64) -> f64 {
-    if s > 1.2 {
-        return s - s.sin();
-    }
-    // Ten terms of the Taylor series; the ratio of successive terms is -s²/((n+1)(n+2)).
-    let mut sum = 1.0;
-    let mut n = 23.0;
-    while n > 5.0 {
-        n -= 2.0;
-        sum = 1.0 - s * s / ((n - 1.0) * n) * sum;
-    }
-    s * s * s / 6.0 * sum
 }
 
 /// With this number of sliders the error is 4e-12 of mu N for a cylinder, and the computation takes seconds.

@@ -185,12 +185,7 @@ fn last_pieces(
             let tangent = remaining / (compliance + point.compliance_increase);
             SeriesPoint { value, slope: 8.0 / (3.0 + z) * (tangent - value) }
         };
-        // The share in an integral is at most a 16th of that of the piece before.
-        *polynomial = match piece {
-            0 | 1 => powers(Interpolant::<20>::osculating(&Interpolant::<10>::at_points(tangent)).terms()),
-            2 | 3 => powers(Interpolant::<16>::osculating(&Interpolant::<8>::at_points(tangent)).terms()),
-            _ => powers(Interpolant::<12>::osculating(&Interpolant::<6>::at_points(tangent)).terms()),
-        };
+        *polynomial = powers(Interpolant::<16>::osculating(&Interpolant::<8>::at_points(tangent)).terms());
     }
     last
 }

@@ -119,12 +119,6 @@ impl Table {
         Some((values, slopes))
     }
 
-    /// y and dy/dx at an argument; `None` outside the table.
-    #[inline(always)]
-    pub fn one_at(&self, x: f64) -> Option<(f64, f64)> {
-        self.values::<true, 1>(&[x]).map(|([value], [slope])| (value, slope))
-    }
-
     /// The smallest argument inside.
     #[inline(always)]
     pub fn smallest(&self) -> f64 {

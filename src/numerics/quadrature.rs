@@ -1,6 +1,6 @@
 //! Gauss-Legendre rules on (0, 1). All weights are positive: a positive integrand is summed without cancellation.
 
-use super::const_math::cosine;
+use super::const_math::{cosine, tabulate};
 
 /// Blocks of four nodes in the largest [`gauss_rule`].
 pub(crate) const MAX_GAUSS_BLOCKS: usize = 8;
@@ -25,13 +25,16 @@ const fn gauss_pair(n: usize, i: usize) -> [f64; 3] {
     [0.5 * (1.0 + x), 0.5 * (1.0 - x), weight]
 }
 
-/// The Gauss-Legendre rule on (0, 1) of B blocks of four nodes; each block is [nodes, weights].
-pub(crate) const fn gauss_legendre<const B: usize>() -> [[[f64; 4]; 2]; B] {
-    let mut rule = [[[0.0; 4]; 2]; B];
+/// Four nodes and their weights.
+pub(crate) type Block = [[f64; 4]; 2];
+
+/// The Gauss-Legendre rule on (0, 1) of the given number of blocks.
+pub(crate) const fn gauss_legendre(blocks: usize) -> [Block; MAX_GAUSS_BLOCKS] {
+    let mut rule = [[[0.0; 4]; 2]; _];
     let mut i = 0;
-    while i < 2 * B {
-        let (one, other, last) = (i / 4, B - 1 - i / 4, 3 - i % 4);
-        [rule[one][0][i % 4], rule[other][0][last], rule[one][1][i % 4]] = gauss_pair(4 * B, i);
+    while i < 2 * blocks {
+        let (one, other, last) = (i / 4, blocks - 1 - i / 4, 3 - i % 4);
+        [rule[one][0][i % 4], rule[other][0][last], rule[one][1][i % 4]] = gauss_pair(4 * blocks, i);
         rule[other][1][last] = rule[one][1][i % 4];
         i += 1;
     }
@@ -39,7 +42,7 @@ pub(crate) const fn gauss_legendre<const B: usize>() -> [[[f64; 4]; 2]; B] {
 }
 
 /// The rule on (0, 1) for even functions: the positive half of the Gauss-Legendre rule on (-1, 1), of twice as many nodes.
-pub(crate) const fn gauss_even<const B: usize>() -> [[[f64; 4]; 2]; B] {
+pub(crate) const fn gauss_even<const B: usize>() -> [Block; B] {
     let mut rule = [[[0.0; 4]; 2]; B];
     let mut i = 0;
     while i < 4 * B {
@@ -50,19 +53,11 @@ pub(crate) const fn gauss_even<const B: usize>() -> [[[f64; 4]; 2]; B] {
     rule
 }
 
-/// [`gauss_legendre`] with up to [`MAX_GAUSS_BLOCKS`] blocks.
-pub(crate) fn gauss_rule(blocks: usize) -> &'static [[[f64; 4]; 2]] {
-    match blocks {
-        0 => &[],
-        1 => const { &gauss_legendre::<1>() },
-        2 => const { &gauss_legendre::<2>() },
-        3 => const { &gauss_legendre::<3>() },
-        4 => const { &gauss_legendre::<4>() },
-        5 => const { &gauss_legendre::<5>() },
-        6 => const { &gauss_legendre::<6>() },
-        7 => const { &gauss_legendre::<7>() },
-        _ => const { &gauss_legendre::<MAX_GAUSS_BLOCKS>() },
-    }
+/// The Gauss-Legendre rule on (0, 1) of up to [`MAX_GAUSS_BLOCKS`] blocks.
+pub(crate) fn gauss_rule(blocks: usize) -> &'static [Block] {
+    static RULES: [[Block; MAX_GAUSS_BLOCKS]; MAX_GAUSS_BLOCKS + 1] =
+        tabulate!(MAX_GAUSS_BLOCKS + 1, |blocks| gauss_legendre(blocks));
+    RULES.get(blocks).and_then(|rule| rule.get(..blocks)).unwrap_or(&[])
 }
 
 /// Nodes and weights of a [`gauss_rule`], one after the other.

@@ -12,7 +12,7 @@
 
 use crate::element::{Curvature, Element};
 use crate::numerics::lanes::Lanes;
-use crate::numerics::quadrature::{MAX_GAUSS_BLOCKS, gauss_legendre, gauss_rule};
+use crate::numerics::quadrature::{Block, MAX_GAUSS_BLOCKS, gauss_legendre, gauss_rule};
 use crate::one_direction::diagram::Knot;
 
 /// The path of a step, straight in (S, u).
@@ -136,7 +136,7 @@ fn mean_load(element: &Element, [from, to]: [f64; 2]) -> f64 {
         (Lanes(weights) * Lanes(loads)).total()
     };
     if 16.0 * width.abs() < room(element, low, high) {
-        return PATH_RULE.map(part)[0];
+        return part(PATH_RULE);
     }
     if 16.0 * width.abs() < low {
         // Where the compliance of a short contact is about to vanish.
@@ -176,7 +176,7 @@ impl SlipPiece {
             }
         }
         let inner = if 16.0 * swept < room(element, c1, c0) {
-            let [[nodes, weights]] = PATH_RULE;
+            let [nodes, weights] = PATH_RULE;
             let (loads, slopes) = element.loads_at::<true, 4>(&nodes.map(|node| c0 - node * swept));
             (Lanes(weights) * (Lanes(loads) + Lanes(slopes) * self.width(Lanes(nodes)))).total()
         } else {
@@ -224,14 +224,11 @@ fn rules_near_the_largest_size() -> [[Block; MAX_GAUSS_BLOCKS]; 2] {
     [path_rule, LONGEST_RULE.map(squared)]
 }
 
-/// Four nodes and their weights.
-type Block = [[f64; 4]; 2];
-
 /// Gauss's rule with the most nodes.
-static LONGEST_RULE: [Block; MAX_GAUSS_BLOCKS] = gauss_legendre();
+static LONGEST_RULE: [Block; MAX_GAUSS_BLOCKS] = gauss_legendre(MAX_GAUSS_BLOCKS);
 
 /// Gauss's rule with four nodes.
-const PATH_RULE: [Block; 1] = gauss_legendre();
+const PATH_RULE: Block = gauss_legendre(1)[0];
 
 /// The rule for `∫ f(t) dt` from one for z, by t and dt/dz.
 fn substituted([nodes, weights]: Block, of: impl Fn(f64) -> [f64; 2]) -> Block {
