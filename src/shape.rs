@@ -36,7 +36,6 @@ pub(crate) use crate::numerics::guard::TINY;
 use crate::numerics::guard::quotient;
 use crate::numerics::roots::logarithmic_newton;
 use crate::parameters::Common;
-use kernel::Kernel;
 pub(crate) use layer::LayerCompliance;
 pub(crate) use rounded_flat::size_under_load;
 use series::Series;
@@ -62,9 +61,6 @@ macro_rules! of_shapes {
 }
 
 of_shapes! {
-    kernel() -> Kernel;
-    /// Whether load and shift are powers of leg.
-    is_power_law() -> bool;
     /// ψ, from a and leg; finite at leg = 0.
     angle() -> f64;
     /// d ln ψ/d ln leg and its derivative with respect to ln leg.

@@ -22,7 +22,6 @@ use crate::error::Error;
 use crate::limits::in_range;
 use crate::numerics::guard::quotient;
 use crate::parameters::{Common, EllipticParameters, Pair, positive};
-use crate::shape::kernel::Kernel;
 use crate::shape::series::{Series, identity};
 use crate::shape::size::Size;
 use crate::shape::tractions::{SurfacePoint, difference_of_heights};
@@ -81,14 +80,6 @@ impl Geometry for EllipticParameters {
         let compliance = 1.5 * normal.max(tangential);
         Ok(shape.unit * by_load.min((LARGEST / (compliance * shape.load_scale)).sqrt()))
     }
-}
-
-pub fn kernel(_: &Size) -> Kernel {
-    Kernel::Point
-}
-
-pub fn is_power_law(_: &Size) -> bool {
-    true
 }
 
 pub fn angle(size: &Size) -> f64 {

@@ -24,21 +24,12 @@ use crate::numerics::guard::{TINY, quotient};
 use crate::numerics::polynomial::{self, PolynomialRows, rows};
 use crate::numerics::total::Total;
 use crate::parameters::{CENTRE_POINT, Common, Pair, Parameters, RIGID_STRIP, not_negative, positive};
-use crate::shape::kernel::Kernel;
 use crate::shape::series::{ORDER, Reversed, Series, identity};
 use crate::shape::size::Size;
 pub(super) use crate::shape::tractions::{pressure, slip};
 use crate::shape::{Geometry, Quantity, ROUNDED_FLAT, Shape};
 use core::array::from_fn;
 use core::f64::consts::{LN_2, PI};
-
-pub fn kernel(_: &Size) -> Kernel {
-    Kernel::Line
-}
-
-pub fn is_power_law(_: &Size) -> bool {
-    false
-}
 
 /// Terms of the series; the first omitted term is below 3⁻³⁶ of the sum.
 const TERMS: usize = 36;

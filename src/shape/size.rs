@@ -11,6 +11,8 @@
 //! unit, or in one that belongs to the shape.
 
 use crate::numerics::guard::{TINY, quotient};
+use crate::shape::HERTZ_ELLIPSE;
+use crate::shape::kernel::Kernel;
 
 /// A size: plain data.
 #[repr(C)]
@@ -29,6 +31,15 @@ impl Size {
     pub fn new(kind: u64, flat: f64, leg: f64) -> Size {
         let size = Size { flat, leg, half_width: (flat * flat + leg * leg).sqrt(), psi: 0.0, kind };
         Size { psi: size.angle(), ..size }
+    }
+
+    /// Whether load and shift are powers of leg.
+    pub fn is_power_law(&self) -> bool {
+        self.kind == HERTZ_ELLIPSE
+    }
+
+    pub fn kernel(&self) -> Kernel {
+        if self.is_power_law() { Kernel::Point } else { Kernel::Line }
     }
 
     /// Another size of the same shape.

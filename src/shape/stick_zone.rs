@@ -55,8 +55,8 @@ pub(crate) struct StickZone {
     pub shift: Complement,
     /// λ of contact and layer; infinite for the point to which the stick zone of an ellipse or a cylinder shrinks.
     pub compliance_increase: f64,
-    /// The ratio of its leg to that of b if the zone was found by it; otherwise it follows from the load.
-    pub size_parameter: Option<f64>,
+    /// Its leg if the zone was found by it; otherwise it follows from the load.
+    pub leg: Option<f64>,
 }
 
 /// A point of the monotonic curve.
@@ -176,7 +176,7 @@ impl StickZones {
                 remaining: remaining * (full_stick + increase + beta),
             },
             compliance_increase: increase,
-            size_parameter: Some(punch.leg / self.b.leg),
+            leg: Some(punch.leg),
         };
         if self.has_layer() {
             zone.shift.remaining += self.layer.shift(remaining);
@@ -341,8 +341,7 @@ impl StickZones {
 
     /// leg² of a stick zone, and `leg_b² - leg²` free of cancellation.
     fn squares(&self, zone: &StickZone) -> [f64; 2] {
-        if let Some(sigma) = zone.size_parameter {
-            let leg = self.b.leg * sigma;
+        if let Some(leg) = zone.leg {
             return [leg * leg, (self.b.leg - leg) * (self.b.leg + leg)];
         }
         let increase =
@@ -353,11 +352,8 @@ impl StickZones {
 
     /// c/b.
     pub fn size(&self, zone: &StickZone) -> f64 {
-        match (zone.size_parameter, self.squares(zone)) {
-            (Some(_), [square, _]) => (self.b.flat * self.b.flat + square).sqrt().max(self.b.flat),
-            // The size b at no load.
-            (None, [_, squares]) => (1.0 - squares).sqrt(),
-        }
+        let [square, _] = self.squares(zone);
+        (self.b.flat * self.b.flat + square).sqrt().max(self.b.flat)
     }
 
     /// Pressure, less that of the size with `[leg², leg_b² - leg²]`.

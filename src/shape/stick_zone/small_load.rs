@@ -95,7 +95,7 @@ impl SmallLoadSeries {
             load,
             shift: Complement { consumed, remaining: slip_shift - consumed },
             compliance_increase,
-            size_parameter: None,
+            leg: None,
         }
     }
 
@@ -121,11 +121,6 @@ impl SmallLoadSeries {
                 break;
             }
         }
-        StickZone {
-            load: Complement { consumed: tau, remaining: 1.0 - tau },
-            shift,
-            compliance_increase,
-            size_parameter: None,
-        }
+        StickZone { load: Complement { consumed: tau, remaining: 1.0 - tau }, shift, compliance_increase, leg: None }
     }
 }
