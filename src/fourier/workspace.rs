@@ -166,14 +166,31 @@ impl<'a> Parts<'a> {
     }
 
     pub fn take_records<T: Record>(&mut self, count: usize) -> &'a mut [T] {
-        const { assert!(align_of::<T>() <= align_of::<f64>() && size_of::<T>().is_multiple_of(size_of::<f64>())) };
-        let doubles = self.take(count * (size_of::<T>() / size_of::<f64>()));
-        let records = size_of_val(doubles) / size_of::<T>();
-        // SAFETY: a record accepts all bits of these doubles, which no other reference reaches, and leaves none uninitialised.
-        #[allow(unsafe_code)]
-        unsafe {
-            core::slice::from_raw_parts_mut(doubles.as_mut_ptr().cast(), records)
-        }
+        records_mut(self.take(count * (size_of::<T>() / size_of::<f64>())))
+    }
+}
+
+/// Number of whole records in some doubles.
+const fn count_of<T: Record>(doubles: &[f64]) -> usize {
+    const { assert!(align_of::<T>() <= align_of::<f64>() && size_of::<T>().is_multiple_of(size_of::<f64>())) };
+    size_of_val(doubles) / size_of::<T>()
+}
+
+/// Doubles as records.
+pub(crate) fn records<T: Record>(doubles: &[f64]) -> &[T] {
+    // SAFETY: a record accepts all bits of these doubles.
+    #[allow(unsafe_code)]
+    unsafe {
+        core::slice::from_raw_parts(doubles.as_ptr().cast(), count_of::<T>(doubles))
+    }
+}
+
+/// Doubles as records that may be changed.
+pub(crate) fn records_mut<T: Record>(doubles: &mut [f64]) -> &mut [T] {
+    // SAFETY: a record accepts all bits of these doubles, which no other reference reaches, and leaves none uninitialised.
+    #[allow(unsafe_code)]
+    unsafe {
+        core::slice::from_raw_parts_mut(doubles.as_mut_ptr().cast(), count_of::<T>(doubles))
     }
 }
 

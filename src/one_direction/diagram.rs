@@ -12,28 +12,18 @@
 //! This covers a load that rises, falls or stays, slip of either direction, and its erasure by a falling load.
 
 use crate::element::{Element, Normal};
+use crate::fourier::workspace::{record, records_mut};
 use crate::numerics::total::Total;
 
-/// A knot of the diagram.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Knot {
-    pub xi: f64,
-    pub eta: f64,
-    /// Normal force of the size S of the knot.
-    pub load: f64,
-    /// Tangential force of the diagram up to the knot.
-    pub force: f64,
-}
-
-impl From<[f64; 4]> for Knot {
-    fn from([xi, eta, load, force]: [f64; 4]) -> Knot {
-        Knot { xi, eta, load, force }
-    }
-}
-
-impl From<Knot> for [f64; 4] {
-    fn from(Knot { xi, eta, load, force }: Knot) -> [f64; 4] {
-        [xi, eta, load, force]
+record! {
+    /// A knot of the diagram.
+    pub(crate) struct Knot {
+        pub xi: f64,
+        pub eta: f64,
+        /// Normal force of the size S of the knot.
+        pub load: f64,
+        /// Tangential force of the diagram up to the knot.
+        pub force: f64,
     }
 }
 
@@ -75,15 +65,15 @@ pub(crate) struct DiagramForce {
 /// A diagram that a step changes.
 pub(crate) trait Diagram {
     /// Knots from the centre outwards, at least one.
-    fn knots(&self) -> &[[f64; 4]];
+    fn knots(&self) -> &[Knot];
 
     /// Keeps the given number of knots from the centre outwards, and appends others.
     fn replace<const N: usize>(&mut self, kept: usize, new: [Knot; N]);
 }
 
 /// A diagram that is read only: its changes are discarded.
-impl Diagram for &[[f64; 4]] {
-    fn knots(&self) -> &[[f64; 4]] {
+impl Diagram for &[Knot] {
+    fn knots(&self) -> &[Knot] {
         self
     }
 
@@ -112,11 +102,11 @@ pub(crate) fn step(element: &Element, diagram: &mut impl Diagram, displacement: 
     let mu = element.friction_coefficient;
     let (xi, eta) = (displacement - mu * normal.shift, displacement + mu * normal.shift);
     let end = End { friction_coefficient: mu, xi, eta, normal: *normal };
-    let inside = |&[knot_xi, knot_eta, ..]: &[f64; 4]| knot_xi > xi && knot_eta < eta;
+    let inside = |knot: &Knot| knot.xi > xi && knot.eta < eta;
     let knots = diagram.knots();
     let kept = knots.iter().rposition(inside).map_or(0, |last| last + 1);
     let (stays, beyond) = knots.split_at_checked(kept).unwrap_or((knots, &[]));
-    match (stays.last().copied().map(Knot::from), beyond.first().copied().map(Knot::from)) {
+    match (stays.last().copied(), beyond.first().copied()) {
         (None, _) => slip_grossly(diagram, displacement, &end),
         (Some(inner), None) => stick(element, diagram, kept, &inner, &end),
         (Some(inner), Some(outer)) => cut(element, diagram, kept, [&inner, &outer], &end),
@@ -127,9 +117,9 @@ pub(crate) fn step(element: &Element, diagram: &mut impl Diagram, displacement: 
 fn slip_grossly(diagram: &mut impl Diagram, displacement: f64, end: &End) -> DiagramForce {
     let &End { friction_coefficient: mu, xi, eta, normal: Normal { load, load_slope, .. } } = end;
     let knots = diagram.knots();
-    let centre = knots.first().map_or(displacement, |[centre, ..]| *centre);
+    let centre = knots.first().map_or(displacement, |knot| knot.xi);
     // A size below the rounding of displacements keeps the direction of its slip.
-    let before = knots.last().map_or(0.0, |&[.., force]| force);
+    let before = knots.last().map_or(0.0, |knot| knot.force);
     let (sign, origin) = match (centre <= xi, centre >= eta) {
         (true, true) => (if before == 0.0 { 0.0 } else { mu.copysign(before) }, xi),
         (true, false) => (mu, xi),
@@ -230,7 +220,7 @@ fn shares(distances: [f64; 2], lengths: [f64; 2]) -> [f64; 2] {
 /// The diagram in a state, or in other memory of the caller.
 pub(crate) struct Polygon<'a> {
     friction_coefficient: f64,
-    knots: &'a mut [[f64; 4]],
+    knots: &'a mut [Knot],
     pub used: usize,
     /// Whether no piece of the old diagram is left.
     pub anew: bool,
@@ -241,7 +231,7 @@ pub(crate) struct Polygon<'a> {
 }
 
 impl Diagram for Polygon<'_> {
-    fn knots(&self) -> &[[f64; 4]] {
+    fn knots(&self) -> &[Knot] {
         self.knots.part(..self.used)
     }
 
@@ -250,7 +240,7 @@ impl Diagram for Polygon<'_> {
         self.used = kept;
         match self.knots.get_mut(kept..).and_then(<[_]>::first_chunk_mut) {
             Some(places) => {
-                *places = new.map(Into::into);
+                *places = new;
                 self.used += N;
             }
             None => new.into_iter().for_each(|knot| self.push(knot)),
@@ -260,8 +250,7 @@ impl Diagram for Polygon<'_> {
 
 impl Polygon<'_> {
     pub fn new(friction_coefficient: f64, knots: &mut [f64], used: usize) -> Polygon<'_> {
-        let knots = knots.blocks_mut();
-        Polygon { friction_coefficient, knots, used, anew: false, change: 0.0, error: 0.0 }
+        Polygon { friction_coefficient, knots: records_mut(knots), used, anew: false, change: 0.0, error: 0.0 }
     }
 
     /// Appends a knot; if there is no room, two pieces are merged.
@@ -275,7 +264,7 @@ impl Polygon<'_> {
             self.error += change.abs();
             knot.force += change;
         }
-        self.used += usize::from(self.knots.set(self.used, knot.into()));
+        self.used += usize::from(self.knots.set(self.used, knot));
     }
 
     /// Removes the knot, the centre excepted, whose removal changes later forces least, and returns the change of the force beyond it.
@@ -286,9 +275,7 @@ impl Polygon<'_> {
     /// d(1/K_t), two such sliders under one motion never move apart, and between A and C these displacements have changed in one
     /// direction.
     fn merge(&mut self, next: Knot) -> f64 {
-        let knot = |index: usize| {
-            if index < self.used { self.knots.get(index).copied().map_or(next, Knot::from) } else { next }
-        };
+        let knot = |index: usize| self.knots().get(index).copied().unwrap_or(next);
         let change_without = |index: usize| {
             let (inner, outer) = (knot(index - 1), knot(index + 1));
             let slope = outer.slope_from(&inner, self.friction_coefficient);
@@ -306,8 +293,8 @@ impl Polygon<'_> {
         }
         let outer = self.knots.part_mut(removed..self.used);
         for index in 1..outer.len() {
-            let [xi, eta, load, force] = outer.or_zero(index);
-            outer.set(index - 1, [xi, eta, load, force + least]);
+            let knot = outer.or_zero(index);
+            outer.set(index - 1, Knot { force: knot.force + least, ..knot });
         }
         self.used -= 1;
         least

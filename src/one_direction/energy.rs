@@ -55,7 +55,7 @@ struct SlipPiece {
 
 /// Energy \[J\] dissipated from a closed contact with the diagram `knots`, which must not be empty.
 #[inline(never)]
-pub(crate) fn dissipated(element: &Element, knots: &[[f64; 4]], path: &StepPath) -> f64 {
+pub(crate) fn dissipated(element: &Element, knots: &[Knot], path: &StepPath) -> f64 {
     let mu = element.friction_coefficient;
     let ([start, end], contact_rate) = (path.shift, path.contact_rate());
     if contact_rate == 0.0 && path.displacement == 0.0 {
@@ -69,7 +69,6 @@ pub(crate) fn dissipated(element: &Element, knots: &[[f64; 4]], path: &StepPath)
         let Some(&[below, above]) = last.checked_sub(1).and_then(|first| knots.get(first..)?.first_chunk()) else {
             return energy + gross_slip(element, path, direction, fraction, outer);
         };
-        let (below, above) = (Knot::from(below), Knot::from(above));
         let (slope, lowest) = (above.slope_from(&below, mu), below.shift(mu));
         direction = direction.or_else(|| path.direction_of_slip(mu, slope));
         let Some(sign) = direction else {

@@ -7,12 +7,13 @@
 
 use crate::element::{Directions, Element, Normal};
 use crate::error::Error;
+use crate::fourier::workspace::records;
 use crate::law::{Law, Requested, StepOf, StepResult};
 use crate::limits::check_displacement;
 use crate::numerics::fp_class::is_finite;
 use crate::numerics::total::Total;
 use crate::one_direction::OneDirection;
-use crate::one_direction::diagram::Polygon;
+use crate::one_direction::diagram::{Knot, Polygon};
 use crate::one_direction::harmonic_force::{HarmonicOutput, OneDirectionWorkspace, harmonic_force};
 use crate::one_direction::step::{Header, step};
 use crate::tag::{Kind, count, is_count, stored};
@@ -43,9 +44,9 @@ fn used_knots(&[_, pieces, ..]: &[f64; HEADER]) -> usize {
 }
 
 /// Header and knots in use of a state whose header was checked.
-pub(crate) fn read(state: &[f64]) -> (Header, &[[f64; PER_KNOT]]) {
+pub(crate) fn read(state: &[f64]) -> (Header, &[Knot]) {
     let (header, knots) = state.split_first_chunk().unwrap_or((&[0.0; HEADER], &[]));
-    let knots = knots.blocks();
+    let knots = records(knots);
     (Header::read(header), knots.get(..used_knots(header)).unwrap_or(knots))
 }
 
@@ -95,25 +96,25 @@ impl Law for OneDirection {
         if !finite || !whole || error < 0.0 || [load, shift, load_slope, shift_slope].iter().any(|value| *value < 0.0) {
             return Err(Error::BadState);
         }
-        let (Some([xi, eta, first, _]), Some([last_xi, last_eta, last, _])) = (knots.first(), knots.last()) else {
+        let (Some(first), Some(last)) = (knots.first(), knots.last()) else {
             return Err(Error::BadState);
         };
         // A knot is located by ξ and η, each within two roundings of the larger one: S is within four of them over twice the size. N is of
         // an exponent of at most 9 in S, with a layer of ln(1+x) (1+1/x) at x = N/N_c, at most 2^40 times 1000: 35. So N is within 70
         // roundings at both ends of a piece. The tables of N(S) and S(N) are within 1e-13 in every rounding mode; with a layer of the
         // smallest N_c within 2.5e-10.
-        let size = 0.5 * (last_eta - last_xi);
-        let rounding = (140.0 * f64::EPSILON * last_xi.abs().max(last_eta.abs()) + 5e-10 * size) * load;
+        let size = 0.5 * (last.eta - last.xi);
+        let rounding = (140.0 * f64::EPSILON * last.xi.abs().max(last.eta.abs()) + 5e-10 * size) * load;
         let allowed = rounding.min(f64::MAX);
-        let monotone = |pair: &[[f64; PER_KNOT]]| match pair {
-            [[xi, eta, inner, _], [next_xi, next_eta, outer, _]] => {
-                next_xi <= xi && next_eta >= eta && (inner - outer).max(0.0) * size <= allowed
+        let monotone = |pair: &[Knot]| match pair {
+            [inner, outer] => {
+                outer.xi <= inner.xi && outer.eta >= inner.eta && (inner.load - outer.load).max(0.0) * size <= allowed
             }
             _ => true,
         };
-        let centred = xi == eta && *first == 0.0 && *last <= load;
+        let centred = first.xi == first.eta && first.load == 0.0 && last.load <= load;
         // A frictionless or an open contact is its centre.
-        let complete = knots.len() == 1 || (*last == load && *last_xi <= displacement && *last_eta >= displacement);
+        let complete = knots.len() == 1 || (last.load == load && last.xi <= displacement && last.eta >= displacement);
         if centred && complete && knots.windows(2).all(monotone) { Ok(()) } else { Err(Error::BadState) }
     }
 
@@ -138,7 +139,7 @@ impl Law for OneDirection {
             return;
         };
         let mut polygon = Polygon::new(element.friction_coefficient, knots, 0);
-        read(state).1.iter().for_each(|knot| polygon.push((*knot).into()));
+        read(state).1.iter().for_each(|knot| polygon.push(*knot));
         *header = *source;
         header[1] = stored(polygon.used.saturating_sub(1));
         header[ERROR] += polygon.error;

@@ -96,7 +96,7 @@ fn opening_or_closing(
     let start = [from.displacement, from.input.min(0.0)];
     let crossing = Crossing::between(element, start, [displacement, input]);
     let centre = Knot::centre(crossing.displacement);
-    let mut touching = Touching { knots: [centre.into()], sticks: false, diagram };
+    let mut touching = Touching { knots: [centre], sticks: false, diagram };
     if with_energy {
         let path = StepPath { shift: [0.0, normal.shift], displacement: displacement - crossing.displacement };
         step.dissipated = energy::dissipated(element, &touching.knots, &path);
@@ -115,21 +115,21 @@ fn opening_or_closing(
 
 /// The diagram at first touch: its centre, not yet in the diagram that it replaces.
 struct Touching<'a, D> {
-    knots: [[f64; 4]; 1],
+    knots: [Knot; 1],
     /// Whether the contact sticks to the displacement at which it closed.
     sticks: bool,
     diagram: &'a mut D,
 }
 
 impl<D: Diagram> Diagram for Touching<'_, D> {
-    fn knots(&self) -> &[[f64; 4]] {
+    fn knots(&self) -> &[Knot] {
         &self.knots
     }
 
     fn replace<const N: usize>(&mut self, kept: usize, new: [Knot; N]) {
         self.sticks = kept > 0;
         match new[..] {
-            [end] if self.sticks => self.diagram.replace(0, [self.knots[0].into(), end]),
+            [end] if self.sticks => self.diagram.replace(0, [self.knots[0], end]),
             _ => self.diagram.replace(0, new),
         }
     }

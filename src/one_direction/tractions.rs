@@ -29,8 +29,7 @@ pub fn tractions(
     if let Some(shear) = shear {
         shear.fill(0.0);
         let (mut inner, mut from) = (Knot::centre(header.displacement), 0.0);
-        for knot in knots {
-            let knot = Knot::from(*knot);
+        for &knot in knots {
             let to = shape.at_load(knot.load.max(0.0));
             let slope = knot.slope_from(&inner, element.friction_coefficient);
             shear.iter_mut().zip(x).for_each(|(shear, x)| *shear += slope * shape.pressure_between(from, to, *x));
