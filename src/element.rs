@@ -90,8 +90,6 @@ pub struct Element {
 }
 
 const TAG: u64 = (0x6d73_6c69_7065 << 16) | (LAYOUT << 8);
-const FORCE_INPUT: u64 = 2;
-const TWO_DIRECTIONS: u64 = 4;
 
 /// 2^40: loads of an element with a layer are at most this many times the normal force of the parameters.
 const MOST_LOAD_WITH_LAYER: f64 = f64::from_bits((1023 + 40) << 52);
@@ -174,8 +172,8 @@ impl Element {
         let Common { normal_force, friction_coefficient, .. } = *parameters;
         let layer = &shape.layer;
         let [size, largest] = sizes(shape, normal_force)?;
-        let compliances = [Quantity::Approach, Quantity::Shift].map(|quantity| shape.compliance(quantity, size));
-        let [approach, shift] = [Quantity::Approach, Quantity::Shift].map(|quantity| shape.value(quantity, size));
+        let [[approach, normal_compliance], [shift, tangential_compliance]] =
+            [Quantity::Approach, Quantity::Shift].map(|quantity| shape.value_and_compliance(quantity, size));
         for value in [approach, shift, normal_force] {
             // The element accepts its own load and approach.
             if !in_0_to(MAX_DISPLACEMENT, value) {
@@ -202,10 +200,9 @@ impl Element {
         self.normal_force = normal_force;
         self.half_width = shape.half_width(size);
         self.approach = approach;
-        [self.normal_stiffness, self.tangential_stiffness] = compliances.map(f64::recip);
+        (self.normal_stiffness, self.tangential_stiffness) = (1.0 / normal_compliance, 1.0 / tangential_compliance);
         (self.directions, self.normal_input) = (directions as i32, input as i32);
-        self.tag = TAG | tag_of(directions) | if input == NormalInput::Force { FORCE_INPUT } else { 0 };
-        self.checksum = 0;
+        (self.tag, self.checksum) = (TAG, 0);
         (self.composite_modulus, self.shape) = (shape.composite_modulus, *shape);
         let [ratio, own] = shape.per_other(2, 1);
         let per_load = if layer.is_linear() { own + (1.0 - ratio) * layer.compliance(0.0) } else { own };
@@ -255,24 +252,24 @@ impl Element {
 
     /// Whether the tag is that of an element initialised by this version.
     pub(crate) fn is_initialised(&self) -> bool {
-        self.tag & !(FORCE_INPUT | TWO_DIRECTIONS) == TAG
+        self.tag == TAG
     }
 
     /// Checks the tag of an element that is used with the given number of directions.
     /// Errors: `BadElement` unless it was initialised by this version; `BadDirections` for the other number of directions.
     #[inline(always)]
     pub(crate) fn check_directions(&self, directions: Directions) -> Result<(), Error> {
-        match self.tag & !FORCE_INPUT {
-            tag if tag == TAG | tag_of(directions) => Ok(()),
-            _ if self.is_initialised() => Err(Error::BadDirections),
-            _ => Err(Error::BadElement),
+        match (self.is_initialised(), self.directions == directions as i32) {
+            (true, true) => Ok(()),
+            (true, false) => Err(Error::BadDirections),
+            (false, _) => Err(Error::BadElement),
         }
     }
 
-    /// The number of tangential directions according to the tag.
+    /// The number of tangential directions.
     #[inline(always)]
     pub(crate) fn tangential_directions(&self) -> Directions {
-        if self.tag & TWO_DIRECTIONS == 0 { Directions::One } else { Directions::Two }
+        if self.directions == Directions::Two as i32 { Directions::Two } else { Directions::One }
     }
 
     /// Values and slopes of a quantity as a function of an argument, of which some are outside its table.
@@ -408,7 +405,7 @@ impl Element {
 
     /// Whether the normal component of a displacement is the approach.
     pub(crate) fn by_approach(&self) -> bool {
-        self.tag & FORCE_INPUT == 0
+        self.normal_input == NormalInput::Approach as i32
     }
 
     /// The family of sizes.
@@ -545,11 +542,6 @@ impl Element {
         }
         self.shape().potential(self.shape().size_at(Quantity::Shift, shift))
     }
-}
-
-/// Bits of the tag.
-const fn tag_of(directions: Directions) -> u64 {
-    (directions as u64 - 1) * TWO_DIRECTIONS
 }
 
 /// The size under a normal force and the largest one for which the laws hold.

@@ -185,13 +185,13 @@ impl Law for ConstantLoad {
     }
 
     fn trial(contact: &Contact, state: &[f64], displacement: f64, requested: Requested) -> StepOf<ConstantLoad> {
-        let energy = energy_if(requested, contact, state, displacement);
+        let energy = if requested.energy { dissipated(contact, state, displacement) } else { 0.0 };
         let (_, Response { force, stiffness }) = step(contact, state, displacement);
         StepResult { force, tangent: stiffness, dissipated: energy }
     }
 
     fn advance(contact: &Contact, state: &mut [f64], displacement: f64, requested: Requested) -> StepOf<ConstantLoad> {
-        let energy = energy_if(requested, contact, state, displacement);
+        let energy = if requested.energy { dissipated(contact, state, displacement) } else { 0.0 };
         if let Some(Response { force, stiffness }) = continued(contact, state, displacement) {
             state::set_point(state, Point { displacement, force });
             return StepResult { force, tangent: stiffness, dissipated: energy };
@@ -205,10 +205,6 @@ impl Law for ConstantLoad {
         state::write_header(state, depth, initial.after(contact, &branch, displacement), Point { displacement, force });
         StepResult { force, tangent: stiffness, dissipated: energy }
     }
-}
-
-fn energy_if(requested: Requested, contact: &Contact, state: &[f64], displacement: f64) -> f64 {
-    if requested.energy { dissipated(contact, state, displacement) } else { 0.0 }
 }
 
 /// Shear traction \[Pa\] at x \[m\] after any history: the traction of the initial loading, and twice that of half of each

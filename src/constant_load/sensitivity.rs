@@ -80,13 +80,13 @@ impl Contact {
             ];
             times(1.0 / of_contact, shares)
         };
-        let [by_normal_force, by_friction, by_compliance] = layer.slopes(load, of_contact);
         if zones.has_layer() {
             shares = times(1.0 / (1.0 + layer.compliance(load.remaining) / of_contact), shares);
+            let [by_normal_force, by_friction] = layer.slopes_by_load_and_friction(load, of_contact);
             shares[0] += by_normal_force;
             shares[1] += by_friction;
         }
-        shares[PARAMETERS - 1] = by_compliance;
+        shares[PARAMETERS - 1] = layer.slope_by_compliance(load, of_contact);
         shares
     }
 }

@@ -54,13 +54,8 @@ pub(crate) fn slope(falling: f64, rising: f64) -> f64 {
     }
 }
 
-/// Force and derivatives at the end of a step: ∂T/∂u and ∂T/∂(input).
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct DiagramForce {
-    pub force: f64,
-    pub by_displacement: f64,
-    pub by_input: f64,
-}
+/// T at the end of a step, ∂T/∂u and ∂T/∂(input).
+pub(crate) type DiagramForce = [f64; 3];
 
 /// A diagram that a step changes.
 pub(crate) trait Diagram {
@@ -127,7 +122,7 @@ fn slip_grossly(diagram: &mut impl Diagram, displacement: f64, end: &End) -> Dia
     };
     let force = sign * load;
     diagram.replace(0, [Knot::centre(origin), Knot { xi, eta, load, force }]);
-    DiagramForce { force, by_displacement: 0.0, by_input: sign * load_slope }
+    [force, 0.0, sign * load_slope]
 }
 
 /// Everything sticks: a piece with D = Δu/ΔS from the outermost knot `inner`.
@@ -149,7 +144,7 @@ fn stick(element: &Element, diagram: &mut impl Diagram, kept: usize, inner: &Kno
     };
     let end = end.knot(inner.force + slope * (load - inner.load));
     diagram.replace(kept, [end]);
-    DiagramForce { force: end.force, by_displacement: secant, by_input: slope * (load_slope - secant * shift_slope) }
+    [end.force, secant, slope * (load_slope - secant * shift_slope)]
 }
 
 /// The piece from `inner` to `outer` leaves the quadrant through one of its sides, where a slip zone cuts it, or through its corner.
@@ -174,7 +169,7 @@ fn cut(
         let stays = (outer.xi, outer.eta) == (xi, eta);
         let end = end.knot(if stays { outer.force } else { inner.force + slope * (load - inner.load) });
         diagram.replace(kept, [end]);
-        return DiagramForce { force: end.force, by_displacement: load_slope / shift_slope, by_input: 0.0 };
+        return [end.force, load_slope / shift_slope, 0.0];
     }
     let (cut_xi, cut_eta, sign) = if to_side < to_other {
         (xi, inner.eta + rising * to_side, mu)
@@ -198,8 +193,7 @@ fn cut(
     } else {
         diagram.replace(kept, [end]);
     }
-    let by_input = sign * (load_slope - cut_stiffness * shift_slope);
-    DiagramForce { force: end.force, by_displacement: cut_stiffness, by_input }
+    [end.force, cut_stiffness, sign * (load_slope - cut_stiffness * shift_slope)]
 }
 
 /// Beyond the end of a piece.

@@ -181,34 +181,28 @@ pub fn harmonic_force(
             forces.evaluate::<false>(element, samples, cut_shift, runs);
         } else {
             forces.evaluate::<true>(element, samples, cut_shift, runs);
-            let context = Context {
-                element,
-                samples,
-                part,
-                cut_shifts: cut_shift.as_flattened(),
-                cut_loads: forces.cut_load,
-                cut_stiffnesses: forces.cut_stiffness,
-                slopes: forces.slope,
-            };
+            let context = Context { element, samples, part, cut_shifts: cut_shift.as_flattened(), forces };
             sensitivity.gather(&context, runs);
         }
     }
     if let Some(drift) = drift {
         *drift = 0.0;
     }
-    // The sums serve the Jacobian only, and have twice as many places as the coefficients.
-    let sums = core::mem::take(&mut workspace.assembly.sums);
-    let (to, normal) = match force.and_then(|force| force.split_at_mut_checked(coefficients)) {
-        Some((to, normal)) => (Some(to), Some(normal)),
-        None => (sums.get_mut(..coefficients).filter(|_| dissipated.is_some()), None),
-    };
-    if let Some(to) = to {
-        workspace.write_tangential_force(motion, part.as_ref(), to);
+    let (to, normal) = force.and_then(|force| force.split_at_mut_checked(coefficients)).unzip();
+    if to.is_some() || dissipated.is_some() {
+        let OneDirectionWorkspace { fourier, samples, forces, .. } = workspace;
+        // The Jacobian has used the slopes.
+        let to = to.unwrap_or(forces.slope.part_mut(..coefficients));
+        if let Some(part) = &part {
+            fourier.sum_half_wave(part.start, motion.half_wave.then_some(-1.0), forces.force, to);
+            normalise(to, 1.0 / samples.count as f64);
+        } else {
+            to.fill(0.0);
+        }
         if let Some(dissipated) = dissipated {
             *dissipated = work(coefficients, tangential, to);
         }
     }
-    workspace.assembly.sums = sums;
     if let Some(normal) = normal {
         workspace.write_normal_force(element, input, motion, normal);
     }
@@ -281,16 +275,6 @@ impl OneDirectionWorkspace<'_> {
             samples.press::<false>(element);
         }
         Ok(motion)
-    }
-
-    fn write_tangential_force(&mut self, motion: MotionKind, part: Option<&EvaluatedPart>, tangential: &mut [f64]) {
-        let OneDirectionWorkspace { fourier, samples, forces, .. } = self;
-        if let Some(part) = part {
-            fourier.sum_half_wave(part.start, motion.half_wave.then_some(-1.0), forces.force, tangential);
-            normalise(tangential, 1.0 / samples.count as f64);
-        } else {
-            tangential.fill(0.0);
-        }
     }
 
     fn write_normal_force(&mut self, element: &Element, input: &[f64], motion: MotionKind, normal: &mut [f64]) {

@@ -3,7 +3,7 @@
 use crate::element::{Element, Normal};
 use crate::law::{StepOf, StepResult};
 use crate::one_direction::OneDirection;
-use crate::one_direction::diagram::{self, Diagram, DiagramForce, Knot};
+use crate::one_direction::diagram::{self, Diagram, Knot};
 use crate::one_direction::energy::{self, StepPath};
 
 /// The header of a state, from which a step starts: displacements, normal state, and the error from merged pieces.
@@ -63,7 +63,7 @@ pub(crate) fn step(
     } else {
         0.0
     };
-    let DiagramForce { force, by_displacement, by_input } = diagram::step(element, diagram, displacement, &normal);
+    let [force, by_displacement, by_input] = diagram::step(element, diagram, displacement, &normal);
     let tangent = [by_displacement, 0.0, by_input, normal.load_slope];
     let step = StepResult { force: [force, normal.load], tangent, dissipated };
     (step, Header { displacement, input, normal, error: from.error })
@@ -101,8 +101,7 @@ fn opening_or_closing(
         let path = StepPath { shift: [0.0, normal.shift], displacement: displacement - crossing.displacement };
         step.dissipated = energy::dissipated(element, &touching.knots, &path);
     }
-    let DiagramForce { force, mut by_displacement, mut by_input } =
-        diagram::step(element, &mut touching, displacement, &normal);
+    let [force, mut by_displacement, mut by_input] = diagram::step(element, &mut touching, displacement, &normal);
     if touching.sticks {
         // The start of the path moves with its end.
         by_input += by_displacement * crossing.slope * crossing.before;

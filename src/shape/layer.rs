@@ -217,12 +217,15 @@ impl LayerCompliance {
         self.stiffening * self.potential(self.consumed(load))
     }
 
-    /// The parts of the layer in the derivatives of a force over μN by N, of the same layer under another load, by μ, and by the compliance
-    /// under N, at a fixed displacement; given the compliance of the contact at this force.
-    pub fn slopes(&self, load: Complement, of_contact: f64) -> [f64; 3] {
-        let by_compliance = -self.extent(self.consumed(load)) * (1.0 + self.stiffening);
-        [self.increase(load), self.first_moment(load), by_compliance]
-            .map(|part| part / (of_contact + self.compliance(load.remaining)))
+    /// The derivative of a force over μN by the compliance under N at a fixed displacement, given the compliance of the contact at this
+    /// force.
+    pub fn slope_by_compliance(&self, load: Complement, of_contact: f64) -> f64 {
+        -self.extent(self.consumed(load)) * (1.0 + self.stiffening) / (of_contact + self.compliance(load.remaining))
+    }
+
+    /// The parts of the layer in the derivatives by N, of the same layer under another load, and by μ.
+    pub fn slopes_by_load_and_friction(&self, load: Complement, of_contact: f64) -> [f64; 2] {
+        [self.increase(load), self.first_moment(load)].map(|part| part / (of_contact + self.compliance(load.remaining)))
     }
 }
 
