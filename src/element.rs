@@ -3,7 +3,7 @@
 
 mod table;
 
-use crate::error::Error;
+use crate::error::{Error, ensure};
 use crate::limits::{MAX_DISPLACEMENT, check_force, in_range};
 use crate::numerics::fp_class::{abs_le, in_0_to, le};
 use crate::numerics::guard::quotient;
@@ -176,12 +176,10 @@ impl Element {
             [Quantity::Approach, Quantity::Shift].map(|quantity| shape.value_and_compliance(quantity, size));
         for value in [approach, shift, normal_force] {
             // The element accepts its own load and approach.
-            if !in_0_to(MAX_DISPLACEMENT, value) {
-                return Err(Error::OutOfRange);
-            }
-            in_range(&[value], &[])?;
+            ensure(in_0_to(MAX_DISPLACEMENT, value), Error::OutOfRange)?;
+            in_range(&[value])?;
             if friction_coefficient > 0.0 {
-                in_range(&[value, friction_coefficient], &[])?;
+                in_range(&[value, friction_coefficient])?;
             }
         }
         self.largest_load = shape.load(largest);
@@ -259,11 +257,8 @@ impl Element {
     /// Errors: `BadElement` unless it was initialised by this version; `BadDirections` for the other number of directions.
     #[inline(always)]
     pub(crate) fn check_directions(&self, directions: Directions) -> Result<(), Error> {
-        match (self.is_initialised(), self.directions == directions as i32) {
-            (true, true) => Ok(()),
-            (true, false) => Err(Error::BadDirections),
-            (false, _) => Err(Error::BadElement),
-        }
+        ensure(self.is_initialised(), Error::BadElement)?;
+        ensure(self.directions == directions as i32, Error::BadDirections)
     }
 
     /// The number of tangential directions.
@@ -332,7 +327,7 @@ impl Element {
 
     /// Errors: `BadDirections` unless the element has this tangential direction, 0 or 1.
     pub fn check_direction(&self, direction: usize) -> Result<(), Error> {
-        if direction < self.tangential_directions() as usize { Ok(()) } else { Err(Error::BadDirections) }
+        ensure(direction < self.tangential_directions() as usize, Error::BadDirections)
     }
 
     /// Checks a static force at a constant normal force.
@@ -418,8 +413,8 @@ impl Element {
     /// too wide for its length.
     #[inline(always)]
     pub fn check_approach(&self, approach: f64) -> Result<(), Error> {
-        let is_allowed = abs_le(approach, MAX_DISPLACEMENT);
-        check_normal(is_allowed, le(approach, self.largest_approach), Error::BadDisplacement)
+        ensure(abs_le(approach, MAX_DISPLACEMENT), Error::BadDisplacement)?;
+        ensure(le(approach, self.largest_approach), Error::LengthTooShort)
     }
 
     /// Checks a normal force.
@@ -427,8 +422,8 @@ impl Element {
     /// too wide for its length.
     #[inline(always)]
     pub fn check_normal_force(&self, normal_force: f64) -> Result<(), Error> {
-        let is_allowed = in_0_to(MAX_DISPLACEMENT, normal_force);
-        check_normal(is_allowed, le(normal_force, self.largest_load), Error::BadNormalForce)
+        ensure(in_0_to(MAX_DISPLACEMENT, normal_force), Error::BadNormalForce)?;
+        ensure(le(normal_force, self.largest_load), Error::LengthTooShort)
     }
 
     /// Checks the normal component of a displacement, an approach or a normal force.
@@ -569,13 +564,3 @@ fn key_of(values: &[f64]) -> f64 {
 }
 
 const _: () = assert!(size_of::<Element>() <= 15_000);
-
-/// The outcome of the checks of a normal component: whether it is allowed, and whether the contact is narrow enough for its length.
-#[inline(always)]
-fn check_normal(is_allowed: bool, is_narrow: bool, error: Error) -> Result<(), Error> {
-    match (is_allowed, is_narrow) {
-        (true, true) => Ok(()),
-        (true, false) => Err(Error::LengthTooShort),
-        (false, _) => Err(error),
-    }
-}

@@ -106,6 +106,11 @@ status_codes! {
     BadAlignment, MSLIP_BAD_ALIGNMENT = 91: "misaligned pointer: doubles need 8-byte, int32 flags 4-byte alignment";
 }
 
+/// An error unless a condition holds.
+pub(crate) fn ensure(condition: bool, error: Error) -> Result<(), Error> {
+    if condition { Ok(()) } else { Err(error) }
+}
+
 impl Error {
     /// Status code of the C interface.
     pub const fn code(self) -> i32 {

@@ -5,7 +5,7 @@
 //! s times that of the whole: compliances over s, N_c and N_r times s. A part without load does not count in L. (Parts of a line
 //! contact in `docs/derivation.md`)
 
-use crate::error::Error;
+use crate::error::{Error, ensure};
 use crate::numerics::fp_class::in_0_to;
 use crate::parameters::Parameters;
 use crate::shape::Geometry;
@@ -28,9 +28,7 @@ pub fn divide(
     weight: &mut [f64],
 ) -> Result<(), Error> {
     for (values, error) in [(area, Error::BadArea), (pressure, Error::BadPressure)] {
-        if !values.iter().all(|value| in_0_to(LARGEST, *value)) {
-            return Err(error);
-        }
+        ensure(values.iter().all(|value| in_0_to(LARGEST, *value)), error)?;
     }
     let pairs = pairs.max(1);
     // Areas and forces of the pairs of a part, with their sums.

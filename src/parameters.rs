@@ -1,6 +1,6 @@
 //! Input parameters: geometry, material and load (section 2.1 and Fig. 1 of the paper), and their validation.
 
-use crate::error::Error;
+use crate::error::{Error, ensure};
 use crate::limits::in_range;
 use crate::numerics::fp_class::{abs_le, in_0_to};
 
@@ -144,12 +144,12 @@ pub(crate) fn times(factor: f64, sensitivity: Sensitivity) -> Sensitivity {
 
 /// `Ok` if `value` is finite and >= 0.
 pub(crate) fn not_negative(value: f64, error: Error) -> Result<(), Error> {
-    if in_0_to(f64::MAX, value) { Ok(()) } else { Err(error) }
+    ensure(in_0_to(f64::MAX, value), error)
 }
 
 /// `Ok` if `value` is finite and > 0.
 pub(crate) fn positive(value: f64, error: Error) -> Result<(), Error> {
-    if in_0_to(f64::MAX, value) && !abs_le(value, 0.0) { Ok(()) } else { Err(error) }
+    ensure(in_0_to(f64::MAX, value) && !abs_le(value, 0.0), error)
 }
 
 /// The parameters that all shapes have.
@@ -169,9 +169,7 @@ impl Common {
         not_negative(self.friction_coefficient, Error::BadFrictionCoefficient)?;
         for body in &self.material {
             positive(body.young_modulus, Error::BadYoungModulus)?;
-            if !in_0_to(0.5, body.poisson_ratio) {
-                return Err(Error::BadPoissonRatio);
-            }
+            ensure(in_0_to(0.5, body.poisson_ratio), Error::BadPoissonRatio)?;
         }
         let layer = &self.layer;
         not_negative(layer.normal_compliance, Error::BadNormalCompliance)?;
@@ -188,7 +186,7 @@ impl Common {
     /// E* of parameters that were checked.
     /// Errors: `OutOfRange` for a modulus of an unusable magnitude.
     pub fn composite_modulus(&self) -> Result<f64, Error> {
-        self.material.iter().try_for_each(|body| in_range(&[body.young_modulus], &[]))?;
+        self.material.iter().try_for_each(|body| in_range(&[body.young_modulus]))?;
         Ok(Pair::new(&self.material).composite_modulus)
     }
 }

@@ -21,13 +21,12 @@
 //! singular at x = 0, too: t is a hyperbolic sine then. Gauss's rule for even functions converges for all amplitudes.
 
 use crate::constant_load::contact::{BLOCKS_IN_SLIP, Contact};
-use crate::error::Error;
+use crate::error::{Error, ensure};
 use crate::limits::MAX_DISPLACEMENT;
 use crate::numerics::fp_class::in_0_to;
 use crate::numerics::lanes::Lanes;
 use crate::numerics::polynomial::PolynomialRows;
 use crate::numerics::quadrature::gauss_even;
-use crate::numerics::total::Total;
 use core::f64::consts::PI;
 
 /// Complex stiffness at one displacement amplitude.
@@ -92,23 +91,8 @@ fn sum<B>(blocks: impl Iterator<Item = B>, at: impl Fn(B) -> [Lanes<4>; 2]) -> [
     sums.map(Lanes::total)
 }
 
-/// K' or K'' and its derivative with respect to the amplitude.
-pub(crate) type ValueAndSlope = (f64, f64);
-
-/// K', K'' and their derivatives, each if it is requested.
-pub(crate) type StiffnessOutputs<'a> = [Option<&'a mut [f64]>; 4];
-
-/// Writes what is requested of K' and K'' as value i of each output.
-pub(crate) fn write_values([real, imaginary]: [ValueAndSlope; 2], i: usize, outputs: &mut StiffnessOutputs) {
-    for (output, value) in outputs.iter_mut().zip([real.0, imaginary.0, real.1, imaginary.1]) {
-        if let Some(values) = output {
-            values.set(i, value);
-        }
-    }
-}
-
 /// Whether K' and K'', or their derivatives, are requested.
-pub(crate) fn requested([k_real, k_imag, dk_real, dk_imag]: &StiffnessOutputs) -> [bool; 2] {
+pub(crate) fn requested([k_real, k_imag, dk_real, dk_imag]: &[Option<&mut [f64]>; 4]) -> [bool; 2] {
     [k_real.is_some() || dk_real.is_some(), k_imag.is_some() || dk_imag.is_some()]
 }
 
@@ -117,7 +101,7 @@ impl Contact {
     /// Errors: `BadAmplitude` if the amplitude is not finite, negative, or beyond 1e150.
     pub fn complex_stiffness(&self, amplitude: f64) -> Result<ComplexStiffness, Error> {
         check_amplitude(amplitude)?;
-        let [(real, d_real), (imaginary, d_imag)] = self.stiffness_of_cycle(amplitude, [true; 2]);
+        let [real, imaginary, d_real, d_imag] = self.stiffness_of_cycle(amplitude, [true; 2]);
         Ok(ComplexStiffness { real, imaginary, d_real, d_imag, dissipated: self.energy_of_cycle(amplitude).0 })
     }
 
@@ -202,37 +186,33 @@ impl Contact {
 }
 
 pub(crate) fn check_amplitude(amplitude: f64) -> Result<(), Error> {
-    if in_0_to(MAX_DISPLACEMENT, amplitude) { Ok(()) } else { Err(Error::BadAmplitude) }
+    ensure(in_0_to(MAX_DISPLACEMENT, amplitude), Error::BadAmplitude)
 }
 
 impl Contact {
-    /// K' and K'' with their derivatives at a checked amplitude \[m\], if requested.
-    pub(crate) fn stiffness_of_cycle(
-        &self,
-        amplitude: f64,
-        [has_real, has_imaginary]: [bool; 2],
-    ) -> [ValueAndSlope; 2] {
+    /// K' and K'', then their derivatives, at a checked amplitude \[m\], if requested.
+    pub(crate) fn stiffness_of_cycle(&self, amplitude: f64, [has_real, has_imaginary]: [bool; 2]) -> [f64; 4] {
         // K' and K'' are linear to far below rounding, and would underflow in the general formulas.
         if self.is_frictionless() || amplitude <= 1e-30 * self.displacement_scale {
             let (real, imaginary) = self.initial_slopes();
-            return [(self.initial_stiffness, real), (amplitude * imaginary, imaginary)];
+            return [self.initial_stiffness, amplitude * imaginary, real, imaginary];
         }
-        let (mut parts, not_zero) = ([(0.0, 0.0); 2], amplitude.max(f64::MIN_POSITIVE));
+        let (mut values, not_zero) = ([0.0; 4], amplitude.max(f64::MIN_POSITIVE));
         if has_real {
-            parts[0] = self.real_stiffness(not_zero);
+            (values[0], values[2]) = self.real_stiffness(not_zero);
         }
         if has_imaginary {
             let (energy, slope) = self.energy_of_cycle(amplitude);
             // In this order for amplitudes whose square overflows. One division: the compiler would pair others with a product, and divide by what is beside its factors.
             let per = 1.0 / not_zero;
             let imaginary = energy * per * per / PI;
-            parts[1] = (imaginary, (slope * per / PI - 2.0 * imaginary) * per);
+            (values[1], values[3]) = (imaginary, (slope * per / PI - 2.0 * imaginary) * per);
         }
-        parts
+        values
     }
 
     /// K' and its derivative.
-    fn real_stiffness(&self, amplitude: f64) -> ValueAndSlope {
+    fn real_stiffness(&self, amplitude: f64) -> (f64, f64) {
         let (initial, y) = (self.initial_stiffness, amplitude * self.inner_scale);
         if y <= 1.0
             && let Some((real, slope)) = self.interpolant.cycle_stiffness(y)
@@ -250,7 +230,7 @@ impl Contact {
     }
 
     /// Energy dissipated per cycle, and its derivative with respect to the amplitude.
-    fn energy_of_cycle(&self, amplitude: f64) -> ValueAndSlope {
+    fn energy_of_cycle(&self, amplitude: f64) -> (f64, f64) {
         if self.is_frictionless() || amplitude >= self.slip_displacement {
             let slope = 4.0 * self.slip_force;
             (self.slip_energy + slope * (amplitude - self.slip_displacement), slope)

@@ -2,9 +2,9 @@
 //! that convert their nondimensional quantities into forces and displacements.
 
 use crate::constant_load::interpolant::{ForceInterpolant, INNER_FRACTION, KNEE_FRACTION};
-use crate::error::Error;
+use crate::error::{Error, ensure};
 use crate::limits::check_displacement;
-use crate::limits::{exponent_of, in_range};
+use crate::limits::{exponent_of, in_range, quotient_in_range};
 use crate::parameters::{Common, EllipticParameters, PARAMETERS, Parameters, Sensitivity};
 use crate::shape::rounded_flat::reference_slope;
 use crate::shape::stick_zone::StickZones;
@@ -111,7 +111,7 @@ impl Contact {
             LayerCompliance::relative(&parameters.layer, normal_force, contact.stiffness_scale, 1.0)?;
         contact.zones = StickZones::new(shape.reference_size, 1.0, layer);
         // The radius of the sphere with this semi-axis.
-        in_range(&[semi_axis_x, semi_axis_x, semi_axis_x, composite_modulus], &[normal_force])?;
+        quotient_in_range(&[semi_axis_x, semi_axis_x, semi_axis_x, composite_modulus], &[normal_force])?;
         let radius = 4.0 / 3.0 * (semi_axis_x * (semi_axis_x * (semi_axis_x * composite_modulus / normal_force)));
         contact.set_friction(normal_force, under_load, [semi_axis_x, radius, semi_axis_x, composite_modulus])?;
         // Nothing depends on the other two lengths.
@@ -137,11 +137,11 @@ impl Contact {
         if self.friction_coefficient == 0.0 {
             return Ok(());
         }
-        in_range(&[self.friction_coefficient], &[])?;
-        in_range(&[self.friction_coefficient, normal_force], &[])?;
-        in_range(&[self.friction_coefficient, self.pressure_scale], &[])?;
+        for factor in [1.0, normal_force, self.pressure_scale] {
+            in_range(&[self.friction_coefficient, factor])?;
+        }
         let slip_force = self.friction_coefficient * normal_force;
-        in_range(&[slip_force], &[self.stiffness_scale])?;
+        quotient_in_range(&[slip_force], &[self.stiffness_scale])?;
         // Derivatives with respect to the parameters remain representable.
         if parameters.iter().any(|&parameter| exponent_of(&[slip_force], &[parameter]).abs() > 900) {
             return Err(Error::OutOfRange);
@@ -152,9 +152,7 @@ impl Contact {
         let gross_slip = zones.at_load(Complement::of_remaining(0.0));
         let (energy, _) = zones.dissipation(gross_slip.load, gross_slip.compliance_increase);
         let slip_energy = slip_force * displacement_scale * energy;
-        if !slip_energy.is_normal() {
-            return Err(Error::OutOfRange);
-        }
+        ensure(slip_energy.is_normal(), Error::OutOfRange)?;
         // Calls accept no larger displacement, so that gross slip would never be reached.
         let slip_displacement = displacement_scale * zones.slip_shift;
         check_displacement(slip_displacement).map_err(|_| Error::OutOfRange)?;
@@ -181,7 +179,7 @@ impl Contact {
 
     /// Errors: `BadContact` unless this memory was initialised by a library of this version.
     pub(crate) fn check(&self) -> Result<(), Error> {
-        if self.tag == TAG { Ok(()) } else { Err(Error::BadContact) }
+        ensure(self.tag == TAG, Error::BadContact)
     }
 
     /// Whether a layer bends the curve strongly near gross slip.

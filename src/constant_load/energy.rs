@@ -5,7 +5,7 @@
 
 use crate::constant_load::contact::Contact;
 use crate::constant_load::memory::StepSegment;
-use crate::error::Error;
+use crate::error::{Error, ensure};
 use crate::numerics::fp_class::in_0_to;
 use crate::shape::Complement;
 use crate::shape::stick_zone::StickZone;
@@ -21,11 +21,8 @@ impl Contact {
     }
 
     pub(crate) fn check_force_amplitude(&self, force_amplitude: f64) -> Result<(), Error> {
-        if in_0_to(f64::MAX, force_amplitude) {
-            self.check_force(force_amplitude)
-        } else {
-            Err(Error::BadForceAmplitude)
-        }
+        ensure(in_0_to(f64::MAX, force_amplitude), Error::BadForceAmplitude)?;
+        self.check_force(force_amplitude)
     }
 
     /// Energy \[J\] dissipated per cycle with a displacement amplitude up to that of gross slip, and its derivative with respect to the

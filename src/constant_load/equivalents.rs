@@ -5,7 +5,7 @@
 
 use crate::constant_load::complex_stiffness::check_amplitude;
 use crate::constant_load::contact::Contact;
-use crate::error::Error;
+use crate::error::{Error, ensure};
 use crate::numerics::roots::logarithmic_newton;
 use crate::shape::size::Size;
 use crate::shape::stick_zone::StickZones;
@@ -34,7 +34,7 @@ pub fn jenkins(contact: &Contact, amplitude: f64) -> Result<SpringSlider, Error>
     }
     // Beyond this amplitude the result no longer changes, and K' would underflow.
     let amplitude = amplitude.min(1e100 * contact.slip_displacement);
-    let [(real, _), (imaginary, _)] = contact.stiffness_of_cycle(amplitude, [true; 2]);
+    let [real, imaginary, ..] = contact.stiffness_of_cycle(amplitude, [true; 2]);
     let ratio = imaginary / real.max(f64::MIN_POSITIVE);
     if amplitude <= 0.0 || ratio < 1e-300 {
         let slip_force = if amplitude > 0.0 { real * amplitude } else { contact.slip_force };
@@ -65,7 +65,7 @@ pub const MAX_SLIDERS: usize = 1 << 16;
 /// Checks a number of sliders.
 /// Errors: `BadCount` for 0 sliders, or more than [`MAX_SLIDERS`].
 pub fn check_count(sliders: usize) -> Result<(), Error> {
-    if (1..=MAX_SLIDERS).contains(&sliders) { Ok(()) } else { Err(Error::BadCount) }
+    ensure((1..=MAX_SLIDERS).contains(&sliders), Error::BadCount)
 }
 
 /// n parallel spring-sliders with the contact's monotonic curve; `emit` is called for each. Returns the maximum error of the

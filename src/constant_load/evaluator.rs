@@ -117,7 +117,7 @@ impl Contact {
         }
         if piece == INNER {
             let y = displacement * self.inner_scale;
-            let (secant, slope) = values_and_slopes::<_, L, STIFFNESS>(interpolant.secant(), y);
+            let (secant, slope) = values_and_slopes::<L, STIFFNESS>(interpolant.secant(), y);
             let force = secant * (self.initial_stiffness * displacement);
             let rest = 1.0 - force * (1.0 / self.slip_force.max(f64::MIN_POSITIVE));
             [force, rest, (secant + slope * y) * self.initial_stiffness]

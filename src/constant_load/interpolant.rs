@@ -126,7 +126,7 @@ impl ForceInterpolant {
         root: Lanes<L>,
     ) -> (Lanes<L>, Lanes<L>) {
         let (power, piece) = (power_of_2(piece), self.pieces.get(piece as usize).unwrap_or(self.secant()));
-        let (remaining, slope) = values_and_slopes::<_, L, SLOPES>(piece, 2.0 * (power * root) - 3.0);
+        let (remaining, slope) = values_and_slopes::<L, SLOPES>(piece, 2.0 * (power * root) - 3.0);
         (remaining, if SLOPES { power * slope / root } else { slope })
     }
 
@@ -138,7 +138,7 @@ impl ForceInterpolant {
         let z = (roots * (1 << PIECES) as f64).sqrt().sqrt().max(1.0 / (1 << LAST_PIECES) as f64);
         let argument = 4.0 * (power_of_2(j) * z) - 3.0;
         let piece = self.last.get(j as usize).unwrap_or(self.secant());
-        let (value, slope) = values_and_slopes::<_, L, true>(piece, argument);
+        let (value, slope) = values_and_slopes::<L, true>(piece, argument);
         // With f = (1 - τ)/ρ and ρ ~ z⁸, d(ρ f)/dρ = f + z/8 df/dz.
         [value, value + (0.125 * (3.0 + argument)) * slope]
     }

@@ -1,12 +1,12 @@
 //! Batches of contacts and of elements: all items are checked, in order, before the first output is written.
 
 use super::pointers::{
-    self, call, check_alignment, check_input, check_length, input, optional_output, output, outputs, requested, set,
-    state_input, with_law,
+    self, call, check_alignment, check_input, check_length, each, input, optional_output, output, outputs, requested,
+    set, state_input, with_law, write,
 };
 use super::{mslip_contact, mslip_element};
 use crate::constant_load::ConstantLoad;
-use crate::constant_load::complex_stiffness::{check_amplitude, requested as stiffness_requested, write_values};
+use crate::constant_load::complex_stiffness::{check_amplitude, requested as stiffness_requested};
 use crate::constant_load::contact::Contact;
 use crate::constant_load::harmonic_force::HarmonicOutput;
 use crate::element::{Directions, Element};
@@ -145,21 +145,26 @@ impl<'a, T: Copy> Items<'a, T> {
     }
 
     /// Checks the contacts or elements of all active items, and with each what else belongs to the item.
-    fn check<L: Law<Item = T>>(self, mut item: impl FnMut(usize, &T) -> Result<(), Error>) -> Result<(), Failure> {
-        let mut check_item = |i| {
+    fn check<L: Law<Item = T>, V>(
+        self,
+        values: impl Iterator<Item = V>,
+        mut check: impl FnMut(usize, &T, V) -> Result<(), Error>,
+    ) -> Result<(), Failure> {
+        let mut check_item = |i, value| {
             let law = self.law(i).ok_or(Error::BadIndex)?;
             L::check(law)?;
-            item(i, law)
+            check(i, law, value)
         };
-        self.active().try_for_each(|i| {
+        self.active(values).try_for_each(|(i, value)| {
             // The length is the same for all states.
-            check_item(i).map_err(|error| Failure { error, item: (error != Error::StateTooShort).then_some(i) })
+            check_item(i, value).map_err(|error| Failure { error, item: (error != Error::StateTooShort).then_some(i) })
         })
     }
 
-    /// Indices of the active items.
-    fn active(self) -> impl Iterator<Item = usize> {
-        (0..self.n).filter(move |i| self.active.is_none_or(|active| active.get(*i).is_none_or(|flag| *flag != 0)))
+    /// Indices of the active items, with their values.
+    fn active<V>(self, values: impl Iterator<Item = V>) -> impl Iterator<Item = (usize, V)> {
+        let is_active = move |i: usize| self.active.is_none_or(|active| active.get(i).is_none_or(|flag| *flag != 0));
+        (0..self.n).zip(values).filter(move |(i, _)| is_active(*i))
     }
 
     fn law(&self, i: usize) -> Option<&'a T> {
@@ -169,16 +174,16 @@ impl<'a, T: Copy> Items<'a, T> {
         }
     }
 
-    /// Active items that were checked: index, contact or element, and what `value` finds for an index.
-    fn with<V>(self, value: impl Fn(usize) -> Option<V>) -> impl Iterator<Item = (usize, &'a T, V)> {
-        self.active().filter_map(move |i| Some((i, self.law(i)?, value(i)?)))
+    /// Active items that were checked: index, contact or element, and value.
+    fn with<V>(self, values: impl Iterator<Item = V>) -> impl Iterator<Item = (usize, &'a T, V)> {
+        self.active(values).filter_map(move |(i, value)| Some((i, self.law(i)?, value)))
     }
 }
 
 impl Items<'_, Element> {
     /// Directions of the element of the first active item, which those of all others must equal; one if no item is active.
     fn directions(self) -> Directions {
-        let first = self.active().next().and_then(|i| self.law(i));
+        let first = self.with(0..).next().map(|(_, element, _)| element);
         first.filter(|element| element.is_initialised()).map_or(Directions::One, Element::tangential_directions)
     }
 }
@@ -202,14 +207,13 @@ unsafe fn update<L: Law>(
     {
         // The reference ends before the new states, which may be the same memory, are written.
         let states = input(states_old, length)?;
-        items.check::<L>(|i, law| {
+        items.check::<L, _>(displacement.iter(), |i, law, displacement| {
             prefetch::<1>(states_old.wrapping_add((i + CHECKED_AHEAD) * state_length));
-            let displacement = displacement.get(i).ok_or(Error::BadArraySize)?;
             L::check_header(states.part(i * state_length..(i + 1) * state_length))?;
             L::check_step(law, displacement)
         })?;
     }
-    for (i, law, displacement) in items.with(|i| displacement.get(i)) {
+    for (i, law, displacement) in items.with(displacement.iter()) {
         let state_old = states_old.wrapping_add(i * state_length);
         prefetch::<4>(state_old.wrapping_add(PREFETCH_DISTANCE * state_length));
         let states = (state_length, state_old, item_of(states_new, i * state_length));
@@ -253,8 +257,8 @@ unsafe fn harmonic_forces<L: Law>(
     check_input(displacement, items.n)?;
     // The arrays of an element with another number of directions are shorter: its coefficients are referenced after its check.
     let displacement_of = |i: usize| slice::from_raw_parts(displacement.wrapping_add(i * one), one);
-    items.check::<L>(|i, item| L::check_motion(item, workspace, displacement_of(i)))?;
-    items.with(|i| Some(displacement_of(i))).try_for_each(|(i, law, displacement)| {
+    items.check::<L, _>((0..).map(displacement_of), |_, law, motion| L::check_motion(law, workspace, motion))?;
+    items.with((0..).map(displacement_of)).try_for_each(|(i, law, displacement)| {
         let output = HarmonicOutput {
             force: requested(item_of(force, i * one), one),
             jacobian: requested(item_of(jacobian, i * one * one), one * one),
@@ -283,15 +287,15 @@ pub unsafe extern "C" fn mslip_batch_complex_stiffness(
     failed_item: *mut size_t,
 ) -> i32 {
     call_batch(n, failed_item, || {
-        let (items, amplitude, mut outputs) = (
+        let (items, amplitude, outputs) = (
             Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?,
             input(amplitude, n)?,
             outputs([k_real, k_imag, dk_real, dk_imag], n)?,
         );
-        items.check::<ConstantLoad>(|i, _| amplitude.get(i).map_or(Ok(()), |amplitude| check_amplitude(*amplitude)))?;
+        items.check::<ConstantLoad, _>(amplitude.iter(), |_, _, amplitude| check_amplitude(*amplitude))?;
         let requested = stiffness_requested(&outputs);
-        for (i, contact, amplitude) in items.with(|i| amplitude.get(i)) {
-            write_values(contact.stiffness_of_cycle(*amplitude, requested), i, &mut outputs);
+        for (_, contact, (amplitude, outputs)) in items.with(each(amplitude, outputs)) {
+            write(outputs, contact.stiffness_of_cycle(*amplitude, requested));
         }
         Ok(())
     })

@@ -1,10 +1,10 @@
 //! One contact: initialisation, tractions, slip, monotonic curve.
 
 use crate::constant_load::contact::Contact;
-use crate::error::Error;
+use crate::error::{Error, ensure};
 use crate::face::divide;
 use crate::ffi::mslip_contact;
-use crate::ffi::pointers::{self, call, each, input, item, optional_output, output, outputs, set, sum};
+use crate::ffi::pointers::{self, call, each, input, item, optional_output, output, outputs, set, sum, write};
 use crate::limits::{check_displacement, check_positions};
 use crate::numerics::total::Total;
 use crate::parameters::PARAMETERS;
@@ -126,7 +126,7 @@ pub unsafe extern "C" fn mslip_face_parts(
 /// Returns MSLIP_NULL_POINTER or MSLIP_BAD_CONTACT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_contact_check(contact: *const mslip_contact) -> i32 {
-    call(|| if sum(pointers::contact(contact)?) == 0 { Ok(()) } else { Err(Error::BadContact) })
+    call(|| ensure(sum(pointers::contact(contact)?) == 0, Error::BadContact))
 }
 
 /// Tractions \[Pa\] at x\[n\] \[m\] along the width, under a monotonically increasing force \[N\] (Eq. 17, 21-24); 0 outside the
@@ -230,9 +230,7 @@ pub unsafe extern "C" fn mslip_monotonic_force(
         displacement.iter().try_for_each(|&displacement| check_displacement(displacement))?;
         for (&displacement, [force, stiffness, stick_half_width]) in each(displacement, outputs) {
             let point = contact.curve_at_displacement(displacement)?;
-            let values = point.force_and_stiffness();
-            set(force, || values.0);
-            set(stiffness, || values.1);
+            write([force, stiffness], point.force_and_stiffness().into());
             set(stick_half_width, || point.stick_half_width());
         }
         Ok(())

@@ -1,9 +1,9 @@
 //! Cyclic loading: hysteresis loops, energy, complex stiffness, and equivalent spring-slider elements.
 
-use crate::constant_load::complex_stiffness::{check_amplitude, requested, write_values};
+use crate::constant_load::complex_stiffness::{check_amplitude, requested};
 use crate::constant_load::equivalents;
 use crate::ffi::mslip_contact;
-use crate::ffi::pointers::{self, call, each, input, optional_output, output, outputs, set};
+use crate::ffi::pointers::{self, call, each, input, optional_output, output, outputs, set, write};
 use libc::size_t;
 
 /// Hysteresis loop of the displacement amplitude cos(t), amplitude in \[m\]: displacement\[n\] \[m\] and force\[n\] \[N\] at n uniformly
@@ -66,12 +66,13 @@ pub unsafe extern "C" fn mslip_complex_stiffness(
     dk_imag: *mut f64,
 ) -> i32 {
     call(|| {
-        let (contact, amplitude, mut outputs) =
+        let (contact, amplitude, outputs) =
             (pointers::contact(contact)?, input(amplitude, n)?, outputs([k_real, k_imag, dk_real, dk_imag], n)?);
         amplitude.iter().try_for_each(|&amplitude| check_amplitude(amplitude))?;
         let requested = requested(&outputs);
-        let values = amplitude.iter().map(|&amplitude| contact.stiffness_of_cycle(amplitude, requested));
-        values.enumerate().for_each(|(i, values)| write_values(values, i, &mut outputs));
+        for (&amplitude, outputs) in each(amplitude, outputs) {
+            write(outputs, contact.stiffness_of_cycle(amplitude, requested));
+        }
         Ok(())
     })
 }
@@ -91,8 +92,7 @@ pub unsafe extern "C" fn mslip_jenkins_equivalent(
         let (contact, stiffness, slip_force) =
             (pointers::contact(contact)?, optional_output(stiffness)?, optional_output(slip_force)?);
         let slider = equivalents::jenkins(contact, amplitude)?;
-        set(stiffness, || slider.stiffness);
-        set(slip_force, || slider.slip_force);
+        write([stiffness, slip_force], [slider.stiffness, slider.slip_force]);
         Ok(())
     })
 }
@@ -119,9 +119,7 @@ pub unsafe extern "C" fn mslip_iwan_equivalent(
             (pointers::contact(contact)?, outputs([stiffness, slip_force], n)?, optional_output(force_error)?);
         let mut places = each(0..n, outputs).map(|(_, places)| places);
         let error = equivalents::iwan(contact, n, |slider| {
-            let [stiffness, slip_force] = places.next().unwrap_or_default();
-            set(stiffness, || slider.stiffness);
-            set(slip_force, || slider.slip_force);
+            write(places.next().unwrap_or_default(), [slider.stiffness, slider.slip_force]);
         })?;
         set(force_error, || error);
         Ok(())

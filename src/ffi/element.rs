@@ -3,10 +3,10 @@
 use super::batch::{path, state_error};
 use super::mslip_element;
 use super::pointers::{
-    self, call, each, input, item, memory, optional_output, outputs, set, state_input, sum, with_law,
+    self, call, each, input, item, memory, optional_output, outputs, set, state_input, sum, with_law, write,
 };
-use crate::element::{Components, Directions, Element, NormalInput, NormalPoint};
-use crate::error::Error;
+use crate::element::{Components, Directions, Element, NormalInput};
+use crate::error::{Error, ensure};
 use crate::law::Law;
 use crate::one_direction::tractions::tractions;
 use crate::one_direction::{self, OneDirection};
@@ -83,7 +83,7 @@ pub unsafe extern "C" fn mslip_element_init_elliptic(
 /// Returns MSLIP_NULL_POINTER or MSLIP_BAD_ELEMENT.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_element_check(element: *const mslip_element) -> i32 {
-    call(|| if sum(pointers::element(element)?) == 0 { Ok(()) } else { Err(Error::BadElement) })
+    call(|| ensure(sum(pointers::element(element)?) == 0, Error::BadElement))
 }
 
 /// The normal law: normal force \[N\], normal stiffness \[N/m\] and half-width of the contact \[m\] at approach\[n\] \[m\]. An
@@ -145,10 +145,9 @@ pub unsafe extern "C" fn mslip_element_displacement(
         element.check_direction(direction)?;
         let pairs = force.iter().zip(normal_force);
         pairs.clone().try_for_each(|(&force, &normal_force)| element.check_static(force, normal_force))?;
-        for ((&force, &normal_force), [displacement, compliance]) in each(pairs, outputs) {
-            let NormalPoint { value, slope } = element.displacement_under(direction, force, normal_force);
-            set(displacement, || value);
-            set(compliance, || slope);
+        for ((&force, &normal_force), outputs) in each(pairs, outputs) {
+            let point = element.displacement_under(direction, force, normal_force);
+            write(outputs, [point.value, point.slope]);
         }
         Ok(())
     })
@@ -167,8 +166,7 @@ unsafe fn normal_law<const INVERSE: bool>(
         given.iter().try_for_each(|given| check(element, *given))?;
         for (&given, [value, slope, half_width]) in each(given, results) {
             let point = if INVERSE { element.approach_under(given) } else { element.normal_force_at(given) };
-            set(value, || point.value);
-            set(slope, || point.slope);
+            write([value, slope], [point.value, point.slope]);
             set(half_width, || element.half_width_under(if INVERSE { given } else { point.value }));
         }
         Ok(())
@@ -296,9 +294,7 @@ pub unsafe extern "C" fn mslip_element_tractions(
 ) -> i32 {
     call(|| {
         let element = pointers::element(element)?;
-        if element.tangential_directions() == Directions::Two {
-            return Err(Error::NotAvailable);
-        }
+        ensure(element.tangential_directions() != Directions::Two, Error::NotAvailable)?;
         let (state, x, [pressure, shear]) =
             (state_input(state_length, state)?, input(x, n)?, outputs([pressure, shear], n)?);
         OneDirection::check_header(state)?;

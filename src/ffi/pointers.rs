@@ -9,7 +9,7 @@ use super::{MSLIP_OK, mslip_contact, mslip_element};
 use crate::constant_load::contact::Contact;
 use crate::constant_load::harmonic_force::{Workspace, workspace_size};
 use crate::element::{Directions, Element};
-use crate::error::Error;
+use crate::error::{Error, ensure};
 use crate::fourier::workspace::{HEADER, Layout, SamplingSize};
 use crate::law::Law;
 use core::{ptr, slice};
@@ -21,17 +21,17 @@ pub fn call(call: impl FnOnce() -> Result<(), Error>) -> i32 {
 
 /// Rejects lengths that exceed the address space.
 pub fn check_length<T>(n: usize) -> Result<(), Error> {
-    if n <= isize::MAX as usize / size_of::<T>().max(1) { Ok(()) } else { Err(Error::BadArraySize) }
+    ensure(n <= isize::MAX as usize / size_of::<T>().max(1), Error::BadArraySize)
 }
 
 /// Rejects a misaligned pointer; NULL is aligned.
 pub fn check_alignment<T>(pointer: *const T) -> Result<(), Error> {
-    if pointer.is_aligned() { Ok(()) } else { Err(Error::BadAlignment) }
+    ensure(pointer.is_aligned(), Error::BadAlignment)
 }
 
 /// Rejects NULL.
 pub fn not_null<T>(pointer: *const T) -> Result<(), Error> {
-    if pointer.is_null() { Err(Error::NullPointer) } else { Ok(()) }
+    ensure(!pointer.is_null(), Error::NullPointer)
 }
 
 /// One item: a contact or parameters.
@@ -133,6 +133,11 @@ pub fn set<T>(place: Option<&mut T>, value: impl FnOnce() -> T) {
     if let Some(place) = place {
         *place = value();
     }
+}
+
+/// Sets the values that are requested.
+pub fn write<const K: usize>(places: [Option<&mut f64>; K], values: [f64; K]) {
+    places.into_iter().zip(values).for_each(|(place, value)| set(place, || value));
 }
 
 /// Header of a workspace.

@@ -6,7 +6,7 @@
 //!
 //! The tables are filled once and only read afterwards. Each quadrature rule implements [`Layout`].
 
-use crate::error::Error;
+use crate::error::{Error, ensure};
 use crate::numerics::total::Total;
 use crate::tag::{Kind, count, stored};
 
@@ -69,9 +69,7 @@ pub(crate) trait Layout<'a>: Sized {
         const MOST_PERIODS: usize = 1 << 16;
         let SamplingSize { harmonics, samples, periods } = size;
         let size = SamplingSize { periods: if periods == 0 { Self::PERIODS } else { periods }, ..size };
-        if !(1..=LARGEST).contains(&harmonics) {
-            return Err(Error::BadHarmonics);
-        }
+        ensure((1..=LARGEST).contains(&harmonics), Error::BadHarmonics)?;
         if samples <= 2 * harmonics || samples > LARGEST {
             return Err(Error::BadSamples);
         }
@@ -108,9 +106,7 @@ pub(crate) trait Layout<'a>: Sized {
         let [Some(harmonics), Some(samples), Some(periods @ 1..), Some(length)] = counts else {
             return Err(Error::BadWorkspace);
         };
-        if !Self::KIND.is_tag(tag) {
-            return Err(Error::BadWorkspace);
-        }
+        ensure(Self::KIND.is_tag(tag), Error::BadWorkspace)?;
         let size = Self::check_size(SamplingSize { harmonics, samples, periods }).map_err(|_| Error::BadWorkspace)?;
         Ok((size, length))
     }

@@ -14,28 +14,21 @@ pub(crate) const fn rows<const N: usize, const R: usize>(terms: &[f64; N]) -> Po
 
 /// Value at x of a polynomial given by its rows.
 #[inline]
-pub(crate) fn sum<'a>(rows: impl DoubleEndedIterator<Item = [f64; 4]> + 'a, x: f64) -> f64 {
-    let square = x * x;
-    let step = square * square;
-    let zero = Lanes::<2>::ZERO;
-    let (low, high) = rows.rev().fold((zero, zero), |(low, high), [zero, one, two, three]| {
-        (low * step + Lanes([zero, one]), high * step + Lanes([two, three]))
-    });
-    let [even, odd] = *(low + high * square);
-    even + odd * x
+pub(crate) fn value(rows: &[[f64; 4]], x: f64) -> f64 {
+    values_and_slopes::<1, false>(rows, Lanes([x])).0[0]
 }
 
 /// Value and derivative at x.
 #[inline(always)]
-pub(crate) fn value_and_slope<const R: usize>(rows: &PolynomialRows<R>, x: f64) -> (f64, f64) {
-    let (value, slope) = values_and_slopes::<R, 1, true>(rows, Lanes([x]));
+pub(crate) fn value_and_slope(rows: &[[f64; 4]], x: f64) -> (f64, f64) {
+    let (value, slope) = values_and_slopes::<1, true>(rows, Lanes([x]));
     (value[0], slope[0])
 }
 
 /// Values and derivatives at L places, the bits of which do not depend on L. Without slopes these are 0.
 #[inline(always)]
-pub(crate) fn values_and_slopes<const R: usize, const L: usize, const SLOPES: bool>(
-    rows: &PolynomialRows<R>,
+pub(crate) fn values_and_slopes<const L: usize, const SLOPES: bool>(
+    rows: &[[f64; 4]],
     x: Lanes<L>,
 ) -> (Lanes<L>, Lanes<L>) {
     let zero = Lanes([0.0; L]);
@@ -85,7 +78,7 @@ mod tests {
     fn the_rows_of_a_geometric_series_are_enough_up_to_each_bound() {
         for x in [1.0 / 16.0, 0.25, 1.0 / 3.0] {
             let used = rows_for(x, 20);
-            let found = sum([[1.0; 4]; 20].into_iter().take(used), x);
+            let found = value([[1.0; 4]; 20].get(..used).unwrap(), x);
             assert!((found * (1.0 - x) - 1.0).abs() < 4.0 * f64::EPSILON, "{x} {found}");
             assert!(rows_for(x, 20) < rows_for(f64::next_up(x), 20) && rows_for(x, 2) == 2);
         }

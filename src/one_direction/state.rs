@@ -6,7 +6,7 @@
 //! ```
 
 use crate::element::{Directions, Element, Normal};
-use crate::error::Error;
+use crate::error::{Error, ensure};
 use crate::fourier::workspace::records;
 use crate::law::{Law, Requested, StepOf, StepResult};
 use crate::limits::check_displacement;
@@ -115,7 +115,7 @@ impl Law for OneDirection {
         let centred = first.xi == first.eta && first.load == 0.0 && last.load <= load;
         // A frictionless or an open contact is its centre.
         let complete = knots.len() == 1 || (last.load == load && last.xi <= displacement && last.eta >= displacement);
-        if centred && complete && knots.windows(2).all(monotone) { Ok(()) } else { Err(Error::BadState) }
+        ensure(centred && complete && knots.windows(2).all(monotone), Error::BadState)
     }
 
     fn force_error(state: &[f64]) -> f64 {

@@ -19,7 +19,7 @@
 //! compliance 1/leg of each size in units of C, and `β = 1/(2 leg)`, `γ = 1/(5 leg)`, `ψ = 3 leg/4`.
 
 use crate::error::Error;
-use crate::limits::in_range;
+use crate::limits::{in_range, quotient_in_range};
 use crate::numerics::guard::quotient;
 use crate::parameters::{Common, EllipticParameters, Pair, positive};
 use crate::shape::series::{Series, identity};
@@ -41,11 +41,11 @@ impl Geometry for EllipticParameters {
         let EllipticParameters { semi_axis_x, semi_axis_y, normal_force, ref material, .. } = *self;
         let composite_modulus = Pair::new(material).composite_modulus;
         for axis in [semi_axis_x, semi_axis_y] {
-            in_range(&[axis], &[])?;
-            in_range(&[axis, composite_modulus], &[])?;
+            in_range(&[axis])?;
+            in_range(&[axis, composite_modulus])?;
         }
-        in_range(&[semi_axis_x], &[semi_axis_y])?;
-        in_range(&[normal_force], &[semi_axis_x, semi_axis_y])?;
+        quotient_in_range(&[semi_axis_x], &[semi_axis_y])?;
+        quotient_in_range(&[normal_force], &[semi_axis_x, semi_axis_y])?;
         let (all, cosine) = cerruti_integrals(semi_axis_x, semi_axis_y);
         let sum = |term: &dyn Fn(f64) -> f64| -> f64 {
             material
@@ -73,7 +73,7 @@ impl Geometry for EllipticParameters {
     fn largest_size(&self, shape: &Shape, _directions: usize) -> Result<f64, Error> {
         // The approach, free of overflow.
         for axis in [self.semi_axis_x, self.semi_axis_y] {
-            in_range(&[self.normal_force], &[axis, shape.composite_modulus])?;
+            quotient_in_range(&[self.normal_force], &[axis, shape.composite_modulus])?;
         }
         let by_load = (LARGEST / shape.load_scale).cbrt();
         let [[normal, _], [tangential, _], _] = shape.compliances;

@@ -13,7 +13,7 @@
 //! `contact` brings the layer into its units, `interpolant` and `curve` follow the knee of a small N_c, `sensitivity`
 //! differentiates by the layer, and `element` adds it along y.
 
-use crate::error::Error;
+use crate::error::{Error, ensure};
 use crate::limits::in_range;
 use crate::numerics::chebyshev::RECIPROCALS;
 use crate::numerics::guard::{TINY, quotient};
@@ -55,8 +55,8 @@ impl LayerCompliance {
             [(normal_compliance, Error::BadNormalCompliance), (tangential_compliance, Error::BadTangentialCompliance)]
         {
             if compliance > 0.0 {
-                in_range(&[compliance, under_load], &[]).map_err(|_| error)?;
-                in_range(&[compliance, under_load, normal_force], &[]).map_err(|_| error)?;
+                in_range(&[compliance, under_load]).map_err(|_| error)?;
+                in_range(&[compliance, under_load, normal_force]).map_err(|_| error)?;
             }
         }
         let layer = LayerCompliance {
@@ -75,11 +75,8 @@ impl LayerCompliance {
     /// compliance of both under a load.
     pub fn check_share(&self, load: f64, [normal, tangential]: [f64; 2]) -> Result<(), Error> {
         let hides = |layer: f64, both: f64| layer * self.softness(load) > (1.0 - 1.0 / MOST_COMPLIANT) * both;
-        match (hides(self.normal, normal), hides(self.tangential, tangential)) {
-            (true, _) => Err(Error::BadNormalCompliance),
-            (_, true) => Err(Error::BadTangentialCompliance),
-            _ => Ok(()),
-        }
+        ensure(!hides(self.normal, normal), Error::BadNormalCompliance)?;
+        ensure(!hides(self.tangential, tangential), Error::BadTangentialCompliance)
     }
 
     /// The compliance without load that enters U or S; 0 for N.
@@ -167,7 +164,7 @@ impl LayerCompliance {
         let (LayerCompliance { tangential, stiffening, .. }, under_load) =
             LayerCompliance::new(parameters, normal_force)?;
         if tangential > 0.0 {
-            in_range(&[tangential, stiffness_scale], &[]).map_err(|_| Error::BadTangentialCompliance)?;
+            in_range(&[tangential, stiffness_scale]).map_err(|_| Error::BadTangentialCompliance)?;
         }
         let (tangential, stiffening) = (tangential * stiffness_scale, stiffening * normal_force);
         let relative = LayerCompliance { normal: 0.0, tangential, stiffening };

@@ -18,7 +18,7 @@
 //! `t = tan²(ψ/2) = (leg/(a+s))² ≤ 1/3` are used instead; they converge for t < 1 and lose at most one bit.
 
 use crate::error::Error;
-use crate::limits::{LARGEST_EXPONENT, exponent_of, in_range};
+use crate::limits::{LARGEST_EXPONENT, exponent_of, in_range, quotient_in_range};
 use crate::numerics::const_math::tabulate;
 use crate::numerics::guard::{TINY, quotient};
 use crate::numerics::polynomial::{self, PolynomialRows, rows};
@@ -79,8 +79,7 @@ static BETA: SeriesTable = mean_over_ln_c(1.0);
 static GAMMA: SeriesTable = mean_over_ln_c(2.0);
 
 fn sum(table: &SeriesTable, t: f64) -> f64 {
-    let used = table.get(..polynomial::rows_for(t, TERMS / 4)).unwrap_or(table);
-    polynomial::sum(used.iter().copied(), t)
+    polynomial::value(table.part(..polynomial::rows_for(t, TERMS / 4)), t)
 }
 
 /// t = tan²(ψ/2) if the series apply.
@@ -265,14 +264,14 @@ impl Geometry for Parameters {
         if slenderness <= 0.5 || shape.full_stick() <= 0.0 {
             return Err(Error::LengthTooShort);
         }
-        in_range(&[normal_force], &[length, reference_half_width])?;
+        quotient_in_range(&[normal_force], &[length, reference_half_width])?;
         Ok(shape)
     }
 
     /// The size at which the smallest Λ is 1/16; all vanish near s = 2L.
     fn largest_size(&self, shape: &Shape, directions: usize) -> Result<f64, Error> {
         // The load at b = 2L.
-        in_range(&[self.length, self.length, self.length, shape.composite_modulus], &[self.edge_radius])?;
+        quotient_in_range(&[self.length, self.length, self.length, shape.composite_modulus], &[self.edge_radius])?;
         let [[normal, _], ..] = shape.compliances;
         let of = |[scale, offset]: &[f64; 2]| offset - SMALLEST_COMPLIANCE * (normal / scale);
         let bound = shape.compliances.iter().take(directions + 1).map(of).fold(-SMALLEST_COMPLIANCE, f64::min);
@@ -296,11 +295,11 @@ impl Shape {
 pub(crate) fn size_under_load(parameters: &Parameters, modulus: f64) -> Result<(f64, Size), Error> {
     let Parameters { edge_radius, length, normal_force, .. } = *parameters;
     let flat = parameters.flat_half_width.abs();
-    in_range(&[length], &[])?;
-    in_range(&[length, modulus], &[])?;
-    in_range(&[edge_radius], &[length])?;
-    in_range(&[normal_force], &[modulus])?;
-    in_range(&[edge_radius, normal_force], &[length, modulus])?;
+    in_range(&[length])?;
+    in_range(&[length, modulus])?;
+    quotient_in_range(&[edge_radius], &[length])?;
+    quotient_in_range(&[normal_force], &[modulus])?;
+    quotient_in_range(&[edge_radius, normal_force], &[length, modulus])?;
     // The rounded edge of a flat that is too wide for its load carries less than the rounding of the load.
     let too_wide = exponent_of(&[edge_radius, normal_force], &[length, modulus, flat, flat]) < -900;
     if flat > 0.0 && (exponent_of(&[flat], &[]) > LARGEST_EXPONENT || too_wide) {

@@ -12,6 +12,7 @@
 use crate::numerics::chebyshev::{Interpolant, SeriesPoint};
 use crate::numerics::const_math::tabulate;
 use crate::numerics::polynomial::{self, PolynomialRows, rows};
+use crate::numerics::total::Total;
 use crate::shape::Complement;
 use crate::shape::stick_zone::StickZone;
 
@@ -60,9 +61,7 @@ impl SmallLoadSeries {
 
     /// `Σ c_m f_m τᵐ`.
     fn sum(&self, factors: &SeriesTerms, tau: f64) -> f64 {
-        let used = polynomial::rows_for(tau, RETAINED_TERMS / 4);
-        let pairs = self.curvature.iter().zip(factors).take(used);
-        polynomial::sum(pairs.map(|([a, b, c, d], [f, g, h, i])| [a * f, b * g, c * h, d * i]), tau)
+        polynomial::value(self.terms(factors).part(..polynomial::rows_for(tau, RETAINED_TERMS / 4)), tau)
     }
 
     /// The coefficients c_m f_m.
