@@ -98,7 +98,7 @@ impl Complement {
 }
 
 /// What grows with the size.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Quantity {
     /// Normal force N.
     Load,

@@ -36,7 +36,6 @@ impl Contact {
 }
 
 /// Adds up the energy of segments.
-#[derive(Debug)]
 pub(crate) struct Dissipation<'a> {
     contact: &'a Contact,
     sum: f64,

@@ -109,7 +109,7 @@ pub fn iwan(contact: &Contact, sliders: usize, mut emit: impl FnMut(SpringSlider
 }
 
 /// A corner of the curve of the sliders: shift, and force over mu N.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Clone, Copy, Default)]
 struct Corner {
     shift: f64,
     force: f64,

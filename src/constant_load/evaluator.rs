@@ -10,7 +10,7 @@ use crate::numerics::polynomial::values_and_slopes;
 use crate::shape::Complement;
 
 /// Force \[N\] and tangent stiffness \[N/m\] at a displacement.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Clone, Copy, Default)]
 pub(crate) struct Response {
     pub force: f64,
     pub stiffness: f64,

@@ -76,13 +76,11 @@ pub(crate) fn workspace_size(header: &[f64; HEADER]) -> Result<(Rule, SamplingSi
 }
 
 /// An opened workspace.
-#[derive(Debug)]
 pub struct Workspace<'a> {
     size: SamplingSize,
     by_rule: ByRule<'a>,
 }
 
-#[derive(Debug)]
 enum ByRule<'a> {
     UniformSampling(UniformWorkspace<'a>),
     EventDriven(EventWorkspace<'a>),
@@ -197,7 +195,7 @@ pub(crate) fn harmonic_sensitivity(
 }
 
 /// Quantities requested at each point of the curve.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Clone, Copy, Default)]
 struct RequestedOfCurve {
     force: bool,
     stiffness: bool,

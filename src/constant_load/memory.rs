@@ -14,7 +14,7 @@ use crate::constant_load::contact::Contact;
 use crate::numerics::total::Total;
 
 /// A point of a load history.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 pub(crate) struct Point {
     pub displacement: f64,
     pub force: f64,
@@ -28,7 +28,7 @@ fn point([displacement, force, _]: Reversal) -> Point {
 }
 
 /// The initial loading (backbone) curve of a history.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Clone, Copy, PartialEq)]
 pub(crate) struct InitialCurve {
     /// Displacement at which it starts.
     pub offset: f64,
@@ -55,7 +55,7 @@ impl InitialCurve {
 }
 
 /// A branch of the force-displacement curve: it leaves a reversal, or is the initial loading curve, or gross slip.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub(crate) struct Branch {
     /// Number of reversals on the stack up to the one that this branch leaves; 0 on the initial loading curve.
     pub depth: usize,
@@ -95,7 +95,7 @@ impl Branch {
 }
 
 /// One segment of a step, on one branch: both ends as displacements on the monotonic curve.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub(crate) struct StepSegment {
     /// Masing scale of the branch.
     pub scale: f64,
@@ -106,7 +106,7 @@ pub(crate) struct StepSegment {
 }
 
 /// The memory of one history, for reading.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub(crate) struct Memory<'a> {
     pub initial: InitialCurve,
     pub now: Point,
@@ -115,7 +115,7 @@ pub(crate) struct Memory<'a> {
 }
 
 /// The branch on which a step ends.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub(crate) struct Transition {
     /// The branch on which the step ends.
     pub branch: Branch,
@@ -285,7 +285,7 @@ pub(crate) fn push(
 /// closed. So this sum, with the errors of the branches that leave 1 and 3, bounds the error of the branch that leaves 1 from now on.
 /// The branch that leaves 2 is gone with its error. The mirror point of the oldest reversal serves as the one before it: both describe
 /// the same memory.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub(crate) struct Merge {
     /// Index of the first reversal of the pair.
     pair: usize,

@@ -8,7 +8,6 @@ use crate::numerics::total::Total;
 use crate::parameters::{Sensitivity, times};
 
 /// A contact with friction under a constant normal force in the steady state of a periodic displacement.
-#[derive(Debug)]
 pub(crate) struct SteadyState<'c, 's> {
     pub contact: &'c Contact,
     energy: Option<Dissipation<'c>>,

@@ -47,7 +47,7 @@ pub(crate) struct Table {
 }
 
 /// Position of an argument in a table.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub(crate) struct Position {
     /// Number of the quarter.
     pub index: usize,

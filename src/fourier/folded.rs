@@ -48,7 +48,6 @@ fn weight(n: usize, samples: usize) -> f64 {
 }
 
 /// Tables and scratch memory for a number of samples.
-#[derive(Debug)]
 pub(crate) struct FoldedFourier<'a> {
     samples: usize,
     /// Orders in the table, an even number.

@@ -30,7 +30,6 @@ pub(crate) fn scaled<const N: usize>(scale: f64, row: &Strip<N>) -> Strip<N> {
 
 /// Tables of φ at all samples, and of the antiderivatives A, which are 0 for the constant and otherwise
 /// `A(n) - A(m) = φ(m) + ... + φ(n-1)`. The first strips of all samples come first.
-#[derive(Debug)]
 pub(crate) struct Rows<'a> {
     pub harmonics: usize,
     samples: usize,
@@ -39,7 +38,7 @@ pub(crate) struct Rows<'a> {
 }
 
 /// One strip of all rows.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub(crate) struct RowStrips<'a, const N: usize> {
     /// Whether the strips hold the constant.
     is_first: bool,
@@ -120,7 +119,6 @@ macro_rules! with_strips {
 pub(crate) use with_strips;
 
 /// `Σ Y_j ⊗ φ_j` over some samples j, with a number of rows Y_j of each. Of all rows, the first strips come first.
-#[derive(Debug)]
 pub(crate) struct OuterProducts<'a> {
     row_blocks: usize,
     capacity: usize,
@@ -131,7 +129,6 @@ pub(crate) struct OuterProducts<'a> {
 }
 
 /// One strip of the rows of [`OuterProducts`].
-#[derive(Debug)]
 pub(crate) struct StripTerms<'a, const N: usize, const D: usize> {
     pub count: &'a mut usize,
     pub y: &'a mut [[Strip<N>; D]],

@@ -14,7 +14,6 @@ use super::workspace::{Blocks, Parts};
 use crate::numerics::lanes::Lanes;
 use crate::numerics::total::Total;
 
-#[derive(Debug)]
 pub(crate) struct Assembly<'a> {
     harmonics: usize,
     /// Weight of the sums: 1 over the number of samples.

@@ -44,14 +44,14 @@ static FROM_END: [[f64; 24]; 24] = powers_in(-1.0, 2.0);
 pub(crate) static RECIPROCALS: [f64; TERMS] = tabulate!(TERMS, |n| 1.0 / (n as f64 + 1.0));
 
 /// Value and slope of a function at a point.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Clone, Copy, Default)]
 pub(crate) struct SeriesPoint {
     pub value: f64,
     pub slope: f64,
 }
 
 /// A Chebyshev series: the coefficients of T_0, T_1, ...
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub(crate) struct Interpolant<const N: usize>([f64; N]);
 
 impl<const N: usize> Interpolant<N> {

@@ -87,7 +87,6 @@ impl<T: Zero> Total<T> for [T] {
 }
 
 /// A stack in a slice: what does not fit is lost.
-#[derive(Debug)]
 pub(crate) struct Stack<'a, T> {
     pub values: &'a mut [T],
     pub depth: usize,

@@ -16,7 +16,7 @@ use crate::numerics::quadrature::{Block, MAX_GAUSS_BLOCKS, gauss_legendre, gauss
 use crate::one_direction::diagram::Knot;
 
 /// The path of a step, straight in (S, u).
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub(crate) struct StepPath {
     pub shift: [f64; 2],
     /// Displacement covered.
@@ -47,7 +47,7 @@ impl StepPath {
 }
 
 /// A segment of a path: boundaries of the slip zone and of the contact at both of its ends.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 struct SlipPiece {
     inner: [f64; 2],
     outer: [f64; 2],

@@ -45,7 +45,6 @@ pub fn workspace_init(harmonics: usize, samples: usize, workspace: &mut [f64]) -
 }
 
 /// An opened workspace.
-#[derive(Debug)]
 pub struct OneDirectionWorkspace<'a> {
     size: SamplingSize,
     fourier: FoldedFourier<'a>,
@@ -104,7 +103,7 @@ impl<'a> Layout<'a> for OneDirectionWorkspace<'a> {
 }
 
 /// Properties of a motion.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 struct MotionKind {
     /// u has only odd orders, the normal component only even ones, and the number of samples is even: after half a period ξ and -η
     /// have changed places, and the tangential force its sign.

@@ -7,7 +7,7 @@ use crate::one_direction::diagram::{self, Diagram, Knot};
 use crate::one_direction::energy::{self, StepPath};
 
 /// The header of a state, from which a step starts: displacements, normal state, and the error from merged pieces.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub(crate) struct Header {
     pub displacement: f64,
     pub input: f64,
@@ -16,7 +16,7 @@ pub(crate) struct Header {
 }
 
 /// Where a straight path crosses zero load.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub(crate) struct Crossing {
     pub displacement: f64,
     /// Parts of the path before and after it: by these it moves with the end and with the start of the path.

@@ -60,7 +60,7 @@ pub(crate) struct StickZone {
 }
 
 /// A point of the monotonic curve.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub(crate) struct LoadPoint {
     /// 1 - τ.
     pub remaining: f64,
@@ -71,7 +71,7 @@ pub(crate) struct LoadPoint {
 }
 
 /// Moments of the curvature h'' of the contact without its layer over the load t from 0 to τ, each free of cancellation.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub(crate) struct Moments {
     /// ∫ h'' dt = λ.
     pub increase: f64,

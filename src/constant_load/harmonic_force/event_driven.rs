@@ -46,7 +46,6 @@ fn most_reversals(size: SamplingSize) -> usize {
 }
 
 /// An opened workspace.
-#[derive(Debug)]
 pub(super) struct EventWorkspace<'a> {
     /// The stack of reversals of the law.
     reversals: &'a mut [Reversal],
@@ -54,7 +53,6 @@ pub(super) struct EventWorkspace<'a> {
 }
 
 /// Tables, events and integrals.
-#[derive(Debug)]
 struct Buffers<'a> {
     harmonics: usize,
     grid: Grid<'a>,

@@ -18,7 +18,6 @@ record! {
 }
 
 /// Uniform grid on which reversals are searched.
-#[derive(Debug)]
 pub(super) struct Grid<'a> {
     /// Number of points, even.
     pub points: usize,
@@ -29,7 +28,7 @@ pub(super) struct Grid<'a> {
 }
 
 /// A periodic displacement.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub(super) struct Motion<'a> {
     pub mean: f64,
     pub pairs: &'a [[f64; 2]],

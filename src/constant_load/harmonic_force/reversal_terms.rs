@@ -31,7 +31,6 @@ record! {
 }
 
 /// Tables and memory.
-#[derive(Debug)]
 pub(super) struct ReversalTerms<'a> {
     pub rows: Rows<'a>,
     /// The reversals on the stack.

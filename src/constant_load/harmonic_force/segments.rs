@@ -25,7 +25,7 @@ pub(super) const PANEL: usize = 4 * MAX_GAUSS_BLOCKS;
 type PanelNodes = [[f64; 4]; MAX_GAUSS_BLOCKS];
 
 /// The interval of time between two events.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub(super) struct Segment {
     pub from: f64,
     pub to: f64,
@@ -68,7 +68,6 @@ impl Segment {
 }
 
 /// Fourier sums over the nodes of a panel.
-#[derive(Debug)]
 pub(super) struct NodalFourier<'a> {
     nodes_per_period: usize,
     /// cos and sin of each order at the nodes of a panel.

@@ -20,7 +20,6 @@ use crate::parameters::{PARAMETERS, Sensitivity};
 use crate::tag::Kind;
 
 /// An opened workspace.
-#[derive(Debug)]
 pub(super) struct UniformWorkspace<'a> {
     size: SamplingSize,
     fourier: FoldedFourier<'a>,
@@ -125,7 +124,7 @@ pub(super) fn harmonic_sensitivity(
 }
 
 /// The part of a period that is evaluated: the samples after the farthest one.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 struct FarthestPart {
     farthest: usize,
     length: usize,
@@ -147,7 +146,6 @@ fn sample(count: usize, fourier: &FoldedFourier, displacement: &[f64], samples: 
 }
 
 /// Values at the samples of two periods, of which those of one period are evaluated, and the branches on which they lie.
-#[derive(Debug)]
 struct SampledPath<'a> {
     displacement: &'a mut [f64],
     force: &'a mut [f64],

@@ -6,7 +6,6 @@ use crate::one_direction::harmonic_force::runs::{PieceEnd, Run};
 use crate::one_direction::harmonic_force::samples::Samples;
 
 /// Arrays of the tangential forces.
-#[derive(Debug)]
 pub(super) struct Forces<'a> {
     /// T of the samples.
     pub force: &'a mut [f64],

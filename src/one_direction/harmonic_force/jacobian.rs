@@ -86,7 +86,6 @@ fn weights_of_stuck(
 }
 
 /// Tables and memory.
-#[derive(Debug)]
 pub(super) struct JacobianMemory<'a> {
     pub rows: Rows<'a>,
     pub pieces: &'a mut [Piece],
@@ -101,7 +100,7 @@ pub(super) struct JacobianMemory<'a> {
 }
 
 /// The motion, S at the boundaries of its slip zones, packed, and the forces.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub(super) struct Context<'c> {
     pub element: &'c Element,
     pub samples: &'c Samples<'c>,

@@ -111,7 +111,6 @@ impl RunKnot {
 }
 
 /// The state of a pass along the samples: the stack of knots, and the runs and packed boundaries so far.
-#[derive(Debug)]
 pub(super) struct PeriodicPath<'a> {
     pub knots: Stack<'a, RunKnot>,
     pub runs: Stack<'a, Run>,

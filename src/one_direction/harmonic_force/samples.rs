@@ -5,7 +5,6 @@ use crate::element::Element;
 use crate::numerics::total::Total;
 
 /// Arrays over the samples of a period, continued periodically to whole blocks of four.
-#[derive(Debug)]
 pub(super) struct Samples<'a> {
     pub count: usize,
     pub displacement: &'a mut [f64],
@@ -24,7 +23,7 @@ pub(super) struct Samples<'a> {
 }
 
 /// The part of a period that is evaluated.
-#[derive(Debug, Clone, Copy)]
+#[derive(Clone, Copy)]
 pub(super) struct EvaluatedPart {
     /// First sample: one at which the steady state is known.
     pub start: usize,
