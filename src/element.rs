@@ -116,7 +116,7 @@ pub struct NormalPoint {
 }
 
 /// The normal state of a contact that is closed: load, tangential shift, and their derivatives with respect to the input.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy)]
 pub(crate) struct Normal {
     pub load: f64,
     pub shift: f64,

@@ -153,7 +153,6 @@ pub(crate) fn positive(value: f64, error: Error) -> Result<(), Error> {
 }
 
 /// The parameters that all shapes have.
-#[derive(Clone, Copy)]
 pub(crate) struct Common {
     pub normal_force: f64,
     pub friction_coefficient: f64,
@@ -192,7 +191,6 @@ impl Common {
 }
 
 /// Combined elastic constants of the two bodies: `1/E* = Σ (1-ν²)/E` (Eq. 2) and the fraction of each body in it.
-#[derive(Clone, Copy)]
 pub(crate) struct Pair {
     /// E*, Eq. 2 \[Pa\].
     pub composite_modulus: f64,

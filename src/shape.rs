@@ -84,7 +84,7 @@ of_shapes! {
 }
 
 /// A complementary pair of amounts, `consumed + remaining`. Neither is computed from the other if it is the smaller.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct Complement {
     pub consumed: f64,
     pub remaining: f64,
@@ -98,7 +98,7 @@ impl Complement {
 }
 
 /// What grows with the size.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Quantity {
     /// Normal force N.
     Load,

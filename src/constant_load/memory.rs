@@ -14,7 +14,7 @@ use crate::constant_load::contact::Contact;
 use crate::numerics::total::Total;
 
 /// A point of a load history.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy)]
 pub(crate) struct Point {
     pub displacement: f64,
     pub force: f64,
@@ -28,7 +28,7 @@ fn point([displacement, force, _]: Reversal) -> Point {
 }
 
 /// The initial loading (backbone) curve of a history.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, Copy)]
 pub(crate) struct InitialCurve {
     /// Displacement at which it starts.
     pub offset: f64,
@@ -95,7 +95,6 @@ impl Branch {
 }
 
 /// One segment of a step, on one branch: both ends as displacements on the monotonic curve.
-#[derive(Clone, Copy)]
 pub(crate) struct StepSegment {
     /// Masing scale of the branch.
     pub scale: f64,
@@ -115,7 +114,6 @@ pub(crate) struct Memory<'a> {
 }
 
 /// The branch on which a step ends.
-#[derive(Clone, Copy)]
 pub(crate) struct Transition {
     /// The branch on which the step ends.
     pub branch: Branch,
@@ -285,7 +283,6 @@ pub(crate) fn push(
 /// closed. So this sum, with the errors of the branches that leave 1 and 3, bounds the error of the branch that leaves 1 from now on.
 /// The branch that leaves 2 is gone with its error. The mirror point of the oldest reversal serves as the one before it: both describe
 /// the same memory.
-#[derive(Clone, Copy)]
 pub(crate) struct Merge {
     /// Index of the first reversal of the pair.
     pair: usize,

@@ -38,7 +38,6 @@ pub(crate) struct Rows<'a> {
 }
 
 /// One strip of all rows.
-#[derive(Clone, Copy)]
 pub(crate) struct RowStrips<'a, const N: usize> {
     /// Whether the strips hold the constant.
     is_first: bool,

@@ -47,7 +47,6 @@ impl StepPath {
 }
 
 /// A segment of a path: boundaries of the slip zone and of the contact at both of its ends.
-#[derive(Clone, Copy)]
 struct SlipPiece {
     inner: [f64; 2],
     outer: [f64; 2],

@@ -16,7 +16,6 @@ pub(crate) struct Header {
 }
 
 /// Where a straight path crosses zero load.
-#[derive(Clone, Copy)]
 pub(crate) struct Crossing {
     pub displacement: f64,
     /// Parts of the path before and after it: by these it moves with the end and with the start of the path.

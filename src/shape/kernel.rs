@@ -3,7 +3,6 @@
 use crate::numerics::guard::{TINY, quotient};
 
 /// The kernel of a shape.
-#[derive(Clone, Copy)]
 pub(crate) enum Kernel {
     /// ln(1/s).
     Line,

@@ -19,7 +19,6 @@ pub(crate) fn identity(x: f64) -> Series {
 
 /// A power series whose coefficients are stored from the last to the first, with zeros behind, so that the sums over k of products of
 /// coefficients i and k - i run through contiguous memory.
-#[derive(Clone, Copy)]
 pub(crate) struct Reversed([f64; 2 * ORDER]);
 
 impl Reversed {

@@ -91,7 +91,7 @@ impl Size {
 ///
 /// These are the hyperbolic tangents of half the logarithms of leg/leg_0 and value/value_0. For a constant power of 2 to 3 the
 /// error for a value 20 % away is below 2e-6 of leg.
-#[derive(Clone, Copy, Default)]
+#[derive(Default)]
 pub(crate) struct InversePower {
     leg: f64,
     value: f64,

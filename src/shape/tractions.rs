@@ -19,7 +19,6 @@ use crate::shape::size::Size;
 
 /// A point along the width. The differences are computed from the dimensional lengths: for a nearly flat contact the rounding error of
 /// x/b may exceed the distance from flat to edge.
-#[derive(Clone, Copy)]
 pub(crate) struct SurfacePoint {
     /// |x|/b.
     pub x: f64,

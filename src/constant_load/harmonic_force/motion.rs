@@ -28,7 +28,6 @@ pub(super) struct Grid<'a> {
 }
 
 /// A periodic displacement.
-#[derive(Clone, Copy)]
 pub(super) struct Motion<'a> {
     pub mean: f64,
     pub pairs: &'a [[f64; 2]],

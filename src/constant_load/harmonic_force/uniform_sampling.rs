@@ -124,7 +124,6 @@ pub(super) fn harmonic_sensitivity(
 }
 
 /// The part of a period that is evaluated: the samples after the farthest one.
-#[derive(Clone, Copy)]
 struct FarthestPart {
     farthest: usize,
     length: usize,

@@ -100,7 +100,6 @@ pub(super) struct JacobianMemory<'a> {
 }
 
 /// The motion, S at the boundaries of its slip zones, packed, and the forces.
-#[derive(Clone, Copy)]
 pub(super) struct Context<'c> {
     pub element: &'c Element,
     pub samples: &'c Samples<'c>,
