@@ -180,7 +180,15 @@ pub fn harmonic_force(
             forces.evaluate::<false>(element, samples, cut_shift, runs);
         } else {
             forces.evaluate::<true>(element, samples, cut_shift, runs);
-            let context = Context { element, samples, part, cut_shifts: cut_shift.as_flattened(), forces };
+            let context = Context {
+                element,
+                samples,
+                part,
+                cut_shifts: cut_shift.as_flattened(),
+                cut_loads: forces.cut_load,
+                cut_stiffnesses: forces.cut_stiffness,
+                slopes: forces.slope,
+            };
             sensitivity.gather(&context, runs);
         }
     }

@@ -25,7 +25,6 @@ use crate::fourier::rows::{
 use crate::fourier::workspace::{Blocks, record};
 use crate::numerics::guard::quotient;
 use crate::numerics::total::{Stack, Total, Zero};
-use crate::one_direction::harmonic_force::forces::Forces;
 use crate::one_direction::harmonic_force::runs::{Run, closing};
 use crate::one_direction::harmonic_force::samples::{EvaluatedPart, Samples};
 use crate::one_direction::step::Crossing;
@@ -99,13 +98,16 @@ pub(super) struct JacobianMemory<'a> {
     pub own: [&'a mut [f64]; 2],
 }
 
-/// The motion, S at the boundaries of its slip zones, packed, and the forces.
+/// The motion, and the boundaries of its slip zones, packed: S, N and 1/K_t.
 pub(super) struct Context<'c> {
     pub element: &'c Element,
     pub samples: &'c Samples<'c>,
     pub part: &'c EvaluatedPart,
     pub cut_shifts: &'c [f64],
-    pub forces: &'c Forces<'c>,
+    pub cut_loads: &'c [f64],
+    pub cut_stiffnesses: &'c [f64],
+    /// D of the pieces that samples made by sticking.
+    pub slopes: &'c [f64],
 }
 
 impl Context<'_> {
@@ -132,7 +134,7 @@ impl JacobianMemory<'_> {
 
     /// Writes the weights of φ ⊗ φ of the samples of a run.
     fn write_own(&mut self, context: &Context, run: &Run) {
-        let Context { element, samples, forces, .. } = *context;
+        let Context { element, samples, cut_stiffnesses, .. } = *context;
         let [by_u, by_input] = &mut self.own;
         let (by_u, by_input) = (by_u.part_mut(run.samples()), by_input.part_mut(run.samples()));
         let mu = run.sign * element.friction_coefficient;
@@ -149,7 +151,7 @@ impl JacobianMemory<'_> {
                 by_u.copy_from(run.part_of(samples.stiffness));
             }
             _ => {
-                let cuts = forces.cut_stiffness.part(run.cuts());
+                let cuts = cut_stiffnesses.part(run.cuts());
                 let values = cuts.iter().zip(run.part_of(samples.stiffness)).zip(run.part_of(samples.shift_slope));
                 for ((by_u, by_input), ((cut, stiffness), slope)) in by_u.iter_mut().zip(by_input).zip(values) {
                     *by_u = *cut;
@@ -240,7 +242,7 @@ impl<const N: usize> Gathering<'_, N> {
                     if let Some(piece) = stack.top() {
                         piece.cut = Cut { step: now as u64, count: count as u64, packed: packed.start as u64 };
                     }
-                    let cut = self.context.forces.cut_stiffness.or_zero(packed.end.saturating_sub(1));
+                    let cut = self.context.cut_stiffnesses.or_zero(packed.end.saturating_sub(1));
                     stack.push(Piece { weights: [line.weights[0] - cut, 0.0], parameter: cut, ..line });
                 }
             }
@@ -272,9 +274,9 @@ impl<const N: usize> Gathering<'_, N> {
         let first = self.context.sample_at(step);
         let rows = self.rows.phi.part(first..first + count);
         let packed = packed..packed + count;
-        let Context { cut_shifts, forces, .. } = *self.context;
+        let Context { cut_shifts, cut_loads, cut_stiffnesses, .. } = *self.context;
         let [shifts, loads, stiffnesses] =
-            [cut_shifts, forces.cut_load, forces.cut_stiffness].map(|cuts| cuts.part(packed.clone()));
+            [cut_shifts, cut_loads, cut_stiffnesses].map(|cuts| cuts.part(packed.clone()));
         let [constant, linear] = &mut sums;
         if piece.is_stuck() {
             let inner = self.context.contact_at(self.context.samples.before(piece.sample as usize));
@@ -324,12 +326,12 @@ impl<const N: usize> Gathering<'_, N> {
     /// Adds the sums of a piece that is removed to those of the samples i and j that made it, with the opposite sign: the constant
     /// sum times m_i, the linear one times m_j - m_i.
     fn distribute(&mut self, piece: &Piece, [constant, linear]: &[Strip<N>; 2]) {
-        let Context { element, samples, forces, .. } = *self.context;
+        let Context { element, samples, slopes, .. } = *self.context;
         let (made, sample) = (piece.made, piece.sample as usize);
         let shift_slope = samples.shift_slope.or_zero(sample);
         let mut difference = *linear;
         add_scaled(&mut difference, -1.0, constant);
-        let (before, slope) = (samples.before(sample), forces.slope.or_zero(sample));
+        let (before, slope) = (samples.before(sample), slopes.or_zero(sample));
         let own = (sample, linear, [-1.0, slope * shift_slope]);
         // One call in a loop: the function is long, and inlined.
         let (parts, count) = if !piece.is_stuck() {
