@@ -84,15 +84,14 @@ pub fn iwan(contact: &Contact, sliders: usize, mut emit: impl FnMut(SpringSlider
     }
     let zones = &contact.zones;
     let (mut low, mut high) = (1e-18_f64, 1.0_f64);
-    for _ in 0..100 {
+    while high > low * (1.0 + 1e-6) {
         let error = (low * high).sqrt();
-        if reaches_slip(zones, error, sliders) {
+        let before_slip = |corner: Corner, _| Some(side(zones, &corner, error).1).filter(|next| next.force < 1.0);
+        // Whether that many sides reach mu N.
+        if (0..sliders).try_fold(Corner::default(), before_slip).is_none() {
             high = error;
         } else {
             low = error;
-        }
-        if high <= low * (1.0 + 1e-6) {
-            break;
         }
     }
     let (mut slope, mut corner) = side(zones, &Corner::default(), high);
@@ -147,18 +146,6 @@ fn side(zones: &StickZones, from: &Corner, error: f64) -> (f64, Corner) {
     }
     let shift = from.shift + (1.0 - from.force) / slope.max(f64::MIN_POSITIVE);
     (slope, Corner { shift, force: 1.0, on_curve: 1.0 })
-}
-
-/// Whether the given number of sides reaches mu N.
-fn reaches_slip(zones: &StickZones, error: f64, sides: usize) -> bool {
-    let mut corner = Corner::default();
-    for _ in 0..sides {
-        (_, corner) = side(zones, &corner, error);
-        if corner.force >= 1.0 {
-            return true;
-        }
-    }
-    false
 }
 
 /// The root between `low`, at which the function is <= 0, and `high`, at which it is >= 0: regula falsi; if an end is kept twice in a

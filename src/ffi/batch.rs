@@ -7,7 +7,6 @@ use super::pointers::{
 use super::{mslip_contact, mslip_element};
 use crate::constant_load::ConstantLoad;
 use crate::constant_load::complex_stiffness::{check_amplitude, requested as stiffness_requested};
-use crate::constant_load::contact::Contact;
 use crate::constant_load::harmonic_force::HarmonicOutput;
 use crate::element::{Directions, Element};
 use crate::error::Error;
@@ -131,17 +130,17 @@ struct Items<'a, T> {
 
 impl<'a, T: Copy> Items<'a, T> {
     #[inline(never)]
-    unsafe fn new(
+    unsafe fn new<P>(
         n: usize,
         n_laws: usize,
-        laws: *const T,
+        laws: *const P,
         index: *const i32,
         active: *const i32,
     ) -> Result<Items<'a, T>, Error> {
         // Of the largest items, before arrays of that length are assumed.
         check_length::<f64>(n)?;
         let optional = |flags: *const i32| if flags.is_null() { Ok(None) } else { input(flags, n).map(Some) };
-        Ok(Items { n, laws: input(laws, n_laws)?, index: optional(index)?, active: optional(active)? })
+        Ok(Items { n, laws: input(laws.cast(), n_laws)?, index: optional(index)?, active: optional(active)? })
     }
 
     /// Checks the contacts or elements of all active items, and with each what else belongs to the item.
@@ -288,7 +287,7 @@ pub unsafe extern "C" fn mslip_batch_complex_stiffness(
 ) -> i32 {
     call_batch(n, failed_item, || {
         let (items, amplitude, outputs) = (
-            Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?,
+            Items::new(n, n_contacts, contacts, index, active)?,
             input(amplitude, n)?,
             outputs([k_real, k_imag, dk_real, dk_imag], n)?,
         );
@@ -322,7 +321,7 @@ pub unsafe extern "C" fn mslip_batch_masing_update(
     failed_item: *mut size_t,
 ) -> i32 {
     call_batch(n, failed_item, || {
-        let items = Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?;
+        let items = Items::new(n, n_contacts, contacts, index, active)?;
         let states = (state_length, states_old, states_new);
         update::<ConstantLoad>(items, states, displacement, [force, stiffness, dissipated])
     })
@@ -347,7 +346,7 @@ pub unsafe extern "C" fn mslip_batch_harmonic_force(
     failed_item: *mut size_t,
 ) -> i32 {
     call_batch(n, failed_item, || {
-        let items = Items::new(n, n_contacts, contacts.cast::<Contact>(), index, active)?;
+        let items = Items::new(n, n_contacts, contacts, index, active)?;
         let (mut workspace, outputs) =
             (pointers::workspace(workspace)?, [force, jacobian, dissipated, ptr::null_mut()]);
         let one = workspace.coefficients();
@@ -378,7 +377,7 @@ pub unsafe extern "C" fn mslip_batch_element_update(
     failed_item: *mut size_t,
 ) -> i32 {
     call_batch(n, failed_item, || {
-        let items = Items::new(n, n_elements, elements.cast::<Element>(), index, active)?;
+        let items = Items::<Element>::new(n, n_elements, elements, index, active)?;
         let (states, outputs) = ((state_length, states_old, states_new), [force, tangent, dissipated]);
         with_law!(items.directions(), L => update::<L>(items, states, displacement, outputs))
     })
@@ -405,7 +404,7 @@ pub unsafe extern "C" fn mslip_batch_element_harmonic_force(
     failed_item: *mut size_t,
 ) -> i32 {
     call_batch(n, failed_item, || {
-        let items = Items::new(n, n_elements, elements.cast::<Element>(), index, active)?;
+        let items = Items::<Element>::new(n, n_elements, elements, index, active)?;
         let (directions, size, extent) = pointers::element_workspace_size(workspace)?;
         let memory = output(workspace, extent)?.ok_or(Error::BadWorkspace)?;
         let (one, outputs) = ((directions as usize + 1) * size.coefficients(), [force, jacobian, dissipated, drift]);
