@@ -7,6 +7,7 @@
 //! The tables are filled once and only read afterwards. Each quadrature rule implements [`Layout`].
 
 use crate::error::{Error, ensure};
+use crate::numerics::lanes::Lanes;
 use crate::numerics::total::Total;
 use crate::tag::{Kind, count, stored};
 
@@ -190,6 +191,16 @@ pub(crate) fn records_mut<T: Record>(doubles: &mut [f64]) -> &mut [T] {
     }
 }
 
+/// A record as doubles.
+pub(crate) fn doubles_mut<T: Record>(record: &mut T) -> &mut [f64] {
+    const { assert!(align_of::<T>() == align_of::<f64>()) };
+    // SAFETY: a record has no padding, and accepts all bits of doubles.
+    #[allow(unsafe_code)]
+    unsafe {
+        core::slice::from_raw_parts_mut((&raw mut *record).cast(), size_of::<T>() / size_of::<f64>())
+    }
+}
+
 /// Structs that may occupy the doubles of a workspace: [`record`] defines them.
 ///
 /// # Safety
@@ -209,23 +220,32 @@ unsafe impl Record for u64 {}
 #[allow(unsafe_code)]
 unsafe impl<T: Record, const N: usize> Record for [T; N] {}
 
-/// Defines a struct whose fields are records, and which is one therefore.
+// SAFETY: lanes are an array of numbers.
+#[allow(unsafe_code)]
+unsafe impl<const L: usize> Record for Lanes<L> {}
+
+/// Defines a struct whose fields are records, and which is one therefore. It may have one type as a parameter.
 macro_rules! record {
-    ($(#[$attribute:meta])* $visibility:vis struct $name:ident {
+    ($(#[$attribute:meta])* $visibility:vis struct $name:ident $(<$parameter:ident = $default:ty>)? {
         $($(#[$field_attribute:meta])* $field_visibility:vis $field:ident: $type:ty),+ $(,)?
     }) => {
         $(#[$attribute])*
         #[derive(Debug, Clone, Copy)]
         #[repr(C)]
-        $visibility struct $name {
+        $visibility struct $name $(<$parameter = $default>)? {
             $($(#[$field_attribute])* $field_visibility $field: $type),+
         }
 
         // SAFETY: the fields are records whose size is a multiple of their alignment, that of doubles.
         #[allow(unsafe_code)]
-        unsafe impl $crate::fourier::workspace::Record for $name where $($type: $crate::fourier::workspace::Record),+ {}
+        unsafe impl $(<$parameter: $crate::fourier::workspace::Record>)? $crate::fourier::workspace::Record
+            for $name $(<$parameter>)?
+        where
+            $($type: $crate::fourier::workspace::Record),+
+        {
+        }
 
-        impl $crate::numerics::total::Zero for $name {
+        impl $(<$parameter: $crate::numerics::total::Zero>)? $crate::numerics::total::Zero for $name $(<$parameter>)? {
             fn zero() -> Self {
                 $name { $($field: $crate::numerics::total::Zero::zero()),+ }
             }

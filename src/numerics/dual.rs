@@ -5,7 +5,9 @@ use super::lanes::Lanes;
 use core::ops::{Add, Mul, Sub};
 
 /// A number, with or without derivatives.
-pub(crate) trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
+pub(crate) trait Number:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Mul<f64, Output = Self>
+{
     fn constant(value: f64) -> Self;
     fn value(self) -> f64;
     /// a/b of b >= 0.
@@ -14,12 +16,12 @@ pub(crate) trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Ou
     fn root(self) -> Self;
 
     /// The larger of both, the first one if they are equal.
-    fn or_larger(self, other: Self) -> Self {
+    fn max(self, other: Self) -> Self {
         if other.value() > self.value() { other } else { self }
     }
 
-    /// Between 0 and 1, at both of which derivatives are 0.
-    fn share(self) -> Self {
+    /// The number between 0 and 1; the nearer of both beyond, where derivatives are 0.
+    fn clamp_to_unit(self) -> Self {
         let value = self.value();
         if value > 0.0 && value < 1.0 { self } else { Self::constant(if value > 0.0 { 1.0 } else { 0.0 }) }
     }
@@ -101,5 +103,12 @@ impl<const L: usize> Mul for Dual<L> {
     type Output = Self;
     fn mul(self, other: Self) -> Self {
         Dual { value: self.value * other.value, slopes: self.value * other.slopes + other.value * self.slopes }
+    }
+}
+
+impl<const L: usize> Mul<f64> for Dual<L> {
+    type Output = Self;
+    fn mul(self, factor: f64) -> Self {
+        Dual { value: self.value * factor, slopes: self.slopes * factor }
     }
 }

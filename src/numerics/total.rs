@@ -3,6 +3,7 @@
 //! Every index is inside. The compiler cannot prove it, and `[i]` would compile to a panic, which the library must not contain.
 //! Here a value outside is 0, is not stored, and a part that reaches outside is empty. Arrays of a known length keep `[i]`.
 
+use super::lanes::Lanes;
 use core::slice::SliceIndex;
 
 /// What is read outside.
@@ -19,6 +20,12 @@ impl Zero for f64 {
 impl Zero for u64 {
     fn zero() -> u64 {
         0
+    }
+}
+
+impl<const L: usize> Zero for Lanes<L> {
+    fn zero() -> Self {
+        Lanes::ZERO
     }
 }
 

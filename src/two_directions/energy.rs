@@ -1,35 +1,36 @@
 //! Energy that a step dissipates.
 
-use super::nodes::{Nodes, PerAxis, SHIFT, by_axis};
+use super::nodes::{Nodes, PerAxis, by_axis};
+use super::path::ContactPath;
 use super::shells::ScaledNormalState;
-use super::step::{Displacements, LoadedContact, SMALLEST_LENGTH, SpringMotion, StepWork};
+use super::step::{Displacements, LoadedContact, SMALLEST_LENGTH, StepWork};
 use crate::numerics::guard::{TINY, quotient, root};
 
 /// Energy that the springs dissipate in a step, each from where its path leaves its limit.
 ///
 /// The slip of a spring acts against the mean of two displacements, `k (v_c + v)·(v* - v)/2`. v_c is the first point of the straight path from
 /// v_0 to v* with |v| = m l: the limit moves evenly from its value at the start to that at the end, and m = |v|/l at the end of the step, less
-/// than 1 if neighbours turn the tractions. Towards gross slip v_c is blended, by `blend.part`, with v: the spring slips in its final direction from
+/// than 1 if neighbours turn the tractions. Towards gross slip v_c is blended, by `gross_slip`, with v: the spring slips in its final direction from
 /// the beginning.
 #[inline(never)]
 pub(crate) fn dissipated(
     nodes: &Nodes,
     [from, to]: [&LoadedContact; 2],
-    motion: &SpringMotion,
+    path: &ContactPath,
     step: &StepWork,
     new: &Displacements,
 ) -> f64 {
     let mut energy = if to.now.shift[0] < from.now.shift[0] {
-        separated(nodes, from, &to.now, motion.displacement, &step.old)
+        separated(nodes, from, &to.now, path.displacement, &step.old)
     } else {
         0.0
     };
-    if step.middle.points.set != 0 || step.end.points.set != 0 || step.blend.part > 0.0 {
+    if step.middle_slip.points.set != 0 || step.end_slip.points.set != 0 || step.gross_slip > 0.0 {
         let limits = to.limits(nodes);
-        let follow = by_axis(|axis| step.old.v[axis] + step.parts[axis] * motion.displacement[axis]);
+        let follow = &step.follow;
         for j in to.shells.range() {
             let per_limit = by_axis(|axis| 1.0 / limits[axis][j].max(SMALLEST_LENGTH));
-            let limit_ratio = (from.now.shift[0] - nodes[SHIFT][j]).max(0.0) * per_limit[0];
+            let limit_ratio = (from.now.shift[0] - nodes.shift[0][j]).max(0.0) * per_limit[0];
             let old = by_axis(|axis| step.old.v[axis][j] * per_limit[axis]);
             let trial = by_axis(|axis| follow[axis][j] * per_limit[axis]);
             let end = by_axis(|axis| new.v[axis][j] * per_limit[axis]);
@@ -44,8 +45,8 @@ pub(crate) fn dissipated(
             for axis in 0..2 {
                 let v = new.v[axis][j];
                 let leaves = step.old.v[axis][j] + part * (follow[axis][j] - step.old.v[axis][j]);
-                let leaves = leaves + step.blend.part * ((limit_ratio - limit_drop * part) * v - leaves);
-                energy += 0.5 * step.springs.stiffness[axis][j] * (leaves + v) * (follow[axis][j] - v);
+                let leaves = leaves + step.gross_slip * ((limit_ratio - limit_drop * part) * v - leaves);
+                energy += 0.5 * step.end_springs.stiffness[axis][j] * (leaves + v) * (follow[axis][j] - v);
             }
         }
     }
@@ -66,7 +67,7 @@ pub(crate) fn separated(
     let limits = from.limits(nodes);
     let stiffness = by_axis(|axis| from.shells.stiffness(axis, &quotient(1.0, from.shells.shift_step[axis])));
     for j in from.shells.range() {
-        if now.load > 0.0 && nodes[SHIFT][j] < now.shift[0] {
+        if now.load > 0.0 && nodes.shift[0][j] < now.shift[0] {
             continue;
         }
         let limit = by_axis(|axis| limits[axis][j].max(SMALLEST_LENGTH));

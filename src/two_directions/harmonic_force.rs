@@ -14,22 +14,19 @@
 //! propagated for a few coefficients at once.
 
 use super::matrix::dot;
-use super::nodes::{DIFFERENCE_STEP, Nodes, PerAxis, ROWS, SPRINGS, Units, by_axis, fill, length};
+use super::nodes::{Nodes, PerAxis, Units, by_axis, length};
 use super::path::ContactPath;
 use super::shells::ScaledNormalState;
-use super::step::{Displacements, LoadedContact, SpringMotion, StepWork, within_friction_limit};
-use super::tangent::{
-    ContactSlopes, END, PARAMETERS, ParameterChanges, Propagation, REFERENCE, START, SpringChanges, StepTangent,
-    slopes_of_nodes,
-};
+use super::step::{Displacements, LoadedContact, StepWork, within_friction_limit};
+use super::tangent::{ContactSlopes, ParameterChanges, PerParameter, Propagation, StepTangent};
 use crate::element::{Element, Normal};
 use crate::error::Error;
-use crate::fourier::workspace::{Layout, Parts, SamplingSize, record};
+use crate::fourier::workspace::{Layout, Parts, Record, SamplingSize, doubles_mut, record};
 use crate::fourier::{angle, work};
 use crate::limits::check_coefficients;
 use crate::numerics::guard::quotient;
 use crate::numerics::lanes::Lanes;
-use crate::numerics::total::Total;
+use crate::numerics::total::{Total, Zero};
 use crate::tag::Kind;
 
 pub use crate::fourier::HarmonicOutput;
@@ -59,9 +56,6 @@ const EXTRAPOLATION: f64 = 1.75;
 const BLOCK: usize = 4;
 const COLUMNS: usize = 3 * BLOCK;
 type Columns = Lanes<COLUMNS>;
-/// Changes of springs as rows of columns in the workspace: both directions, and the spring at the edge.
-const CHANGES: usize = 2 * SPRINGS + 2;
-
 record! {
     /// A sample of the motion, and the forces at it.
     struct Sample {
@@ -80,12 +74,14 @@ pub struct TwoDirectionsWorkspace<'a> {
     /// Values of `[1, cos t, sin t, ...]`, sample after sample.
     basis: &'a mut [f64],
     samples: &'a mut [Sample],
-    /// Changes of the springs, and those of both forces, block after block of columns.
-    changes: &'a mut [f64],
-    forces: &'a mut [f64],
+    /// Changes of the springs and of both forces by the coefficients, in blocks of columns.
+    changes: &'a mut [Displacements<Columns>],
+    force_changes: &'a mut [PerAxis<Columns>],
     /// Changes of the springs after the first period.
-    earlier: &'a mut [f64],
-    sums: &'a mut [f64],
+    earlier: &'a mut [Displacements<Columns>],
+    /// Sums of the changes of the forces times each value of the basis, over the samples.
+    sums: &'a mut [PerAxis<Columns>],
+    force: &'a mut [f64],
 }
 
 impl<'a> Layout<'a> for TwoDirectionsWorkspace<'a> {
@@ -98,16 +94,16 @@ impl<'a> Layout<'a> for TwoDirectionsWorkspace<'a> {
     }
 
     fn take(size: SamplingSize, parts: &mut Parts<'a>) -> TwoDirectionsWorkspace<'a> {
-        // One column for each coefficient of the motion, in whole blocks.
-        let (columns, sums) = (COLUMNS * size.coefficients().div_ceil(BLOCK), 2 * size.coefficients());
+        let (n, blocks) = (size.coefficients(), size.coefficients().div_ceil(BLOCK));
         TwoDirectionsWorkspace {
             size,
-            basis: parts.take(size.coefficients() * size.samples),
+            basis: parts.take(n * size.samples),
             samples: parts.take_records(size.samples),
-            changes: parts.take(CHANGES * columns),
-            forces: parts.take(2 * columns),
-            earlier: parts.take(CHANGES * columns),
-            sums: parts.take(sums * columns),
+            changes: parts.take_records(blocks),
+            force_changes: parts.take_records(blocks),
+            earlier: parts.take_records(blocks),
+            sums: parts.take_records(n * blocks),
+            force: parts.take(3 * n),
         }
     }
 
@@ -239,23 +235,23 @@ struct PeriodIntegration<'a> {
     element: &'a Element,
     units: Units,
     nodes: &'a Nodes,
+    /// Derivatives of the nodes by the logarithm of the reference size.
+    by_nodes: &'a Nodes,
     at: [f64; 3],
     /// The contact at the start and at the end of a step.
     from: LoadedContact,
     contact: LoadedContact,
     normal: Normal,
     springs: Displacements,
-    step: &'a mut StepWork,
-    /// Derivatives of the contact before and of the present one, by the normal component and by the reference size, if they are known.
-    slopes: [Option<[ContactSlopes; 2]>; 2],
+    work: &'a mut StepWork,
+    /// Derivatives of the contact before and of the present one, if they are known.
+    slopes: [Option<ContactSlopes>; 2],
     tangent: &'a mut StepTangent,
 }
 
 /// Results of a step other than the springs.
 struct StepForces {
     force: PerAxis<f64>,
-    unbounded: PerAxis<f64>,
-    motion: SpringMotion,
     path: ContactPath,
     closed: [bool; 2],
 }
@@ -264,20 +260,21 @@ impl<'a> PeriodIntegration<'a> {
     /// Pressed by a normal component. The step and its tangent are large: memory of the caller is not copied.
     fn new(
         element: &'a Element,
-        (units, nodes): (Units, &'a Nodes),
+        (units, nodes, by_nodes): (Units, &'a Nodes, &'a Nodes),
         top: f64,
-        (step, tangent): (&'a mut StepWork, &'a mut StepTangent),
+        (work, tangent): (&'a mut StepWork, &'a mut StepTangent),
     ) -> PeriodIntegration<'a> {
         let mut integration = PeriodIntegration {
             element,
             units,
             nodes,
+            by_nodes,
             at: [0.0, 0.0, top],
             from: LoadedContact::default(),
             contact: LoadedContact::default(),
             normal: Normal::OPEN,
             springs: Displacements::NONE,
-            step,
+            work,
             slopes: [None; 2],
             tangent,
         };
@@ -288,24 +285,21 @@ impl<'a> PeriodIntegration<'a> {
     /// Advances to a sample.
     fn advance(&mut self, to: [f64; 3]) -> StepForces {
         let closed = [self.contact.now.load > 0.0, self.element.is_closed(to[2])];
-        let same = closed[0] && to[2].to_bits() == self.at[2].to_bits();
         let path = ContactPath::new(self.element, &self.units, [self.at, to], closed);
-        self.from = self.contact;
-        let motion = SpringMotion { displacement: path.displacement, constant_load: same };
-        self.at = to;
-        let (mut force, mut unbounded) = ([0.0; 2], [0.0; 2]);
+        (self.from, self.at) = (self.contact, to);
+        let mut force = [0.0; 2];
         if closed[1] {
-            if !same {
+            if !path.constant_load {
                 self.press(to[2]);
             }
             let contacts = [&self.from, &self.contact];
-            unbounded = self.step.advance(self.nodes, contacts, &motion, &mut self.springs);
-            force = within_friction_limit(unbounded, self.contact.now.load, 1.0);
+            force = self.work.advance(self.nodes, contacts, &path, &mut self.springs);
+            force = within_friction_limit(force, self.contact.now.load, 1.0);
         } else {
             (self.contact, self.springs, self.normal) = (LoadedContact::default(), Displacements::NONE, Normal::OPEN);
             self.slopes = [None; 2];
         }
-        StepForces { force, unbounded, motion, path, closed }
+        StepForces { force, path, closed }
     }
 
     /// The contact under a normal component that closes it.
@@ -316,97 +310,65 @@ impl<'a> PeriodIntegration<'a> {
             LoadedContact::new(self.nodes, &ScaledNormalState::new(self.element, &self.units, input, &self.normal));
     }
 
-    /// Extrapolates the springs from those a period before.
-    fn extrapolate(&mut self, from: &Displacements) {
-        for axis in 0..2 {
-            extrapolate(&mut self.springs.v[axis].0, &from.v[axis].0);
-        }
-        extrapolate(&mut self.springs.edge, &from.edge);
-    }
-
     /// The change of the force from other springs, over its bound.
     fn change(&self, from: &Displacements) -> f64 {
         let change = by_axis(|axis| {
-            let differences = (self.springs.v[axis] - from.v[axis]).map(f64::abs);
-            dot(&self.step.springs.stiffness[axis], &differences)
+            let differences = (Lanes(self.springs.v[axis]) - Lanes(from.v[axis])).map(f64::abs);
+            dot(&self.work.end_springs.stiffness[axis], &differences)
         });
         quotient(length(change), self.contact.now.load)
     }
 }
 
-/// Changes of the springs and of the forces after a step between samples. `by_top` is the change of the logarithm of the reference size by the
-/// largest normal component over its scale.
+/// Changes of the springs and of the forces after a step between samples: that at the start, that at the end, and that of the largest load.
+/// `by_top` is the change of the logarithm of the reference size by the largest normal component over its scale.
 fn differentiate(
     workspace: &mut TwoDirectionsWorkspace,
     integration: &mut PeriodIntegration,
-    forces: &StepForces,
-    (nodes, by_top): (&Nodes, f64),
+    path: &ContactPath,
+    by_top: f64,
     samples: [Option<usize>; 3],
 ) {
     let n = workspace.coefficients();
     let [start, end, top] = samples.map(|index| index.map_or(&[][..], |index| row(workspace.basis, n, index)));
-    let (per_scale, own_nodes) = (1.0 / integration.element.input_scale(), integration.nodes);
-    let StepForces { motion, path, unbounded, .. } = forces;
-    let PeriodIntegration { from, contact, step, springs, slopes: [first, second], tangent, .. } = integration;
-    let derive = |contact: &LoadedContact| {
-        [ContactSlopes::by_load(own_nodes, contact), ContactSlopes::by_reference(own_nodes, nodes, contact)]
-    };
-    let by_end = &*second.get_or_insert_with(|| derive(contact));
-    let by_start = if motion.constant_load { by_end } else { &*first.get_or_insert_with(|| derive(from)) };
-    let values = (&**step, motion, &*springs);
-    let terms = &mut tangent.terms;
-    terms[END].set(contact, values, [None, Some(&by_end[0])], None);
-    terms[START].set(contact, values, [Some(&by_start[0]), None], None);
-    terms[REFERENCE].set(contact, values, [Some(&by_start[1]), Some(&by_end[1])], Some(nodes));
-    tangent.set_slips(step, motion);
-    let (contacts, tangent) = ([&*from, &*contact], &**tangent);
-    let (forces_x, forces_y) = workspace.forces.split_at_mut(workspace.forces.len() / 2);
-    let blocks = workspace.changes.blocks_mut::<COLUMNS>().blocks_mut::<CHANGES>();
-    let [forces_x, forces_y] = [forces_x, forces_y].map(Total::blocks_mut::<COLUMNS>);
-    for (block, (columns, (to_x, to_y))) in blocks.iter_mut().zip(forces_x.iter_mut().zip(forces_y)).enumerate() {
-        let mut displacement = [Columns::ZERO; 2];
-        let mut parameters = ParameterChanges { tangent, changes: [Lanes::ZERO; PARAMETERS] };
+    let per_scale = 1.0 / integration.element.input_scale();
+    let PeriodIntegration { nodes, by_nodes, from, contact, work, slopes: [first, second], tangent, .. } = integration;
+    let (nodes, contacts) = (*nodes, [&*from, &*contact]);
+    let slopes = |contact| ContactSlopes::new(nodes, Some(by_nodes), contact);
+    let by_end = &*second.get_or_insert_with(|| slopes(contacts[1]));
+    let by_start = if path.constant_load { by_end } else { &*first.get_or_insert_with(|| slopes(contacts[0])) };
+    tangent.set((work, path), contacts, [by_start, by_end], Some(by_nodes));
+    for (block, (springs, forces)) in workspace.changes.iter_mut().zip(&mut *workspace.force_changes).enumerate() {
+        let (mut displacement, mut changes) = ([Columns::ZERO; 2], PerParameter::<Lanes<4>>::default());
         for lane in 0..BLOCK.min(n - BLOCK * block) {
-            let c = BLOCK * block + lane;
+            let [from, to, top] = [start, end, top].map(|basis| basis.or_zero(BLOCK * block + lane));
             for axis in 0..2 {
                 let [per_start, per_end] = path.per_input[axis];
-                displacement[axis][lane] =
-                    per_start * (per_scale * start.or_zero(c)) + per_end * (per_scale * end.or_zero(c));
-                displacement[axis][BLOCK * (axis + 1) + lane] = path.per_distance * (end.or_zero(c) - start.or_zero(c));
+                displacement[axis][lane] = per_start * (per_scale * from) + per_end * (per_scale * to);
+                displacement[axis][BLOCK * (axis + 1) + lane] = path.per_distance * (to - from);
             }
             // The load at the start of the first step is that of the largest one.
-            let [from, to, top] = [start, end, top].map(|basis| per_scale * basis.or_zero(c));
-            parameters.changes[START][lane] = if start.is_empty() { top } else { from };
-            (parameters.changes[END][lane], parameters.changes[REFERENCE][lane]) = (to, by_top * top);
+            changes.start[lane] = per_scale * if start.is_empty() { top } else { from };
+            (changes.end[lane], changes.reference[lane]) = (per_scale * to, by_top * (per_scale * top));
         }
-        let mut changes = SpringChanges {
-            v: by_axis(|axis| core::array::from_fn(|j| Lanes(columns[axis * SPRINGS + j]))),
-            edge: by_axis(|axis| Lanes(columns[2 * SPRINGS + axis])),
-        };
-        let propagation = Propagation { contacts, nodes: own_nodes, motion, step, parameters };
-        let forces = propagation.propagate(&displacement, &mut changes);
-        let forces = propagation.within_friction_limit(*unbounded, forces);
-        for axis in 0..2 {
-            for j in 0..SPRINGS {
-                columns[axis * SPRINGS + j] = changes.v[axis][j].0;
-            }
-            columns[2 * SPRINGS + axis] = changes.edge[axis].0;
-        }
-        (*to_x, *to_y) = (forces[0].0, forces[1].0);
+        let parameters = ParameterChanges { tangent, changes };
+        let propagation = Propagation { contacts, nodes, path, work, parameters };
+        (*springs, *forces) = propagation.propagate(&displacement, springs);
     }
 }
 
-/// Extrapolates values from those a period before.
-fn extrapolate(values: &mut [f64], before: &[f64]) {
-    values.iter_mut().zip(before).for_each(|(value, before)| *value += EXTRAPOLATION * (*value - before));
+/// Extrapolates numbers from those a period before.
+fn extrapolate<T: Record>(record: &mut T, before: &mut T) {
+    let pairs = doubles_mut(record).iter_mut().zip(doubles_mut(before));
+    pairs.for_each(|(value, before)| *value += EXTRAPOLATION * (*value - *before));
 }
 
 /// Changes below this are set to 0, every `FADING` steps: they would decay to subnormal numbers, which are slow.
 const NEGLIGIBLE_CHANGE: f64 = 1e-200;
 const FADING: usize = 8;
 
-fn fade(changes: &mut [f64]) {
-    for x in changes {
+fn fade(changes: &mut Displacements<Columns>) {
+    for x in doubles_mut(changes) {
         *x = if x.abs() > NEGLIGIBLE_CHANGE { *x } else { 0.0 };
     }
 }
@@ -437,17 +399,15 @@ fn integrate_periods(element: &Element, workspace: &mut TwoDirectionsWorkspace, 
     let opens = workspace.samples.iter().any(|sample| !element.is_closed(sample.displacement[2]));
     let periods = if opens { 1 } else { periods };
     let stride = count.checked_div(TRANSIENT_SAMPLES * harmonics).unwrap_or(1).max(1);
-    let mut nodes = [[[0.0; SPRINGS]; ROWS]; 3];
-    fill(&mut nodes[0], element, &units, 1.0);
+    let [mut nodes, mut by_nodes] = [Nodes::zero(); 2];
+    nodes.fill(element, &units, 1.0);
     if derivatives {
-        fill(&mut nodes[1], element, &units, 1.0 + DIFFERENCE_STEP);
-        fill(&mut nodes[2], element, &units, 1.0 - DIFFERENCE_STEP);
-        workspace.changes.fill(0.0);
-        workspace.sums.fill(0.0);
+        by_nodes = Nodes::slopes(element, &units);
+        workspace.changes.fill(Displacements::zero());
+        workspace.sums.fill(Zero::zero());
     }
-    let (mut step, mut tangent) = (StepWork::NONE, StepTangent::NONE);
-    let mut integration = PeriodIntegration::new(element, (units, &nodes[0]), top, (&mut step, &mut tangent));
-    let slopes = slopes_of_nodes([&nodes[1], &nodes[2]]);
+    let (mut work, mut tangent) = (StepWork::NONE, StepTangent::NONE);
+    let mut integration = PeriodIntegration::new(element, (units, &nodes, &by_nodes), top, (&mut work, &mut tangent));
     // The reference size is not that of the largest load if this is below the least reference load.
     let is_reference = integration.normal.load >= units.load * 0.99;
     let by_top = if is_reference { 0.5 * integration.contact.slopes.leg_squared } else { 0.0 };
@@ -464,19 +424,18 @@ fn integrate_periods(element: &Element, workspace: &mut TwoDirectionsWorkspace, 
         let forces = integration.advance(to);
         if derivatives {
             if forces.closed != [true, true] {
-                workspace.changes.fill(0.0);
+                workspace.changes.fill(Displacements::zero());
             } else if step % FADING == 0 {
-                fade(workspace.changes);
+                workspace.changes.iter_mut().for_each(fade);
             }
             if forces.closed[1] {
                 let samples = [before, Some(index), Some(largest)];
-                differentiate(workspace, &mut integration, &forces, (&slopes, by_top), samples);
+                differentiate(workspace, &mut integration, &forces.path, by_top, samples);
             } else {
-                workspace.forces.fill(0.0);
+                workspace.force_changes.fill(Zero::zero());
             }
             if counts {
-                let basis = row(workspace.basis, workspace.size.coefficients(), index);
-                accumulate(workspace.sums, basis, workspace.forces);
+                accumulate(workspace, index);
             }
         }
         before = Some(index);
@@ -490,8 +449,9 @@ fn integrate_periods(element: &Element, workspace: &mut TwoDirectionsWorkspace, 
                 workspace.earlier.copy_from(workspace.changes);
             } else if step == 2 * count && periods > 2 {
                 extrapolated = changes[1];
-                integration.extrapolate(&start);
-                extrapolate(workspace.changes, workspace.earlier);
+                extrapolate(&mut integration.springs, &mut start);
+                let pairs = workspace.changes.iter_mut().zip(&mut *workspace.earlier);
+                pairs.for_each(|(changes, earlier)| extrapolate(changes, earlier));
             }
             start = integration.springs;
         }
@@ -510,15 +470,16 @@ fn write_outputs(
     if let Some(jacobian) = jacobian {
         write_jacobian(workspace, steady.unit, jacobian);
     }
-    // The sums serve the Jacobian only, and have more than as many places as the force.
-    let (sums, n) = (core::mem::take(&mut workspace.sums), workspace.coefficients());
-    if let Some(force) = force.or(sums.get_mut(..3 * n).filter(|_| dissipated.is_some())) {
-        write_force(workspace, force);
-        if let Some(dissipated) = dissipated {
-            *dissipated = work(n, displacement.get(..2 * n).unwrap_or(&[]), force);
-        }
+    if force.is_some() || dissipated.is_some() {
+        transform_force(workspace);
     }
-    workspace.sums = sums;
+    if let Some(dissipated) = dissipated {
+        let n = workspace.coefficients();
+        *dissipated = work(n, displacement.part(..2 * n), workspace.force);
+    }
+    if let Some(force) = force {
+        force.copy_from(workspace.force);
+    }
     if let Some(drift) = drift {
         *drift = steady.drift;
     }
@@ -534,41 +495,47 @@ fn remaining([before, last]: [f64; 2]) -> f64 {
     last * (ratio / (1.0 - ratio)).max(1.0)
 }
 
-fn write_force(workspace: &TwoDirectionsWorkspace, force: &mut [f64]) {
-    let n = workspace.coefficients();
-    let per_sample = 1.0 / workspace.size.samples as f64;
+/// The coefficients of the force, from the samples.
+fn transform_force(workspace: &mut TwoDirectionsWorkspace) {
+    let TwoDirectionsWorkspace { size, basis, samples, force, .. } = workspace;
+    let n = size.coefficients();
     force.fill(0.0);
-    for (sample, basis) in workspace.samples.iter().zip(workspace.basis.chunks_exact(n)) {
+    for (sample, basis) in samples.iter().zip(basis.chunks_exact(n)) {
         let [x, y] = sample.force;
         for (places, value) in force.chunks_exact_mut(n).zip([x, y, sample.load]) {
             for (c, (place, basis)) in places.iter_mut().zip(basis).enumerate() {
-                *place += if c == 0 { per_sample } else { 2.0 * per_sample } * basis * value;
+                *place += weight(size, c) * basis * value;
             }
         }
     }
 }
 
+/// The weight of a sample in a coefficient.
+fn weight(size: &SamplingSize, c: usize) -> f64 {
+    (1.0 / size.samples as f64) * if c == 0 { 1.0 } else { 2.0 }
+}
+
 /// The Jacobian from the sums, and that of the normal force.
 fn write_jacobian(workspace: &TwoDirectionsWorkspace, unit: Option<f64>, jacobian: &mut [f64]) {
-    let (n, per_sample) = (workspace.coefficients(), 1.0 / workspace.size.samples as f64);
-    let columns = workspace.forces.len() / 2;
-    let weight = |c: usize| if c == 0 { per_sample } else { 2.0 * per_sample };
-    let lane = |j: usize| {
-        let (component, coefficient) = ((j / n + 1) % 3, j % n);
-        coefficient / BLOCK * COLUMNS + component * BLOCK + coefficient % BLOCK
-    };
+    let TwoDirectionsWorkspace { size, sums, samples, basis, changes, .. } = workspace;
+    let n = size.coefficients();
     for (j, column) in jacobian.chunks_exact_mut(3 * n).enumerate() {
-        for (c, place) in column.iter_mut().enumerate().take(2 * n) {
-            let sum = workspace.sums.or_zero(c * columns + lane(j));
-            *place = unit.map_or(0.0, |unit| unit * weight(c % n) * sum);
+        // The columns of a block are those of the normal component, of u and of v.
+        let (component, coefficient) = ((j / n + 1) % 3, j % n);
+        let (block, lane) = (coefficient / BLOCK, component * BLOCK + coefficient % BLOCK);
+        column.fill(0.0);
+        for (axis, places) in column.chunks_exact_mut(n).enumerate().take(2) {
+            for (c, place) in places.iter_mut().enumerate() {
+                let sum = sums.or_zero(c * changes.len() + block).as_slice().or_zero(axis).as_slice().or_zero(lane);
+                *place = unit.map_or(0.0, |unit| unit * weight(size, c) * sum);
+            }
         }
-        column.iter_mut().skip(2 * n).for_each(|place| *place = 0.0);
     }
-    for (sample, basis) in workspace.samples.iter().zip(workspace.basis.chunks_exact(n)) {
+    for (sample, basis) in samples.iter().zip(basis.chunks_exact(n)) {
         let slope = sample.load_slope;
         for (column, basis_j) in jacobian.chunks_exact_mut(3 * n).skip(2 * n).zip(basis) {
             for ((c, place), basis_c) in column.iter_mut().skip(2 * n).enumerate().zip(basis) {
-                *place += weight(c) * slope * basis_j * basis_c;
+                *place += weight(size, c) * slope * basis_j * basis_c;
             }
         }
     }
@@ -576,17 +543,17 @@ fn write_jacobian(workspace: &TwoDirectionsWorkspace, unit: Option<f64>, jacobia
 
 /// Row r of a matrix with rows of n columns.
 fn row(matrix: &[f64], n: usize, r: usize) -> &[f64] {
-    matrix.get(r * n..(r + 1) * n).unwrap_or(&[])
+    matrix.part(r * n..(r + 1) * n)
 }
 
-/// Adds the derivatives of both forces times each value of the basis.
-fn accumulate(sums: &mut [f64], basis: &[f64], forces: &[f64]) {
-    let half = forces.len() / 2;
-    let of_both = sums.chunks_exact_mut((half * basis.len()).max(1)).zip(forces.chunks_exact(half.max(1)));
-    for (sums, forces) in of_both {
-        for (sums, value) in sums.chunks_exact_mut(half.max(1)).zip(basis) {
-            for (sums, forces) in sums.blocks_mut::<4>().iter_mut().zip(forces.blocks::<4>()) {
-                *sums = (Lanes(*sums) + *value * Lanes(*forces)).0;
+/// Adds the changes of both forces at a sample, times each value of the basis.
+fn accumulate(workspace: &mut TwoDirectionsWorkspace, sample: usize) {
+    let TwoDirectionsWorkspace { size, basis, force_changes, sums, .. } = workspace;
+    let basis = row(basis, size.coefficients(), sample);
+    for (sums, value) in sums.chunks_exact_mut(force_changes.len().max(1)).zip(basis) {
+        for (sums, forces) in sums.iter_mut().zip(&**force_changes) {
+            for axis in 0..2 {
+                sums[axis] += *value * forces[axis];
             }
         }
     }

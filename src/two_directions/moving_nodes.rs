@@ -4,11 +4,16 @@
 //! load exceeds theirs: so the force is continuous in the load. Moved springs are the polygon of the springs over S. Gross slip of one
 //! direction erases the memory of an overload: there all springs are at their limits, which any nodes represent.
 
-use super::nodes::{FLAT_EDGE, Nodes, PerAxis, SHIFT, Units, by_axis, fill, first_shell, last_node, length};
+use super::nodes::{FLAT_EDGE, NodeNumbers, Nodes, PerAxis, Row, Units, by_axis, length};
 use super::shells::ScaledNormalState;
-use super::step::{Displacements, LoadedContact, SMALLEST_LENGTH, StepWork};
+use super::step::{Displacements, LoadedContact, SMALLEST_LENGTH, StepWork, by_spring};
 use crate::element::Element;
+use crate::fourier::workspace::record;
+use crate::numerics::dual::Number;
 use crate::numerics::guard::quotient;
+use crate::numerics::total::Zero;
+use crate::tag::Kind;
+use core::ops::Range;
 
 /// Gross slip leaves nodes whose load is at most this multiple of the present one: they are accurate enough.
 const LARGEST_LOAD_OF_NODES: f64 = 3.0;
@@ -18,51 +23,63 @@ const SAME_DIRECTION: f64 = 1e-13;
 /// Changes of the load of the nodes that are worth new ones.
 const WORTH_NEW_NODES: f64 = 1e-3;
 
-/// What is known of a contact between two steps; it is open if the normal force is 0.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct ContactState {
-    pub displacement: [f64; 3],
-    pub normal_force: f64,
-    pub load_slope: f64,
-    /// The key of the element whose nodes these are.
-    pub key: f64,
-    pub units: Units,
-    /// The normal state in these units, and its derivatives.
-    pub pressed: [ScaledNormalState; 2],
-    pub springs: Displacements,
+/// Decimal text of 16 significant digits or fewer changes this double, which is halfway between two numbers of 16 digits: the state of a
+/// closed contact is rejected then. Its springs at the edge are so stiff that rounding errors of their limits would be amplified.
+pub(super) const ALL_DIGITS: f64 = 1_000.000_000_000_000_5;
+
+record! {
+    /// What is known of a contact between two steps; it is open if the normal force is 0.
+    pub(super) struct State {
+        pub tag: f64,
+        pub normal_force: f64,
+        pub load_slope: f64,
+        /// Tangential displacements and normal component.
+        pub displacement: [f64; 3],
+        /// The key of the element whose nodes these are.
+        pub key: f64,
+        pub units: Units,
+        /// The normal state in these units, and its derivatives by the normal component over its scale.
+        pub pressed: [ScaledNormalState; 2],
+        pub springs: Displacements,
+        /// First guesses of both slips of a step.
+        pub rotation_guess: PerAxis<Row>,
+        pub all_digits: f64,
+        pub nodes: Nodes,
+    }
 }
 
-impl ContactState {
-    /// A contact that is open.
-    pub fn open_at(displacement: [f64; 3]) -> ContactState {
-        ContactState {
-            displacement,
-            normal_force: 0.0,
-            load_slope: 0.0,
-            key: 0.0,
-            units: Units::default(),
-            pressed: [ScaledNormalState::default(); 2],
-            springs: Displacements::NONE,
-        }
+pub(super) const LENGTH: usize = size_of::<State>() / size_of::<f64>();
+
+impl State {
+    /// The state of a new contact, at a displacement.
+    pub fn open(displacement: [f64; 3]) -> State {
+        State { tag: Kind::TwoDirectionsState.tag(), displacement, ..State::zero() }
+    }
+
+    /// The contact under the present load.
+    pub fn contact(&self) -> LoadedContact {
+        LoadedContact::new(&self.nodes, &self.pressed)
     }
 
     /// Nodes of a load.
     #[inline(never)]
-    pub fn set_nodes(&mut self, element: &Element, nodes: &mut Nodes, load: f64) {
-        let input = self.displacement[2];
+    pub fn set_nodes(&mut self, element: &Element, load: f64) {
+        let [.., input] = self.displacement;
         let normal = element.normal(input);
         self.units = Units::at_load(element, load);
-        fill(nodes, element, &self.units, 1.0);
+        self.nodes.fill(element, &self.units, 1.0);
         self.pressed = ScaledNormalState::new(element, &self.units, input, &normal);
         (self.normal_force, self.load_slope) = (normal.load, normal.load_slope);
     }
 
-    /// Moves the nodes and the springs of a contact to a load.
-    pub fn move_nodes(&mut self, element: &Element, nodes: &mut Nodes, contact: &LoadedContact, load: f64) -> OldNodes {
-        let old = OldNodes { units: self.units, springs: self.springs, nodes: *nodes, contact: *contact };
-        self.set_nodes(element, nodes, load);
-        self.springs = old.moved_to(nodes, &self.pressed[0], &self.units);
-        old
+    /// Moves the nodes and the springs of a contact to a load: the springs before, and the contact with the new nodes.
+    pub fn move_nodes(&mut self, element: &Element, old: &LoadedContact, load: f64) -> (OldSprings, LoadedContact) {
+        let (springs, limits) = (self.springs, old.limits(&self.nodes));
+        let old = OldSprings { shift_unit: self.units.shift, springs, limits, used: old.shells.range() };
+        self.set_nodes(element, load);
+        let contact = self.contact();
+        self.springs = old.moved_to(&contact, &self.units, &self.nodes);
+        (old, contact)
     }
 
     /// Gross slip in one direction erases the memory of an overload, as the innermost spring slips: the load to which the nodes move after a
@@ -80,7 +97,7 @@ impl ContactState {
         }
         let first = contact.shells.innermost();
         let slip = by_axis(|axis| {
-            (step.trial[axis][first] - self.springs.v[axis][first]) / contact.now.shift[axis].max(SMALLEST_LENGTH)
+            (step.follow[axis][first] - self.springs.v[axis][first]) / contact.now.shift[axis].max(SMALLEST_LENGTH)
         });
         let nodes_load = load + (largest - load) / (1.0 + aligned.min(1.0) * length(slip));
         (nodes_load < largest * (1.0 - WORTH_NEW_NODES)).then_some(nodes_load)
@@ -88,43 +105,51 @@ impl ContactState {
 }
 
 /// Springs at nodes of another load.
-pub(super) struct OldNodes {
-    units: Units,
+pub(super) struct OldSprings {
+    shift_unit: f64,
     springs: Displacements,
-    nodes: Nodes,
-    contact: LoadedContact,
+    limits: PerAxis<Row>,
+    used: Range<usize>,
 }
 
-impl OldNodes {
-    /// The springs at new nodes, in their units: their displacements are polygons over S, with the old nodes as corners.
-    pub fn moved_to(&self, nodes: &Nodes, now: &ScaledNormalState, units: &Units) -> Displacements {
-        let (ratio, first) = (self.units.shift / units.shift, self.contact.shells.innermost());
-        let last = last_node(nodes, now.inside_shift[0]);
-        let mut new = Displacements { edge: self.springs.edge.map(|edge| ratio * edge), ..Displacements::NONE };
-        let limits = self.contact.limits(&self.nodes);
+impl OldSprings {
+    /// The springs at the nodes of a contact under the same load, which may have derivatives: their displacements are polygons over S, with the
+    /// old nodes as corners.
+    pub fn moved_to<T: Number>(
+        &self,
+        contact: &LoadedContact,
+        units: &Units,
+        nodes: &impl NodeNumbers<T>,
+    ) -> Displacements<T> {
+        let ratio = self.shift_unit / units.shift;
+        let edge = self.springs.edge.map(|edge| T::constant(ratio * edge));
+        let mut springs = Displacements { v: by_spring(|_, _| T::constant(0.0)), edge };
         for axis in 0..2 {
-            let (limits, old) = (limits[axis], &self.springs.v[axis]);
-            // A flat that was too small for the old nodes moves with the innermost spring.
-            for j in first_shell(nodes)..FLAT_EDGE {
-                new.v[axis][j] = ratio * old[j.max(first)];
-            }
-            for (place, node) in new.v[axis].iter_mut().zip(&nodes[SHIFT + axis]).take(last + 1).skip(FLAT_EDGE) {
-                let corners = limits.iter().zip(old.iter()).take(self.contact.shells.range().end).skip(FLAT_EDGE).rev();
-                *place = ratio * polygon((now.shift[axis] - node) / ratio, corners.map(|(limit, v)| [*limit, *v]));
+            let (limits, old) = (&self.limits[axis], &self.springs.v[axis]);
+            for j in contact.shells.range() {
+                let corners = limits.iter().zip(old).take(self.used.end).skip(FLAT_EDGE).rev();
+                let limit = T::constant(contact.now.shift[axis]) - nodes.get(|nodes| nodes.shift[axis][j]);
+                springs.v[axis][j] = if j >= FLAT_EDGE {
+                    polygon(limit * (1.0 / ratio), corners.map(|(limit, v)| [*limit, *v])) * ratio
+                } else {
+                    // A flat that was too small for the old nodes moves with the innermost spring.
+                    T::constant(ratio * old[self.used.start.min(FLAT_EDGE)])
+                };
             }
         }
-        new
+        springs
     }
 }
 
 /// The value at an abscissa of a polygon that begins at (0, 0).
-fn polygon(at: f64, corners: impl Iterator<Item = [f64; 2]>) -> f64 {
+fn polygon<T: Number>(at: T, corners: impl Iterator<Item = [f64; 2]>) -> T {
     let mut before = [0.0; 2];
     for corner in corners {
-        if corner[0] >= at {
-            return before[1] + quotient(at - before[0], corner[0] - before[0]) * (corner[1] - before[1]);
+        if corner[0] >= at.value() {
+            let slope = quotient(corner[1] - before[1], corner[0] - before[0]);
+            return T::constant(before[1]) + (at - T::constant(before[0])) * slope;
         }
         before = corner;
     }
-    before[1]
+    T::constant(before[1])
 }

@@ -24,9 +24,11 @@
 //! All is in units of N, of S across the line and of the leg, √(s² - a²), of the reference size.
 
 use crate::element::Element;
-use crate::numerics::dual::Number;
+use crate::fourier::workspace::{doubles_mut, record};
+use crate::numerics::dual::{Dual, Number};
 use crate::numerics::guard::{TINY, quotient};
 use crate::numerics::lanes::Lanes;
+use crate::numerics::total::Zero;
 
 /// Springs, one a shell. The first one is under the flat.
 pub(crate) const SPRINGS: usize = 16;
@@ -53,8 +55,8 @@ pub(crate) const FLAT_EDGE: usize = 1;
 const EDGE_SHARE: f64 = 0.765;
 /// The distance from the edge of the last node over that of the first one, in √S.
 const GRADING: f64 = 0.028;
-/// The position of x_i in its shell: in its inner half F_ij/ΔS_j decreases with j. Values from 0.03 to 0.2 are nearly as good.
-/// The rule is used in `fill`, three times, and in `pressure_at_edge`.
+/// The position of x_i in its shell, see [`point_in_shell`]: in its inner half F_ij/ΔS_j decreases with j. Values from 0.03 to 0.2 are nearly as
+/// good.
 const POINT_FRACTION: f64 = 0.05;
 /// Number of intervals in the leg on which the cumulative distribution of the nodes is inverted by linear interpolation. The nodes need not be
 /// exact, but must depend smoothly on the load.
@@ -67,36 +69,37 @@ const LEAST_REFERENCE: f64 = 1.0 / 4096.0;
 
 /// Relative step of the central difference of nodes by the reference size. The error is the square of the step times the third derivative,
 /// up to 1e5 where nodes are close, and the rounding error over the step.
-pub(crate) const DIFFERENCE_STEP: f64 = 1e-6;
+const DIFFERENCE_STEP: f64 = 1e-6;
 
-// Rows of the tables. Those of S have one for each direction, `SHIFT + axis`.
-/// N_j.
-pub(crate) const LOAD: usize = 0;
-/// S_j.
-pub(crate) const SHIFT: usize = 1;
-/// leg_j² = s_j² - a².
-pub(crate) const LEG_SQUARED: usize = 3;
-/// x_i² - a².
-pub(crate) const POINT_SQUARED: usize = 4;
-/// ψ_j in the middle of shell j.
-const PSI: usize = 5;
-/// ΔN_j of whole shells, 1 for those under the flat.
-pub(crate) const LOAD_STEP: usize = 6;
-/// ΔS_j of whole shells, the compliances of those under the flat.
-pub(crate) const SHIFT_STEP: usize = 7;
-/// F_ij of whole shells, a row for each shell j but the last one.
-pub(crate) const PRESSURE: usize = 9;
-pub(crate) const ROWS: usize = PRESSURE + SPRINGS - 1;
+record! {
+    /// Tables of the nodes and shells, in the order of j, and of the points in them.
+    pub(crate) struct Nodes {
+        /// N_j.
+        pub load: Row,
+        /// S_j in both directions.
+        pub shift: PerAxis<Row>,
+        /// leg_j² = s_j² - a².
+        pub leg_squared: Row,
+        /// x_i² - a².
+        pub point_squared: Row,
+        /// ψ_j in the middle of shell j.
+        pub psi: Row,
+        /// ΔN_j of whole shells, 1 for the flat.
+        pub load_step: Row,
+        /// ΔS_j of whole shells in both directions, the compliances for the flat.
+        pub shift_step: PerAxis<Row>,
+        /// F_ij of whole shells, a row for each shell j but the last one.
+        pub pressure: [Row; SPRINGS - 1],
+    }
+}
 
-/// Tables of the nodes.
-pub(crate) type Nodes = [[f64; SPRINGS]; ROWS];
-
-/// The units of the springs: N, S across the line and the leg of the reference size.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
-pub(crate) struct Units {
-    pub load: f64,
-    pub shift: f64,
-    pub leg: f64,
+record! {
+    /// The units of the springs: N, S across the line and the leg of the reference size.
+    pub(crate) struct Units {
+        pub load: f64,
+        pub shift: f64,
+        pub leg: f64,
+    }
 }
 
 impl Units {
@@ -109,83 +112,128 @@ impl Units {
     }
 }
 
-/// The first shell that is not empty.
-pub(crate) fn first_shell(nodes: &Nodes) -> usize {
-    if nodes[LEG_SQUARED][0] < 0.0 { 0 } else { FLAT_EDGE }
-}
+impl Nodes {
+    /// The first shell that is not empty.
+    pub fn first_shell(&self) -> usize {
+        if self.leg_squared[0] < 0.0 { 0 } else { FLAT_EDGE }
+    }
 
-/// The outermost node whose shift across the line is less than the present one.
-pub(crate) fn last_node(nodes: &Nodes, shift: f64) -> usize {
-    FLAT_EDGE + nodes[SHIFT].iter().skip(FLAT_EDGE + 1).filter(|node| **node < shift).count()
-}
+    /// The outermost node whose shift across the line is less than the present one.
+    pub fn last_node(&self, shift: f64) -> usize {
+        FLAT_EDGE + self.shift[0].iter().skip(FLAT_EDGE + 1).filter(|node| **node < shift).count()
+    }
 
-/// Fills the tables of nodes whose reference size is that of the units times a number near 1.
-#[inline(never)]
-pub(crate) fn fill(nodes: &mut Nodes, element: &Element, units: &Units, reference: f64) {
-    *nodes = [[0.0; SPRINGS]; ROWS];
-    let shape = element.shape();
-    let mut flat = shape.flat / units.leg;
-    flat = if flat > SMALLEST_FLAT { flat } else { 0.0 };
-    let half_width = |leg: f64| (flat * flat + leg * leg).sqrt();
-    let legs = legs_of_nodes(element, units, reference);
-    for j in FLAT_EDGE..SPRINGS {
-        let [load, x, y] = if j > FLAT_EDGE { shape.load_and_shifts(legs[j] * units.leg) } else { [0.0; 3] };
-        (nodes[LOAD][j], nodes[LEG_SQUARED][j]) = (load / units.load, legs[j] * legs[j]);
-        (nodes[SHIFT][j], nodes[SHIFT + 1][j]) = (x / units.shift, y / units.shift);
-        let to = if j + 1 < SPRINGS { legs[j + 1] } else { reference };
-        nodes[POINT_SQUARED][j] = legs[j] * legs[j] + {
+    /// Fills the tables for a reference size that is that of the units times a number near 1.
+    #[inline(never)]
+    pub fn fill(&mut self, element: &Element, units: &Units, reference: f64) {
+        *self = Nodes::zero();
+        let shape = element.shape();
+        let mut flat = shape.flat / units.leg;
+        flat = if flat > SMALLEST_FLAT { flat } else { 0.0 };
+        let half_width = |leg: f64| (flat * flat + leg * leg).sqrt();
+        let legs = legs_of_nodes(element, units, reference);
+        for j in FLAT_EDGE..SPRINGS {
+            let [load, x, y] = if j > FLAT_EDGE { shape.load_and_shifts(legs[j] * units.leg) } else { [0.0; 3] };
+            (self.load[j], self.leg_squared[j]) = (load / units.load, legs[j] * legs[j]);
+            (self.shift[0][j], self.shift[1][j]) = (x / units.shift, y / units.shift);
+            let to = if j + 1 < SPRINGS { legs[j + 1] } else { reference };
             let distance = (to - legs[j]) * (to + legs[j]) / (half_width(to) + half_width(legs[j]));
-            POINT_FRACTION * distance * (2.0 * half_width(legs[j]) + POINT_FRACTION * distance)
-        };
-        nodes[PSI][j] = shape.pressure_weight(units.leg * 0.5 * (legs[j] + to));
-    }
-    for j in FLAT_EDGE..SPRINGS - 1 {
-        nodes[LOAD_STEP][j] = nodes[LOAD][j + 1] - nodes[LOAD][j];
-        for axis in 0..2 {
-            nodes[SHIFT_STEP + axis][j] = (nodes[SHIFT + axis][j + 1] - nodes[SHIFT + axis][j]).max(TINY);
+            self.point_squared[j] = legs[j] * legs[j] + point_in_shell(half_width(legs[j]), distance)[0];
+            self.psi[j] = shape.pressure_weight(units.leg * 0.5 * (legs[j] + to));
         }
-        for i in FLAT_EDGE..=j {
-            nodes[PRESSURE + j][i] = pressure(|row, i| nodes[row][i], j, nodes[LEG_SQUARED][j + 1], i);
-        }
-    }
-    if flat > 0.0 {
-        let load_unit = units.load / shape.load_per_square() / (units.leg * units.leg);
-        (nodes[LEG_SQUARED][0], nodes[POINT_SQUARED][0]) =
-            (-flat * flat, (POINT_FRACTION - 1.0) * (POINT_FRACTION + 1.0) * flat * flat);
-        nodes[LOAD_STEP][0] = 1.0;
-        for axis in 0..2 {
-            nodes[SHIFT_STEP + axis][0] = units.load / units.shift * shape.compliance_of_flat(axis);
-        }
-        nodes[PRESSURE][0] = 0.25 * load_unit * (1.0 / POINT_FRACTION).acosh() / flat;
         for j in FLAT_EDGE..SPRINGS - 1 {
-            nodes[PRESSURE + j][0] = pressure(|row, i| nodes[row][i], j, nodes[LEG_SQUARED][j + 1], 0);
+            self.load_step[j] = self.load[j + 1] - self.load[j];
+            for axis in 0..2 {
+                self.shift_step[axis][j] = (self.shift[axis][j + 1] - self.shift[axis][j]).max(TINY);
+            }
+        }
+        if flat > 0.0 {
+            let [inner, outer] = point_in_shell(0.0, flat);
+            (self.leg_squared[0], self.point_squared[0]) = (-flat * flat, -outer);
+            self.load_step[0] = 1.0;
+            for axis in 0..2 {
+                self.shift_step[axis][0] = units.load / units.shift * shape.compliance_of_flat(axis);
+            }
+            let load_unit = units.load / shape.load_per_square() / (units.leg * units.leg);
+            self.pressure[0][0] = 0.25 * load_unit * (flat / inner.sqrt()).acosh() / flat;
+        }
+        let first = self.first_shell();
+        for j in FLAT_EDGE..SPRINGS - 1 {
+            for i in first..=j {
+                self.pressure[j][i] = pressure(self, j, self.leg_squared[j + 1], i);
+            }
+            if j > first {
+                let steps = by_axis(|axis| self.shift_step[axis][j] / self.shift_step[axis][j - 1]);
+                for i in first..j {
+                    self.pressure[j][i] = monotone_pressure(self.pressure[j][i], self.pressure[j - 1][i], steps);
+                }
+            }
         }
     }
-    let first = first_shell(nodes);
-    for j in first + 1..SPRINGS - 1 {
-        let steps = by_axis(|axis| nodes[SHIFT_STEP + axis][j] / nodes[SHIFT_STEP + axis][j - 1]);
-        for i in first..j {
-            nodes[PRESSURE + j][i] = monotone_pressure(nodes[PRESSURE + j][i], nodes[PRESSURE + j - 1][i], steps);
+
+    /// Derivatives of nodes by the logarithm of the reference size.
+    #[inline(never)]
+    pub fn slopes(element: &Element, units: &Units) -> Nodes {
+        let [mut larger, mut smaller] = [Nodes::zero(); 2];
+        larger.fill(element, units, 1.0 + DIFFERENCE_STEP);
+        smaller.fill(element, units, 1.0 - DIFFERENCE_STEP);
+        for (slope, smaller) in doubles_mut(&mut larger).iter_mut().zip(doubles_mut(&mut smaller)) {
+            *slope = (*slope - *smaller) * (0.5 / DIFFERENCE_STEP);
         }
+        larger
     }
 }
 
-/// F_ij of shell j up to a size: `ψ_j [√(s² - x_i²) - √(s_j² - x_i²)]`, from leg² = s² - a² and x_i² - a². The second root is 0 if x_i is
-/// beyond s_j. Free of cancellation. Values of the nodes are given by row and place.
-pub(crate) fn pressure<T: Number>(node: impl Fn(usize, usize) -> T, j: usize, to: T, i: usize) -> T {
-    let (upper, lower) = (to - node(POINT_SQUARED, i), node(LEG_SQUARED, j) - node(POINT_SQUARED, i));
-    let height = upper.root();
-    let rise = (to - node(LEG_SQUARED, j)).quotient(height + lower.root());
-    node(PSI, j) * if lower.value() > 0.0 { rise } else { height }
+/// A source of numbers of the nodes: with derivatives or without.
+pub(crate) trait NodeNumbers<T> {
+    fn get(&self, value: impl Fn(&Nodes) -> f64) -> T;
 }
 
-/// F at the own point of the last shell, which lies at the same part of it as in a whole shell.
-pub(crate) fn pressure_at_edge<T: Number>(node: impl Fn(usize, usize) -> T, j: usize, to: T) -> T {
-    let flat = node(LEG_SQUARED, 0);
-    let [outer, inner] = [to, node(LEG_SQUARED, j)].map(|square| (square - flat).root());
-    let distance = (to - node(LEG_SQUARED, j)).quotient(outer + inner);
-    let [inner_part, outer_part] = [1.0 - POINT_FRACTION, 1.0 + POINT_FRACTION].map(T::constant);
-    node(PSI, j) * (inner_part * distance * (inner + inner + outer_part * distance)).root()
+impl NodeNumbers<f64> for Nodes {
+    fn get(&self, value: impl Fn(&Nodes) -> f64) -> f64 {
+        value(self)
+    }
+}
+
+/// Nodes and their derivatives by one parameter, if they have any.
+pub(crate) type NodesAndSlopes<'a> = (&'a Nodes, Option<&'a Nodes>);
+
+impl NodeNumbers<Dual<1>> for NodesAndSlopes<'_> {
+    fn get(&self, value: impl Fn(&Nodes) -> f64) -> Dual<1> {
+        let (nodes, slopes) = self;
+        Dual { value: value(nodes), slopes: Lanes([slopes.map_or(0.0, value)]) }
+    }
+}
+
+/// The point x_i of a shell from a half-width s over a distance d: `[x_i² - s², (s + d)² - x_i²]`.
+fn point_in_shell<T: Number>(half_width: T, distance: T) -> [T; 2] {
+    let (to_point, from_point) = (distance * POINT_FRACTION, distance * (1.0 - POINT_FRACTION));
+    let twice = half_width + half_width + to_point;
+    [to_point * twice, from_point * (twice + distance)]
+}
+
+/// F_ij of shell j up to a size: `ψ_j [√(s² - x_i²) - √(s_j² - x_i²)]`, from leg² = s² - a². The second root is 0 if x_i is beyond s_j. Free of
+/// cancellation.
+pub(crate) fn pressure<T: Number>(nodes: &impl NodeNumbers<T>, j: usize, to: T, i: usize) -> T {
+    let [point, inner, psi] = [
+        nodes.get(|nodes| nodes.point_squared[i]),
+        nodes.get(|nodes| nodes.leg_squared[j]),
+        nodes.get(|nodes| nodes.psi[j]),
+    ];
+    let (height, lower) = ((to - point).root(), inner - point);
+    let rise = (to - inner).quotient(height + lower.root());
+    psi * if lower.value() > 0.0 { rise } else { height }
+}
+
+/// F at the own point of the last shell.
+pub(crate) fn pressure_at_edge<T: Number>(nodes: &impl NodeNumbers<T>, j: usize, to: T) -> T {
+    let [flat, inner, psi] = [
+        nodes.get(|nodes| nodes.leg_squared[0]),
+        nodes.get(|nodes| nodes.leg_squared[j]),
+        nodes.get(|nodes| nodes.psi[j]),
+    ];
+    let [outer_width, half_width] = [to, inner].map(|square| (square - flat).root());
+    psi * point_in_shell(half_width, (to - inner).quotient(outer_width + half_width))[1].root()
 }
 
 /// F_ij cut so that F_ij/ΔS_j does not exceed that of the shell before, given the ratios of ΔS of both.

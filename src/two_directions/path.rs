@@ -5,12 +5,14 @@ use crate::element::Element;
 
 /// A motion over more than this many slip displacements is shortened to it: the force does not depend on the rest, and the energy is
 /// proportional.
-pub(super) const LONGEST: f64 = 1e9;
+pub(super) const MAX_MOTION: f64 = 1e9;
 
 /// Displacement of the springs and its derivatives, between contacts of which at least one is closed.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct ContactPath {
+pub(crate) struct ContactPath {
     pub displacement: PerAxis<f64>,
+    /// Whether the normal component is that of the start, bit by bit.
+    pub constant_load: bool,
     pub per_distance: f64,
     /// Derivatives by the normal component over its scale at the start and at the end, in each direction.
     pub per_input: PerAxis<[f64; 2]>,
@@ -32,13 +34,14 @@ impl ContactPath {
         };
         let per_unit = 1.0 / (element.friction_coefficient * units.shift);
         let distance = [to[0] - from[0], to[1] - from[1]].map(|distance| distance * per_unit);
-        let longest = (part * distance[0].abs().max(distance[1].abs())).max(LONGEST);
-        let per_scale = LONGEST / longest;
+        let longest = (part * distance[0].abs().max(distance[1].abs())).max(MAX_MOTION);
+        let per_scale = MAX_MOTION / longest;
         ContactPath {
+            constant_load: closed == [true, true] && start.to_bits() == end.to_bits(),
             displacement: distance.map(|distance| part * distance * per_scale),
             per_distance: part * per_unit * per_scale,
             per_input: distance.map(|distance| slopes.map(|slope| distance * slope * per_scale)),
-            scale: longest / LONGEST,
+            scale: longest / MAX_MOTION,
         }
     }
 }

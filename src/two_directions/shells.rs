@@ -12,27 +12,35 @@
 //! of a step is the contact whose shells are the means of those at both ends.
 
 use super::nodes::{
-    FLAT_EDGE, LOAD, LOAD_STEP, Matrix, Nodes, PRESSURE, PerAxis, Row, SHIFT, SHIFT_STEP, SPRINGS, Units, by_axis,
-    first_shell, last_node, monotone_pressure, pressure, pressure_at_edge,
+    FLAT_EDGE, Matrix, NodeNumbers, Nodes, NodesAndSlopes, PerAxis, Row, SPRINGS, Units, by_axis, monotone_pressure,
+    pressure, pressure_at_edge,
 };
 use crate::element::{Element, Normal, SMALLEST_LOAD};
+use crate::fourier::workspace::record;
 use crate::numerics::dual::{Dual, Number};
 use crate::numerics::guard::quotient;
 use crate::numerics::lanes::Lanes;
 use core::ops::Range;
 
-/// The normal state in the units of the springs: N, S of both directions, leg²; N and S of a slightly smaller size, inside the edge.
-#[derive(Debug, Clone, Copy, Default)]
-pub(crate) struct ScaledNormalState<T = f64> {
-    pub load: T,
-    pub shift: PerAxis<T>,
-    pub leg_squared: T,
-    pub inside: T,
-    pub inside_shift: PerAxis<T>,
+record! {
+    /// The normal state in the units of the springs: N, S of both directions, leg²; N and S of a slightly smaller size, inside the edge.
+    pub(crate) struct ScaledNormalState<T = f64> {
+        pub load: T,
+        pub shift: PerAxis<T>,
+        pub leg_squared: T,
+        pub inside: T,
+        pub inside_shift: PerAxis<T>,
+    }
+}
+
+impl Default for ScaledNormalState {
+    fn default() -> ScaledNormalState {
+        ScaledNormalState::NONE
+    }
 }
 
 /// Values of a normal state.
-pub(crate) const VALUES: usize = 7;
+const VALUES: usize = 7;
 
 /// The normal component of the size inside the edge over the present one. The spring between both makes the stuck stiffness exact, to the
 /// part by which this differs from 1.
@@ -106,46 +114,39 @@ impl Shells {
     };
 
     pub fn new(nodes: &Nodes, now: &ScaledNormalState) -> Shells {
-        let last = last_node(nodes, now.inside_shift[0] * (1.0 - THINNEST)).min(SPRINGS - 1);
-        let mut shells = Shells::before(Some(nodes), first_shell(nodes), last);
-        shells.set_last(nodes, now);
+        let last = nodes.last_node(now.inside_shift[0] * (1.0 - THINNEST)).min(SPRINGS - 1);
+        let mut shells = Shells::whole(Some(nodes), nodes.first_shell(), last);
+        let shell = LastShell::new([shells.first, last], nodes, now);
+        shells.set_last(&shell, |value| value);
         shells
     }
 
-    /// The shells from one to the one before the last one, with the tables of nodes or without.
-    pub fn before(nodes: Option<&Nodes>, first: usize, last: usize) -> Shells {
+    /// The shells from one to the one before the last one, which do not depend on the load; 0 without tables of nodes.
+    fn whole(nodes: Option<&Nodes>, first: usize, last: usize) -> Shells {
         let mut shells = Shells { first, last: last.min(SPRINGS - 1), ..Shells::NONE };
-        for j in 0..shells.last {
-            for axis in 0..2 {
-                shells.load_step[axis][j] = nodes.map_or(0.0, |nodes| nodes[LOAD_STEP][j]);
-                shells.shift_step[axis][j] = nodes.map_or(0.0, |nodes| nodes[SHIFT_STEP + axis][j]);
+        if let Some(nodes) = nodes {
+            for j in 0..shells.last {
+                for axis in 0..2 {
+                    shells.load_step[axis][j] = nodes.load_step[j];
+                    shells.shift_step[axis][j] = nodes.shift_step[axis][j];
+                }
             }
         }
         shells
     }
 
-    /// Sets the last shell.
-    fn set_last(&mut self, nodes: &Nodes, now: &ScaledNormalState) {
-        let shell = LastShell::new([self.first, self.last], |row, i| nodes[row][i], now);
-        self.put_last(&shell, |value| value);
-    }
-
-    /// Sets the derivatives of the last shell, from those of the normal state and of the nodes by one parameter.
-    pub fn set_last_slopes(
-        &mut self,
-        nodes: &Nodes,
-        of: &Shells,
-        [now, slopes]: [&ScaledNormalState; 2],
-        by_nodes: Option<&Nodes>,
-    ) {
-        let dual = |value, slope| Dual { value, slopes: Lanes([slope]) };
-        let node = |row: usize, i: usize| dual(nodes[row][i], by_nodes.map_or(0.0, |nodes| nodes[row][i]));
+    /// Derivatives of the shells by one parameter, from those of the normal state and of the nodes.
+    pub fn slopes(&self, nodes: NodesAndSlopes, [now, slopes]: [&ScaledNormalState; 2]) -> Shells {
+        let mut shells = Shells::whole(nodes.1, self.first, self.last);
         let (now, slopes) = (now.values(), slopes.values());
-        let now = ScaledNormalState::from_values(core::array::from_fn(|i| dual(now[i], slopes[i])));
-        self.put_last(&LastShell::new([of.first, of.last], node, &now), |value: Dual<1>| value.slopes[0]);
+        let dual = |i: usize| Dual { value: now[i], slopes: Lanes([slopes[i]]) };
+        let now = ScaledNormalState::from_values(core::array::from_fn(dual));
+        let shell = LastShell::new([self.first, self.last], &nodes, &now);
+        shells.set_last(&shell, |value: Dual<1>| value.slopes[0]);
+        shells
     }
 
-    fn put_last<T: Number>(&mut self, shell: &LastShell<T>, part: impl Fn(T) -> f64) {
+    fn set_last<T: Number>(&mut self, shell: &LastShell<T>, part: impl Fn(T) -> f64) {
         let last = self.last.min(SPRINGS - 1);
         for axis in 0..2 {
             self.load_step[axis][last] = part(shell.load_step[axis]);
@@ -159,7 +160,7 @@ impl Shells {
     fn pressure(&self, nodes: Option<&Nodes>, j: usize) -> Row {
         match nodes {
             _ if j == self.last => self.last_pressure,
-            Some(nodes) if j < self.last => nodes.get(PRESSURE + j).map_or(Row::ZERO, |row| Lanes(*row)),
+            Some(nodes) if j < self.last => nodes.pressure[j.min(SPRINGS - 2)],
             _ => Row::ZERO,
         }
     }
@@ -212,23 +213,25 @@ struct LastShell<T> {
 }
 
 impl<T: Number> LastShell<T> {
-    /// The last shell, given the first and the last one. `node(row, j)` reads the tables of the nodes, with derivatives or without.
-    fn new([first, last]: [usize; 2], node: impl Fn(usize, usize) -> T, now: &ScaledNormalState<T>) -> LastShell<T> {
+    /// The last shell, given the first and the last one.
+    fn new([first, last]: [usize; 2], nodes: &impl NodeNumbers<T>, now: &ScaledNormalState<T>) -> LastShell<T> {
         let last = last.min(SPRINGS - 1);
         let next_to_last = last.max(1) - 1;
-        let shift_step = by_axis(|axis| now.shift[axis] - node(SHIFT + axis, last));
+        let (load, shift) =
+            (nodes.get(|nodes| nodes.load[last]), by_axis(|axis| nodes.get(|nodes| nodes.shift[axis][last])));
+        let shift_step = by_axis(|axis| now.shift[axis] - shift[axis]);
         // The polygon of N(S) has its last corner at the size inside.
-        let secant =
-            by_axis(|axis| (now.inside - node(LOAD, last)).quotient(now.inside_shift[axis] - node(SHIFT + axis, last)));
+        let secant = by_axis(|axis| (now.inside - load).quotient(now.inside_shift[axis] - shift[axis]));
         let outer = by_axis(|axis| (now.load - now.inside).quotient(now.shift[axis] - now.inside_shift[axis]));
-        let steps = by_axis(|axis| shift_step[axis].quotient(node(SHIFT_STEP + axis, next_to_last)));
+        let steps = by_axis(|axis| shift_step[axis].quotient(nodes.get(|nodes| nodes.shift_step[axis][next_to_last])));
         let mut pressures = [T::constant(0.0); SPRINGS];
         for i in first..last {
-            let own = pressure(&node, last, now.leg_squared, i);
-            let bound = monotone_pressure(own, node(PRESSURE + next_to_last, i), steps);
+            let own = pressure(nodes, last, now.leg_squared, i);
+            let bound =
+                monotone_pressure(own, nodes.get(|nodes| nodes.pressure[next_to_last.min(SPRINGS - 2)][i]), steps);
             pressures[i] = if i <= next_to_last { bound } else { own };
         }
-        pressures[last] = pressure_at_edge(&node, last, now.leg_squared);
+        pressures[last] = pressure_at_edge(nodes, last, now.leg_squared);
         LastShell {
             load_step: by_axis(|axis| secant[axis] * shift_step[axis]),
             shift_step,

@@ -21,7 +21,7 @@ use crate::numerics::lanes::Lanes;
 use crate::numerics::total::Total;
 
 /// Bits of points.
-pub(crate) type Set = u32;
+pub(crate) type PointSet = u32;
 
 /// Newton steps, and changes of the set, after which a guess is given up.
 const MAX_STEPS: usize = 60;
@@ -54,11 +54,13 @@ const SAME_TURN_COSINE: f64 = 0.5;
 #[repr(align(32))]
 pub(crate) struct Slip {
     pub points: Points,
+    /// The trial state.
+    pub trial: PerAxis<Row>,
     /// Tangents of half the angles from q* to q of points that slip: the first guess of the next step.
-    pub turned: Row,
+    pub rotation_guess: Row,
     /// -J⁻¹ of the last iteration that needed a new one, and its points.
     inverse: Matrix,
-    inverse_of: Set,
+    inverse_of: PointSet,
 }
 
 /// The metric K of a set of slipping points under a load: from the innermost one on, with the points that stick eliminated.
@@ -66,7 +68,7 @@ pub(crate) struct Slip {
 pub(crate) struct Metric {
     matrices: PerAxis<Matrix>,
     /// The set and the load of K. K is computed anew if either differs, and always for `NEVER_REUSED`.
-    computed_for: (Set, f64),
+    computed_for: (PointSet, f64),
 }
 
 impl Metric {
@@ -78,7 +80,7 @@ impl Metric {
 /// The points of a contact after slip.
 pub(crate) struct Points {
     /// The points that slip, the innermost one, and a mask of 1 and 0.
-    pub set: Set,
+    pub set: PointSet,
     pub first: usize,
     slips: Row,
     /// Directions of the tractions of points that slip, tractions, slip, and the springs.
@@ -97,32 +99,33 @@ impl Slip {
     pub const NONE: Slip = {
         let rows = [Row::ZERO; 2];
         let points = Points { set: 0, first: 0, slips: Row::ZERO, e: rows, q: rows, r: rows, v: rows };
-        Slip { points, turned: Row::ZERO, inverse: [Row::ZERO; SPRINGS], inverse_of: 0 }
+        Slip { points, trial: rows, rotation_guess: Row::ZERO, inverse: [Row::ZERO; SPRINGS], inverse_of: 0 }
     };
 
     /// Finds the slip from a trial state of springs under a load.
-    pub fn find(&mut self, metric: &mut Metric, springs: &Springs, trial: &PerAxis<Row>, load: f64) {
-        let q = springs.tractions(trial);
+    pub fn find(&mut self, metric: &mut Metric, springs: &Springs, trial: PerAxis<Row>, load: f64) {
+        self.trial = trial;
+        let q = springs.tractions(&trial);
         let [x, y] = directions(&q);
         let mut beyond = points_above(&square(&q), &Lanes([SQUARED_SLIP_THRESHOLD; SPRINGS]));
         let points = &mut self.points;
-        (points.set, points.v, points.q, points.r) = (beyond, *trial, q, [Row::ZERO; 2]);
+        (points.set, points.v, points.q, points.r) = (beyond, trial, q, [Row::ZERO; 2]);
         if beyond == 0 {
             return;
         }
-        // First guess: if a point slips, so do those outside that are near their bound, and those inside that turned in the step before.
+        // First guess: if a point slips, so do those outside that are near their bound, and those inside that rotation_guess in the step before.
         beyond |= points_above(&square(&q), &Lanes([EXPECTED_SLIP * EXPECTED_SLIP; SPRINGS]))
-            & within([beyond.trailing_zeros() as usize, SPRINGS]);
-        let turned_before = points_above(&self.turned.map(f64::abs), &Row::ZERO);
+            & points_in([beyond.trailing_zeros() as usize, SPRINGS]);
+        let rotated_before = points_above(&self.rotation_guess.map(f64::abs), &Row::ZERO);
         for _ in 0..SPRINGS {
-            beyond |= beyond >> 1 & turned_before;
+            beyond |= beyond >> 1 & rotated_before;
         }
         (points.set, points.e) = (beyond, [x, y]);
-        points.turn(&(2.0 * (lanes_of(beyond) * self.turned)));
+        points.turn(&(2.0 * (mask_of(beyond) * self.rotation_guess)));
         // Sweeps converge from any guess: after the last attempt their directions, which are near the solution, are kept.
         let mut swept = q;
         for _ in 0..ATTEMPTS {
-            if self.newton(metric, springs, [trial, &q], load) {
+            if self.newton(metric, springs, &q, load) {
                 break;
             }
             (self.points.e, self.points.set) = sweep(springs, &q, &mut swept);
@@ -130,17 +133,17 @@ impl Slip {
         let Points { e, slips, .. } = &self.points;
         let (cos, sin) = (x * e[0] + y * e[1], x * e[1] - y * e[0]);
         let near = cos.map(|cos| if cos > SAME_TURN_COSINE { 1.0 } else { 0.0 });
-        self.turned = near * *slips * sin / (1.0 + cos.max(0.0));
+        self.rotation_guess = near * *slips * sin / (1.0 + cos.max(0.0));
     }
 
     /// Newton's method from present directions; whether it converged.
-    fn newton(&mut self, metric: &mut Metric, springs: &Springs, [trial, q]: [&PerAxis<Row>; 2], load: f64) -> bool {
-        let Slip { points, inverse, inverse_of, .. } = self;
+    fn newton(&mut self, metric: &mut Metric, springs: &Springs, q: &PerAxis<Row>, load: f64) -> bool {
+        let Slip { points, trial, inverse, inverse_of, .. } = self;
         let Metric { matrices, computed_for } = metric;
         let mut steps = 0;
         'sets: for _ in 0..MAX_SET_CHANGES {
             points.first = (points.set.trailing_zeros() as usize).min(SPRINGS);
-            points.slips = lanes_of(points.set);
+            points.slips = mask_of(points.set);
             let range = [points.first, springs.shells.range().end];
             if *computed_for != (points.set, load) {
                 set_metric(matrices, springs, range, points.set);
@@ -188,7 +191,7 @@ impl Slip {
 impl Points {
     /// Slip, whose part across the directions is the residual, and tractions of points that stick.
     fn residual(&mut self, metric: &PerAxis<Matrix>, q: &PerAxis<Row>, range: [usize; 2]) -> Row {
-        let inside = lanes_of(within(range)) * (1.0 - self.slips);
+        let inside = mask_of(points_in(range)) * (1.0 - self.slips);
         for axis in 0..2 {
             let sum = times(&metric[axis], range, &(self.slips * (q[axis] - self.e[axis])));
             self.r[axis] = self.slips * sum;
@@ -246,7 +249,7 @@ impl Points {
         let (backwards, slips) = (points_above(&(-self.along()), &(BACKSLIP_TOLERANCE * scale)), beyond & !before);
         self.set = before & !backwards | slips;
         for axis in 0..2 {
-            self.e[axis] += lanes_of(slips) * (directions[axis] - self.e[axis]);
+            self.e[axis] += mask_of(slips) * (directions[axis] - self.e[axis]);
         }
         self.set != before
     }
@@ -264,10 +267,10 @@ fn directions(q: &PerAxis<Row>) -> PerAxis<Row> {
 }
 
 /// The points at which values exceed limits.
-fn points_above(values: &Row, limits: &Row) -> Set {
+fn points_above(values: &Row, limits: &Row) -> PointSet {
     let mut set = 0;
     for i in 0..SPRINGS {
-        set |= Set::from(values[i] > limits[i]) << i;
+        set |= PointSet::from(values[i] > limits[i]) << i;
     }
     set
 }
@@ -289,7 +292,7 @@ fn set_full_metric(metric: &mut PerAxis<Matrix>, springs: &Springs, first: usize
 }
 
 /// Sets K of a set of points, the innermost of which is the first of a range: the others in it are eliminated.
-pub(crate) fn set_metric(metric: &mut PerAxis<Matrix>, springs: &Springs, [first, end]: [usize; 2], set: Set) {
+pub(crate) fn set_metric(metric: &mut PerAxis<Matrix>, springs: &Springs, [first, end]: [usize; 2], set: PointSet) {
     set_full_metric(metric, springs, first);
     for axis in 0..2 {
         for i in first..end.min(SPRINGS) {
@@ -301,7 +304,7 @@ pub(crate) fn set_metric(metric: &mut PerAxis<Matrix>, springs: &Springs, [first
 }
 
 /// 1 at the points of a set, 0 at others.
-pub(crate) fn lanes_of(set: Set) -> Row {
+pub(crate) fn mask_of(set: PointSet) -> Row {
     let mut row = Row::ZERO;
     for i in 0..SPRINGS {
         row[i] = if set >> i & 1 == 1 { 1.0 } else { 0.0 };
@@ -310,14 +313,14 @@ pub(crate) fn lanes_of(set: Set) -> Row {
 }
 
 /// The points of a range.
-pub(crate) fn within([first, end]: [usize; 2]) -> Set {
+pub(crate) fn points_in([first, end]: [usize; 2]) -> PointSet {
     ((1 << end.min(31)) - 1) & !((1 << first.min(31)) - 1)
 }
 
 /// Sweeps of the points, each of which moves towards the nearest traction within its bound: directions, and the points at the bound.
 #[cold]
 #[inline(never)]
-fn sweep(springs: &Springs, trial: &PerAxis<Row>, q: &mut PerAxis<Row>) -> (PerAxis<Row>, Set) {
+fn sweep(springs: &Springs, trial: &PerAxis<Row>, q: &mut PerAxis<Row>) -> (PerAxis<Row>, PointSet) {
     let mut metric = [[Row::ZERO; SPRINGS]; 2];
     set_full_metric(&mut metric, springs, springs.shells.first);
     let mut set = 0;
@@ -331,7 +334,7 @@ fn sweep(springs: &Springs, trial: &PerAxis<Row>, q: &mut PerAxis<Row>) -> (PerA
                 to[axis] = q[axis][i] + per * dot(&metric[axis][i], &(trial[axis] - q[axis]));
             }
             let length = length(to);
-            set |= Set::from(length > 1.0) << i;
+            set |= PointSet::from(length > 1.0) << i;
             for axis in 0..2 {
                 q[axis][i] = to[axis] / length.max(1.0);
             }

@@ -13,12 +13,14 @@
 //!
 //! The bounds beside the points are formulas of any number. With numbers that carry derivatives they are their own tangent.
 
-use super::matrix::dot;
-use super::nodes::{Nodes, PerAxis, Row, SHIFT, SPRINGS, by_axis};
+use super::nodes::{Nodes, PerAxis, Row, SPRINGS, by_axis};
+use super::path::ContactPath;
 use super::shells::{ScaledNormalState, Shells, Springs};
-use super::slip::{Metric, Slip, lanes_of, within};
+use super::slip::{Metric, Slip, mask_of, points_in};
+use crate::fourier::workspace::record;
 use crate::numerics::dual::Number;
 use crate::numerics::lanes::Lanes;
+use core::ops::Range;
 
 /// A contact under a load, by default open: its normal state, with derivatives by the normal component over its scale, and its shells.
 #[derive(Debug, Clone, Copy, Default)]
@@ -35,31 +37,29 @@ impl LoadedContact {
 
     /// The limits S_b - S_j of the springs, 0 beyond the edge.
     pub fn limits(&self, nodes: &Nodes) -> PerAxis<Row> {
-        by_axis(|axis| self.used() * (self.now.shift[axis] - Lanes(nodes[SHIFT + axis])))
-    }
-
-    /// 1 for the springs in use, 0 for others.
-    pub fn used(&self) -> Row {
-        lanes_of(within([self.shells.first, self.shells.last + 1]))
+        let used = mask_of(points_in([self.shells.first, self.shells.last + 1]));
+        by_axis(|axis| used * (self.now.shift[axis] - nodes.shift[axis]))
     }
 }
 
-/// The springs: displacements, and those of the spring at the edge.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Displacements {
-    pub v: PerAxis<Row>,
-    pub edge: PerAxis<f64>,
+/// A number of each spring in each direction.
+pub(crate) type PerSpring<T> = PerAxis<[T; SPRINGS]>;
+
+/// The values of a function of the direction and the spring.
+pub(crate) fn by_spring<T>(value: impl Fn(usize, usize) -> T) -> PerSpring<T> {
+    by_axis(|axis| core::array::from_fn(|j| value(axis, j)))
+}
+
+record! {
+    /// The springs: displacements, and those of the spring at the edge.
+    pub(crate) struct Displacements<T = f64> {
+        pub v: PerSpring<T>,
+        pub edge: PerAxis<T>,
+    }
 }
 
 impl Displacements {
-    pub const NONE: Displacements = Displacements { v: [Row::ZERO; 2], edge: [0.0; 2] };
-}
-
-/// A step, straight in S and in the displacement: the displacement, and whether the load is that of the start.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct SpringMotion {
-    pub displacement: PerAxis<f64>,
-    pub constant_load: bool,
+    pub const NONE: Displacements = Displacements { v: [[0.0; SPRINGS]; 2], edge: [0.0; 2] };
 }
 
 /// Limits and rises below this, in the unit of the springs, are rounding; fourth powers of a motion over it stay finite.
@@ -69,42 +69,36 @@ pub(crate) const SMALLEST_LENGTH: f64 = 1e-40;
 const BLEND_RANGE: [f64; 2] = [2.5, 5.0];
 
 /// Blend of the springs into gross slip.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct GrossSlipBlend<T> {
+struct GrossSlipBlend<T> {
     /// The part of the springs that ends in gross slip, 0 to 1.
-    pub part: T,
+    part: T,
     /// The direction of the motion.
     e: PerAxis<T>,
 }
 
 impl<T: Number> GrossSlipBlend<T> {
     /// The blend for a displacement, to which the part of the innermost spring is added that a falling load cuts off.
-    pub fn new(
-        [before, now]: [&ScaledNormalState<T>; 2],
-        displacement: &PerAxis<T>,
-        innermost: PerAxis<T>,
-    ) -> GrossSlipBlend<T> {
+    fn new([before, now]: &[ScaledNormalState<T>; 2], displacement: PerAxis<T>, innermost: PerAxis<T>) -> Self {
         let limit = now.shift.map(at_least_smallest);
         let travel = by_axis(|axis| {
-            let cut = T::constant(1.0) - limit[axis].quotient(before.shift[axis].or_larger(limit[axis]));
-            displacement[axis] + cut * innermost[axis]
+            let kept = limit[axis].quotient(before.shift[axis].max(limit[axis]));
+            displacement[axis] + (T::constant(1.0) - kept) * innermost[axis]
         });
         let distance = length_of(by_axis(|axis| travel[axis].quotient(limit[axis])));
-        let x =
-            ((distance - T::constant(BLEND_RANGE[0])) * T::constant(1.0 / (BLEND_RANGE[1] - BLEND_RANGE[0]))).share();
+        let [begins, ends] = BLEND_RANGE;
+        let x = ((distance - T::constant(begins)) * (1.0 / (ends - begins))).clamp_to_unit();
         let length = at_least_smallest(length_of(travel));
-        let part = x * x * (T::constant(3.0) - T::constant(2.0) * x);
-        GrossSlipBlend { part, e: travel.map(|travel| travel.quotient(length)) }
+        GrossSlipBlend { part: x * x * (T::constant(3.0) - x * 2.0), e: travel.map(|travel| travel.quotient(length)) }
     }
 
     /// A spring of a limit: v, but for the part that ends in gross slip.
-    pub fn of_spring(&self, axis: usize, v: T, limit: T) -> T {
+    fn of_spring(&self, axis: usize, v: T, limit: T) -> T {
         (T::constant(1.0) - self.part) * v + self.part * self.e[axis] * limit
     }
 }
 
 fn at_least_smallest<T: Number>(length: T) -> T {
-    length.or_larger(T::constant(SMALLEST_LENGTH))
+    length.max(T::constant(SMALLEST_LENGTH))
 }
 
 /// The length of a vector of numbers with derivatives.
@@ -120,12 +114,12 @@ const RELEASE_RATIO: f64 = 4.0;
 ///
 /// Not inlined: the compiler would divide by what is beside its quotients in the vector registers of a caller, too.
 #[inline(never)]
-pub(crate) fn released<T: Number>(limit: PerAxis<T>, fall: T, trial: PerAxis<T>) -> PerAxis<T> {
+fn released<T: Number>(limit: PerAxis<T>, fall: T, trial: PerAxis<T>) -> PerAxis<T> {
     let length = length_of(by_axis(|axis| trial[axis].quotient(at_least_smallest(limit[axis]))));
     if length.value() <= 1.0 {
         return trial;
     }
-    let share = (T::constant(RELEASE_RATIO) * limit[0]).quotient(at_least_smallest(limit[0] + fall)).share();
+    let share = (limit[0] * RELEASE_RATIO).quotient(at_least_smallest(limit[0] + fall)).clamp_to_unit();
     let scale = (T::constant(1.0) + share * (length - T::constant(1.0))).quotient(length);
     trial.map(|trial| trial * scale)
 }
@@ -133,57 +127,133 @@ pub(crate) fn released<T: Number>(limit: PerAxis<T>, fall: T, trial: PerAxis<T>)
 /// The spring at the edge after a step. It moves with the edge: under a rising load only that part of the old spring is kept which is still at
 /// the edge.
 #[inline(never)]
-pub(crate) fn edge_spring<T: Number>(
-    states: [&ScaledNormalState<T>; 2],
-    displacement: &PerAxis<T>,
-    old: PerAxis<T>,
-) -> PerAxis<T> {
-    let [before, limit] = states.map(|state| state.edge_limits().map(at_least_smallest));
+fn edge_spring<T: Number>(states: &[ScaledNormalState<T>; 2], displacement: PerAxis<T>, old: PerAxis<T>) -> PerAxis<T> {
+    let [before, limit] = states.each_ref().map(|state| state.edge_limits().map(at_least_smallest));
     let ratio = by_axis(|axis| {
         let rise = states[1].shift[axis] - states[0].shift[axis];
-        let part = limit[axis].quotient(limit[axis].or_larger(rise));
-        let kept = (limit[axis] - rise).quotient(before[axis]).share();
+        let part = limit[axis].quotient(limit[axis].max(rise));
+        let kept = (limit[axis] - rise).quotient(before[axis]).clamp_to_unit();
         (kept * old[axis] + part * displacement[axis]).quotient(limit[axis])
     });
     let length = length_of(ratio);
-    let scale =
-        if length.value() > LENGTH_SLIP_THRESHOLD { T::constant(1.0).quotient(length) } else { T::constant(1.0) };
+    let slips = length.value() > LENGTH_SLIP_THRESHOLD;
+    let scale = if slips { T::constant(1.0).quotient(length) } else { T::constant(1.0) };
     by_axis(|axis| limit[axis] * (scale * ratio[axis]))
+}
+
+/// The two slips of a step.
+#[derive(Clone, Copy)]
+pub(crate) enum SlipOf {
+    Middle,
+    End,
+}
+
+/// What the springs after a step depend on, numbers with derivatives or without.
+pub(crate) struct StepInput<T> {
+    /// The normal states at the start and at the end.
+    pub states: [ScaledNormalState<T>; 2],
+    pub displacement: PerAxis<T>,
+    pub old: Displacements<T>,
+    /// At the end: the springs in use, their limits, 0 for others, and stiffnesses.
+    pub used: Range<usize>,
+    pub limits: PerSpring<T>,
+    pub stiffness: PerSpring<T>,
+    pub edge_stiffness: PerAxis<T>,
+}
+
+/// The springs after a step.
+pub(crate) struct StepOutput<T> {
+    pub springs: Displacements<T>,
+    /// The force, which is not yet bounded.
+    pub force: PerAxis<T>,
+    /// The springs if they followed the displacement alone.
+    pub follow: PerSpring<T>,
+    /// The part of the springs that ends in gross slip.
+    pub gross_slip: T,
+}
+
+impl<T: Number> StepInput<T> {
+    /// Advances the springs. `slip` replaces a trial state by the springs after slip.
+    pub fn advance(&self, mut slip: impl FnMut(SlipOf, &mut PerSpring<T>)) -> StepOutput<T> {
+        let StepInput { states, displacement, old, limits, stiffness, .. } = self;
+        let blend = GrossSlipBlend::new(states, *displacement, by_axis(|axis| old.v[axis][self.used.start]));
+        let follow = self.follow();
+        let mut v = self.trial(&follow);
+        if blend.part.value() < 1.0 {
+            v = by_spring(|axis, j| (old.v[axis][j] + v[axis][j]) * 0.5);
+            slip(SlipOf::Middle, &mut v);
+            v = self.by_used_spring(|axis, j| v[axis][j] * 2.0 - old.v[axis][j]);
+            slip(SlipOf::End, &mut v);
+        }
+        let mut edge = edge_spring(states, *displacement, old.edge);
+        if blend.part.value() > 0.0 {
+            let edge_limits = states[1].edge_limits();
+            v = by_spring(|axis, j| blend.of_spring(axis, v[axis][j], limits[axis][j]));
+            edge = by_axis(|axis| blend.of_spring(axis, edge[axis], edge_limits[axis]));
+        }
+        let force = by_axis(|axis| {
+            let forces = stiffness[axis].iter().zip(v[axis]).map(|(stiffness, v)| *stiffness * v);
+            forces.fold(self.edge_stiffness[axis] * edge[axis], |sum, force| sum + force)
+        });
+        StepOutput { springs: Displacements { v, edge }, force, follow, gross_slip: blend.part }
+    }
+
+    /// The values of a function of the springs in use, 0 for others.
+    fn by_used_spring(&self, value: impl Fn(usize, usize) -> T) -> PerSpring<T> {
+        by_spring(|axis, j| if self.used.contains(&j) { value(axis, j) } else { T::constant(0.0) })
+    }
+
+    /// The springs if they follow the displacement: those that a rising load engages, the part (S_b - S_j)/ΔS_b of it.
+    fn follow(&self) -> PerSpring<T> {
+        let rise = by_axis(|axis| self.states[1].shift[axis] - self.states[0].shift[axis]);
+        self.by_used_spring(|axis, j| {
+            let (limit, displacement) = (self.limits[axis][j], self.displacement[axis]);
+            let engaged = rise[axis].value() > limit.value();
+            let part = if engaged { limit.quotient(at_least_smallest(rise[axis])) } else { T::constant(1.0) };
+            self.old.v[axis][j] + part * displacement
+        })
+    }
+
+    /// The trial state, in which nothing slips but springs that are released.
+    fn trial(&self, follow: &PerSpring<T>) -> PerSpring<T> {
+        let ([before, now], mut trial) = (&self.states, *follow);
+        let (fall, outermost) = (before.shift[0] - now.shift[0], self.limits[0][self.used.end.clamp(1, SPRINGS) - 1]);
+        if fall.value() > (RELEASE_RATIO - 1.0) * outermost.value() {
+            for j in self.used.start..self.used.end.min(SPRINGS) {
+                let of_spring = |springs: &PerSpring<T>| by_axis(|axis| springs[axis][j]);
+                [trial[0][j], trial[1][j]] = released(of_spring(&self.limits), fall, of_spring(follow));
+            }
+        }
+        trial
+    }
 }
 
 /// A step while it is computed, and what its derivatives and its energy need.
 pub(crate) struct StepWork {
-    /// The springs at the start and in the trial state, and the parts of the displacement that they follow.
+    /// The springs at the start, and if they followed the displacement alone.
     pub old: Displacements,
-    pub trial: PerAxis<Row>,
-    pub parts: PerAxis<Row>,
+    pub follow: PerSpring<f64>,
+    /// The part of the springs that ends in gross slip.
+    pub gross_slip: f64,
     /// The springs of the contact at the end, and of that in the middle if the load changes.
-    pub springs: Springs,
-    pub between: Springs,
-    pub middle: Slip,
-    pub end: Slip,
+    pub end_springs: Springs,
+    middle_springs: Springs,
+    pub middle_slip: Slip,
+    pub end_slip: Slip,
     /// K of the last slip.
     metric: Metric,
-    pub blend: GrossSlipBlend<f64>,
-    /// The spring at the edge, but for the part that ends in gross slip.
-    pub edge: PerAxis<f64>,
 }
 
 impl StepWork {
-    pub const NONE: StepWork = {
-        let (none, rows) = ([0.0; 2], [Row::ZERO; 2]);
-        StepWork {
-            old: Displacements::NONE,
-            trial: rows,
-            parts: rows,
-            springs: Springs::NONE,
-            between: Springs::NONE,
-            middle: Slip::NONE,
-            end: Slip::NONE,
-            metric: Metric::NONE,
-            blend: GrossSlipBlend { part: 0.0, e: none },
-            edge: none,
-        }
+    pub const NONE: StepWork = StepWork {
+        old: Displacements::NONE,
+        follow: [[0.0; SPRINGS]; 2],
+        gross_slip: 0.0,
+        end_springs: Springs::NONE,
+        middle_springs: Springs::NONE,
+        middle_slip: Slip::NONE,
+        end_slip: Slip::NONE,
+        metric: Metric::NONE,
     };
 
     /// Advances springs; the force, which is not yet bounded.
@@ -192,97 +262,47 @@ impl StepWork {
         &mut self,
         nodes: &Nodes,
         [from, to]: [&LoadedContact; 2],
-        motion: &SpringMotion,
+        path: &ContactPath,
         springs: &mut Displacements,
     ) -> PerAxis<f64> {
-        if !motion.constant_load || self.springs.shells.last != to.shells.last {
-            self.springs.set(nodes, [&to.shells; 2]);
+        if !path.constant_load || self.end_springs.shells.last != to.shells.last {
+            self.end_springs.set(nodes, [&to.shells; 2]);
         }
         self.old = *springs;
-        let first = to.shells.innermost();
-        let states = [&from.now, &to.now];
-        self.blend = GrossSlipBlend::new(states, &motion.displacement, by_axis(|axis| springs.v[axis][first]));
-        self.stick(nodes, [from, to], motion);
-        if self.blend.part < 1.0 {
-            self.slip(nodes, [from, to], motion);
-        } else {
-            (self.middle.points.set, self.end.points.set) = (0, 0);
-        }
-        self.edge = edge_spring(states, &motion.displacement, springs.edge);
-        (springs.v, springs.edge) = (self.end.points.v, self.edge);
-        if self.blend.part > 0.0 {
-            let (limits, edge_limits) = (to.limits(nodes), to.now.edge_limits());
-            for axis in 0..2 {
-                for j in 0..SPRINGS {
-                    springs.v[axis][j] = self.blend.of_spring(axis, springs.v[axis][j], limits[axis][j]);
+        let input = StepInput {
+            states: [from.now, to.now],
+            displacement: path.displacement,
+            old: *springs,
+            used: to.shells.range(),
+            limits: to.limits(nodes).map(|limits| limits.0),
+            stiffness: self.end_springs.stiffness.map(|stiffness| stiffness.0),
+            edge_stiffness: to.shells.edge_stiffness,
+        };
+        (self.middle_slip.points.set, self.end_slip.points.set) = (0, 0);
+        let output = input.advance(|which, v| {
+            let (slip, springs, load) = match which {
+                SlipOf::Middle if !path.constant_load => {
+                    self.middle_springs.set(nodes, [&from.shells, &to.shells]);
+                    (&mut self.middle_slip, &self.middle_springs, Metric::NEVER_REUSED)
                 }
-                springs.edge[axis] = self.blend.of_spring(axis, springs.edge[axis], edge_limits[axis]);
-            }
-        }
-        by_axis(|axis| {
-            dot(&self.springs.stiffness[axis], &springs.v[axis]) + to.shells.edge_stiffness[axis] * springs.edge[axis]
-        })
-    }
-
-    /// The trial state, in which nothing slips.
-    fn stick(&mut self, nodes: &Nodes, [from, to]: [&LoadedContact; 2], motion: &SpringMotion) {
-        let limits = to.limits(nodes);
-        for axis in 0..2 {
-            self.parts[axis] = Lanes([1.0; SPRINGS]);
-            let rise = to.now.shift[axis] - from.now.shift[axis];
-            if !motion.constant_load && rise > 0.0 {
-                let parts = limits[axis] * (1.0 / rise.max(SMALLEST_LENGTH));
-                self.parts[axis] = parts.map(|part| part.min(1.0));
-            }
-            self.trial[axis] = to.used() * (self.old.v[axis] + self.parts[axis] * motion.displacement[axis]);
-        }
-        let fall = from.now.shift[0] - to.now.shift[0];
-        if !releases(fall, limits[0][to.shells.last.min(SPRINGS - 1)]) {
-            return;
-        }
-        for j in to.shells.range() {
-            let [x, y] = by_axis(|axis| [limits[axis][j], self.trial[axis][j]]);
-            [self.trial[0][j], self.trial[1][j]] = released([x[0], y[0]], fall, [x[1], y[1]]);
-        }
-    }
-
-    /// Slip in the middle and at the end.
-    fn slip(&mut self, nodes: &Nodes, [from, to]: [&LoadedContact; 2], motion: &SpringMotion) {
-        let half = self.middle_trial();
-        if motion.constant_load {
-            self.middle.find(&mut self.metric, &self.springs, &half, to.now.load);
-        } else {
-            self.between.set(nodes, [&from.shells, &to.shells]);
-            self.middle.find(&mut self.metric, &self.between, &half, Metric::NEVER_REUSED);
-        }
-        let beyond = self.end_trial(to);
-        self.end.find(&mut self.metric, &self.springs, &beyond, to.now.load);
+                SlipOf::Middle => (&mut self.middle_slip, &self.end_springs, to.now.load),
+                SlipOf::End => (&mut self.end_slip, &self.end_springs, to.now.load),
+            };
+            slip.find(&mut self.metric, springs, v.map(Lanes), load);
+            *v = slip.points.v.map(|v| v.0);
+        });
+        (self.follow, self.gross_slip, *springs) = (output.follow, output.gross_slip, output.springs);
+        output.force
     }
 
     /// The springs of the contact in the middle of a step.
-    pub fn middle_springs(&self, motion: &SpringMotion) -> &Springs {
-        if motion.constant_load { &self.springs } else { &self.between }
+    pub fn middle_springs(&self, path: &ContactPath) -> &Springs {
+        if path.constant_load { &self.end_springs } else { &self.middle_springs }
     }
-
-    /// The trial state of the slip in the middle: half of the step.
-    pub fn middle_trial(&self) -> PerAxis<Row> {
-        by_axis(|axis| 0.5 * (self.old.v[axis] + self.trial[axis]))
-    }
-
-    /// The trial state of the slip at the end: as far from the middle as the start.
-    pub fn end_trial(&self, to: &LoadedContact) -> PerAxis<Row> {
-        let used = to.used();
-        by_axis(|axis| used * (2.0 * self.middle.points.v[axis] - self.old.v[axis]))
-    }
-}
-
-/// Whether a load whose S falls by so much may release springs, the outermost of which has this limit.
-pub(crate) fn releases(fall: f64, outermost: f64) -> bool {
-    fall > (RELEASE_RATIO - 1.0) * outermost
 }
 
 /// A spring slips if its length over its limit is more than this: one that is at its limit may exceed it by rounding.
-pub(crate) const LENGTH_SLIP_THRESHOLD: f64 = 1.0 + 1e-12;
+pub(super) const LENGTH_SLIP_THRESHOLD: f64 = 1.0 + 1e-12;
 
 /// Scales a force to Coulomb's bound if it exceeds an allowed factor times the bound. A factor slightly above 1 keeps the tangent of a stuck
 /// contact whose force exceeds the bound by rounding. Not inlined, as [`released`].

@@ -8,86 +8,64 @@
 //! ```
 
 use super::matrix::{dot, times_symmetric, times_upper, times_upper_transposed};
-use super::nodes::{DIFFERENCE_STEP, FLAT_EDGE, Matrix, Nodes, PerAxis, Row, SHIFT, SPRINGS, by_axis};
+use super::nodes::{FLAT_EDGE, Matrix, Nodes, PerAxis, Row, SPRINGS, by_axis};
+use super::path::ContactPath;
 use super::shells::{ScaledNormalState, Shells, Springs, minus_next};
-use super::slip::{Set, Slip, set_metric, within};
+use super::slip::{PointSet, Slip, points_in, set_metric};
 use super::step::{
-    Displacements, GrossSlipBlend, LENGTH_SLIP_THRESHOLD, LoadedContact, SpringMotion, StepWork, edge_spring, released,
-    releases, within_friction_limit,
+    Displacements, LENGTH_SLIP_THRESHOLD, LoadedContact, SlipOf, StepInput, StepWork, by_spring, within_friction_limit,
 };
 use crate::numerics::dual::{Dual, Number};
 use crate::numerics::lanes::Lanes;
 
 /// Changes of each spring.
-pub(crate) type Changes<const L: usize> = [Lanes<L>; SPRINGS];
+type Changes<const L: usize> = [Lanes<L>; SPRINGS];
 
-/// Changes of the springs, and of the spring at the edge.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct SpringChanges<const L: usize> {
-    pub v: PerAxis<Changes<L>>,
-    pub edge: PerAxis<Lanes<L>>,
+/// A value for each parameter of a step: the normal component over its scale at the start and at the end, and the logarithm of the reference
+/// size of the nodes.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct PerParameter<T> {
+    pub start: T,
+    pub end: T,
+    pub reference: T,
 }
 
-impl<const L: usize> SpringChanges<L> {
-    pub const ZERO: Self = SpringChanges { v: [[Lanes::ZERO; SPRINGS]; 2], edge: [Lanes::ZERO; 2] };
-}
-
-/// Parameters of a contact: the normal component over its scale at the end and at the start of the step, and the logarithm of
-/// the reference size of the nodes.
-pub(crate) const END: usize = 0;
-pub(crate) const START: usize = 1;
-pub(crate) const REFERENCE: usize = 2;
-pub(crate) const PARAMETERS: usize = 3;
-
-/// A contact's derivatives by one of its parameters.
-#[derive(Debug, Clone, Copy, Default)]
+/// Derivatives of the shells of a contact by the normal component over its scale, and by the logarithm of the reference size if the nodes
+/// depend on it.
+#[derive(Clone, Copy)]
 pub(crate) struct ContactSlopes {
-    pub now: ScaledNormalState,
-    pub shells: Shells,
+    by_load: Shells,
+    by_reference: Shells,
 }
 
 impl ContactSlopes {
-    /// Derivatives by the normal component: of the shells only those of the last one.
-    pub fn by_load(nodes: &Nodes, contact: &LoadedContact) -> ContactSlopes {
-        ContactSlopes::new(nodes, contact, &contact.slopes, None)
-    }
-
-    /// Derivatives by the reference size of the nodes, from those of the nodes.
-    pub fn by_reference(nodes: &Nodes, by_nodes: &Nodes, contact: &LoadedContact) -> ContactSlopes {
-        ContactSlopes::new(nodes, contact, &ScaledNormalState::default(), Some(by_nodes))
-    }
-
-    fn new(nodes: &Nodes, contact: &LoadedContact, now: &ScaledNormalState, by_nodes: Option<&Nodes>) -> ContactSlopes {
-        let mut slopes = ContactSlopes { now: *now, ..ContactSlopes::default() };
-        if contact.now.load > 0.0 {
-            slopes.shells = Shells::before(by_nodes, contact.shells.first, contact.shells.last);
-            slopes.shells.set_last_slopes(nodes, &contact.shells, [&contact.now, now], by_nodes);
+    pub fn new(nodes: &Nodes, by_nodes: Option<&Nodes>, contact: &LoadedContact) -> ContactSlopes {
+        let LoadedContact { now, slopes, shells } = contact;
+        if now.load == 0.0 {
+            return ContactSlopes { by_load: Shells::NONE, by_reference: Shells::NONE };
         }
-        slopes
+        ContactSlopes {
+            by_load: shells.slopes((nodes, None), [now, slopes]),
+            by_reference: shells.slopes((nodes, by_nodes), [now, &ScaledNormalState::NONE]),
+        }
     }
 }
 
-/// Derivatives of nodes by the logarithm of the reference size.
-pub(crate) fn slopes_of_nodes([larger, smaller]: [&Nodes; 2]) -> Nodes {
-    let mut slopes = *larger;
-    for (slope, smaller) in slopes.as_flattened_mut().iter_mut().zip(smaller.as_flattened()) {
-        *slope = (*slope - smaller) * (0.5 / DIFFERENCE_STEP);
-    }
-    slopes
-}
-
-/// Terms of the derivative by one parameter of a contact in the changes of its springs.
-pub(crate) struct ParameterTerms {
+/// Terms of the derivative by one parameter in the changes of the springs.
+#[derive(Clone, Copy)]
+struct ParameterTerms {
     /// Derivatives of the normal state at the start and at the end, and of S of the nodes.
     states: [ScaledNormalState; 2],
-    nodes: PerAxis<Row>,
-    /// What the derivatives of the stiffnesses add to that of the force.
-    force: PerAxis<f64>,
+    shift_of_nodes: PerAxis<Row>,
+    /// Derivatives of the stiffnesses at the end.
+    stiffness: PerAxis<Row>,
+    edge_stiffness: PerAxis<f64>,
     middle: SlipTerms,
     end: SlipTerms,
 }
 
 /// Terms of a slip: dC v; dk (v* - v) - dC' r, in which the pressures are constant; and r dp/p, which is what their changes add to the slip.
+#[derive(Clone, Copy)]
 struct SlipTerms {
     tractions: PerAxis<Row>,
     forces: PerAxis<Row>,
@@ -100,15 +78,9 @@ impl SlipTerms {
         SlipTerms { tractions: zero, forces: zero, slip: zero }
     };
 
-    /// Sets the terms of a parameter by which the shells from one on, and the nodes, have derivatives.
-    fn set(
-        &mut self,
-        springs: &Springs,
-        (ends, nodes, from): ([&Shells; 2], Option<&Nodes>, usize),
-        trial: &PerAxis<Row>,
-        slip: &Slip,
-    ) {
-        let (shells, slip) = (&springs.shells, &slip.points);
+    /// Sets the terms of a parameter, given the derivatives of the shells at both ends, which are not 0 from one shell on, and of the nodes.
+    fn set(&mut self, springs: &Springs, slip: &Slip, (ends, nodes, first): ([&Shells; 2], Option<&Nodes>, usize)) {
+        let (shells, trial, slip) = (&springs.shells, &slip.trial, &slip.points);
         if slip.set == 0 {
             return;
         }
@@ -116,7 +88,7 @@ impl SlipTerms {
         let (mut tractions, mut sums) = ([Row::ZERO; 2], [Row::ZERO; 2]);
         let falls = by_axis(|axis| minus_next(&slip.v[axis]) * springs.per_shift[axis]);
         let slipped = by_axis(|axis| slip.r[axis] * springs.per_pressure);
-        for j in from.max(shells.range().start)..shells.range().end {
+        for j in first.max(shells.range().start)..shells.range().end {
             let pressure = Shells::middle_pressure(ends, nodes, j);
             if j >= FLAT_EDGE {
                 by_pressure += pressure;
@@ -156,45 +128,30 @@ fn stiffness_slopes(springs: &Springs, axis: usize, slopes: &Shells) -> Row {
 }
 
 impl ParameterTerms {
-    pub const NONE: ParameterTerms = {
-        let (none, rows) = ([0.0; 2], [Row::ZERO; 2]);
-        ParameterTerms {
-            states: [ScaledNormalState::NONE; 2],
-            nodes: rows,
-            force: none,
-            middle: SlipTerms::NONE,
-            end: SlipTerms::NONE,
-        }
+    const NONE: ParameterTerms = ParameterTerms {
+        states: [ScaledNormalState::NONE; 2],
+        shift_of_nodes: [Row::ZERO; 2],
+        stiffness: [Row::ZERO; 2],
+        edge_stiffness: [0.0; 2],
+        middle: SlipTerms::NONE,
+        end: SlipTerms::NONE,
     };
 
-    /// The derivative of the limit of a spring.
-    fn limit(&self, axis: usize, j: usize) -> f64 {
-        self.states[1].shift[axis] - self.nodes[axis][j]
-    }
-
-    /// Sets the terms of a parameter by which the contact at the start, that at the end, or both have derivatives, and the nodes.
+    /// Sets the terms, given the derivatives of the normal states, and those of the shells as in [`SlipTerms::set`].
     #[inline(never)]
-    pub fn set(
+    fn set(
         &mut self,
-        contact: &LoadedContact,
-        (step, motion, new): (&StepWork, &SpringMotion, &Displacements),
-        [from, to]: [Option<&ContactSlopes>; 2],
-        nodes: Option<&Nodes>,
+        (work, path): (&StepWork, &ContactPath),
+        states: [ScaledNormalState; 2],
+        (ends, nodes, first): ([&Shells; 2], Option<&Nodes>, usize),
     ) {
-        let none = ContactSlopes::default();
-        // By the load, only the last shells have derivatives.
-        let lasts = [from, to].map(|slopes| slopes.map_or(SPRINGS, |slopes| slopes.shells.last));
-        let first = if nodes.is_some() { 0 } else { lasts[0].min(lasts[1]) };
-        let [from, to] = [from, to].map(|slopes| slopes.unwrap_or(&none));
-        let ends = [&from.shells, &to.shells];
-        self.middle.set(step.middle_springs(motion), (ends, nodes, first), &step.middle_trial(), &step.middle);
-        self.end.set(&step.springs, ([ends[1]; 2], nodes, first), &step.end_trial(contact), &step.end);
-        self.force = by_axis(|axis| {
-            dot(&new.v[axis], &stiffness_slopes(&step.springs, axis, ends[1]))
-                + new.edge[axis] * to.shells.edge_stiffness[axis]
-        });
-        self.nodes = by_axis(|axis| nodes.map_or(Row::ZERO, |nodes| Lanes(nodes[SHIFT + axis])));
-        self.states = [from.now, to.now];
+        let [_, end] = ends;
+        self.middle.set(work.middle_springs(path), &work.middle_slip, (ends, nodes, first));
+        self.end.set(&work.end_springs, &work.end_slip, ([end; 2], nodes, first));
+        self.stiffness = by_axis(|axis| stiffness_slopes(&work.end_springs, axis, end));
+        self.edge_stiffness = end.edge_stiffness;
+        self.shift_of_nodes = nodes.map_or([Row::ZERO; 2], |nodes| nodes.shift);
+        self.states = states;
     }
 }
 
@@ -216,36 +173,61 @@ impl SlipJacobian {
     }
 }
 
-/// What is linear in a step: both slips, and the terms of each parameter of the contact.
+/// What is linear in a step: both slips, and the terms of each parameter.
 pub(crate) struct StepTangent {
-    pub terms: [ParameterTerms; PARAMETERS],
+    terms: PerParameter<ParameterTerms>,
     middle: SlipJacobian,
     end: SlipJacobian,
 }
 
 impl StepTangent {
-    pub const NONE: StepTangent =
-        StepTangent { terms: [ParameterTerms::NONE; PARAMETERS], middle: SlipJacobian::NONE, end: SlipJacobian::NONE };
+    pub const NONE: StepTangent = StepTangent {
+        terms: PerParameter { start: ParameterTerms::NONE, end: ParameterTerms::NONE, reference: ParameterTerms::NONE },
+        middle: SlipJacobian::NONE,
+        end: SlipJacobian::NONE,
+    };
 
-    /// Sets the derivatives of both slips.
-    pub fn set_slips(&mut self, step: &StepWork, motion: &SpringMotion) {
-        self.middle.set(step.middle_springs(motion), &step.middle);
-        self.end.set(&step.springs, &step.end);
+    /// Sets the derivatives of a step between contacts, given those of their shells, and of the nodes if they depend on the reference size.
+    pub fn set(
+        &mut self,
+        (work, path): (&StepWork, &ContactPath),
+        [from, to]: [&LoadedContact; 2],
+        [by_from, by_to]: [&ContactSlopes; 2],
+        by_nodes: Option<&Nodes>,
+    ) {
+        let (none, terms) = (ScaledNormalState::NONE, &mut self.terms);
+        // By the load, only the last shells have derivatives.
+        let by_start = ([&by_from.by_load, &Shells::NONE], None, from.shells.last);
+        let by_end = ([&Shells::NONE, &by_to.by_load], None, to.shells.last);
+        terms.start.set((work, path), [from.slopes, none], by_start);
+        terms.end.set((work, path), [none, to.slopes], by_end);
+        if by_nodes.is_some() {
+            terms.reference.set((work, path), [none; 2], ([&by_from.by_reference, &by_to.by_reference], by_nodes, 0));
+        }
+        self.middle.set(work.middle_springs(path), &work.middle_slip);
+        self.end.set(&work.end_springs, &work.end_slip);
     }
 }
 
-/// The tangent of a step, and by how much each parameter of the contact changes in the first four of the lanes that are propagated.
+/// The tangent of a step, and by how much each parameter changes in the first four of the lanes that are propagated.
 pub(crate) struct ParameterChanges<'a> {
     pub tangent: &'a StepTangent,
-    pub changes: [Lanes<4>; PARAMETERS],
+    pub changes: PerParameter<Lanes<4>>,
 }
 
 impl ParameterChanges<'_> {
     /// The sum of a term times the change of its parameter, over all parameters.
     fn sum(&self, term: impl Fn(&ParameterTerms) -> f64) -> Lanes<4> {
-        let [a, b, c] = &self.tangent.terms;
-        let [by_a, by_b, by_c] = self.changes;
-        term(a) * by_a + term(b) * by_b + term(c) * by_c
+        let PerParameter { start, end, reference } = &self.tangent.terms;
+        let changes = &self.changes;
+        term(end) * changes.end + term(start) * changes.start + term(reference) * changes.reference
+    }
+
+    /// A number that the parameters change.
+    fn dual<const L: usize>(&self, value: f64, slope: impl Fn(&ParameterTerms) -> f64) -> Dual<L> {
+        let mut dual = Dual::constant(value);
+        dual.slopes.add_first(self.sum(slope));
+        dual
     }
 }
 
@@ -253,111 +235,67 @@ impl ParameterChanges<'_> {
 pub(crate) struct Propagation<'a> {
     pub contacts: [&'a LoadedContact; 2],
     pub nodes: &'a Nodes,
-    pub motion: &'a SpringMotion,
-    pub step: &'a StepWork,
+    pub path: &'a ContactPath,
+    pub work: &'a StepWork,
     pub parameters: ParameterChanges<'a>,
 }
 
 impl Propagation<'_> {
-    /// A number that the parameters change.
-    fn dual<const L: usize>(&self, value: f64, slope: impl Fn(&ParameterTerms) -> f64) -> Dual<L> {
-        let mut dual = Dual::constant(value);
-        dual.slopes.add_first(self.parameters.sum(slope));
-        dual
-    }
-
-    /// The normal states at the start and at the end.
-    fn states<const L: usize>(&self) -> [ScaledNormalState<Dual<L>>; 2] {
-        core::array::from_fn(|end| {
-            let values = self.contacts[end].now.values();
-            let number = |i: usize| self.dual(values[i], |terms| terms.states[end].values()[i]);
-            ScaledNormalState::from_values(core::array::from_fn(number))
-        })
-    }
-
-    /// Propagates changes of the springs and of the displacement: those of the springs after the step, in place, and of the force, which is
-    /// not yet bounded.
+    /// Propagates changes of the displacement and of the springs: those of the springs after the step, and of the force.
     pub fn propagate<const L: usize>(
         &self,
         displacement: &PerAxis<Lanes<L>>,
-        springs: &mut SpringChanges<L>,
-    ) -> PerAxis<Lanes<L>> {
-        let Propagation { contacts: [_, to], nodes, motion, step, parameters } = self;
-        let (used, limits, old) = (to.used(), to.limits(nodes), *springs);
-        let displacement = by_axis(|axis| Dual { value: motion.displacement[axis], slopes: displacement[axis] });
-        let [before, now] = self.states();
-        let limit = |j: usize| by_axis(|axis| self.dual(limits[axis][j], |terms| used[j] * terms.limit(axis, j)));
-        let v = &mut springs.v;
-        for axis in 0..2 {
-            let rise = now.shift[axis] - before.shift[axis];
-            for j in 0..SPRINGS {
-                v[axis][j] = used[j] * (v[axis][j] + step.parts[axis][j] * displacement[axis].slopes);
-                if step.parts[axis][j] < 1.0 {
-                    // The part of springs that are engaged in the step is their limit over the rise.
-                    v[axis][j] += displacement[axis].value * limit(j)[axis].quotient(rise).slopes;
+        springs: &Displacements<Lanes<L>>,
+    ) -> (Displacements<Lanes<L>>, PerAxis<Lanes<L>>) {
+        let Propagation { contacts, nodes, path, work, parameters } = self;
+        let [_, to] = contacts;
+        let state = |end: usize| {
+            let values = contacts[end].now.values();
+            let number = |i: usize| parameters.dual(values[i], |terms| terms.states[end].values()[i]);
+            ScaledNormalState::from_values(core::array::from_fn(number))
+        };
+        let dual = |value: f64, slopes: Lanes<L>| Dual { value, slopes };
+        let (used, limits) = (to.shells.range(), to.limits(nodes));
+        let limit = |axis: usize, j: usize| {
+            let of_used = |terms: &ParameterTerms| terms.states[1].shift[axis] - terms.shift_of_nodes[axis][j];
+            parameters.dual(limits[axis][j], |terms| if used.contains(&j) { of_used(terms) } else { 0.0 })
+        };
+        let (stiffness, edge_stiffness) = (&work.end_springs.stiffness, to.shells.edge_stiffness);
+        let input = StepInput {
+            displacement: by_axis(|axis| dual(path.displacement[axis], displacement[axis])),
+            old: Displacements {
+                v: by_spring(|axis, j| dual(work.old.v[axis][j], springs.v[axis][j])),
+                edge: by_axis(|axis| dual(work.old.edge[axis], springs.edge[axis])),
+            },
+            used: used.clone(),
+            limits: by_spring(limit),
+            stiffness: by_spring(|axis, j| parameters.dual(stiffness[axis][j], |terms| terms.stiffness[axis][j])),
+            edge_stiffness: by_axis(|axis| parameters.dual(edge_stiffness[axis], |terms| terms.edge_stiffness[axis])),
+            states: [state(0), state(1)],
+        };
+        let tangent = parameters.tangent;
+        let output = input.advance(|which, v| {
+            let mut changes = by_spring(|axis, j| v[axis][j].slopes);
+            let springs = match which {
+                SlipOf::Middle => {
+                    let springs = work.middle_springs(path);
+                    work.middle_slip
+                        .differentiate(&tangent.middle, springs, &mut changes, parameters, |terms| &terms.middle);
+                    &work.middle_slip.points.v
                 }
-            }
-        }
-        let fall = before.shift[0] - now.shift[0];
-        if releases(fall.value, limits[0][to.shells.last.min(SPRINGS - 1)]) {
-            for j in to.shells.range() {
-                let follow = |axis: usize| step.old.v[axis][j] + step.parts[axis][j] * motion.displacement[axis];
-                let trial = by_axis(|axis| Dual { value: follow(axis), slopes: v[axis][j] });
-                [v[0][j], v[1][j]] = released(limit(j), fall, trial).map(|trial| trial.slopes);
-            }
-        }
-        if step.blend.part < 1.0 {
-            for axis in 0..2 {
-                for j in 0..SPRINGS {
-                    v[axis][j] = 0.5 * (v[axis][j] + old.v[axis][j]);
+                SlipOf::End => {
+                    let springs = &work.end_springs;
+                    work.end_slip.differentiate(&tangent.end, springs, &mut changes, parameters, |terms| &terms.end);
+                    &work.end_slip.points.v
                 }
-            }
-            let tangent = parameters.tangent;
-            step.middle
-                .differentiate(&tangent.middle, step.middle_springs(motion), v, parameters, |terms| &terms.middle);
-            for axis in 0..2 {
-                for j in 0..SPRINGS {
-                    v[axis][j] = used[j] * (2.0 * v[axis][j] - old.v[axis][j]);
-                }
-            }
-            step.end.differentiate(&tangent.end, &step.springs, v, parameters, |terms| &terms.end);
-        }
-        let old_edge = by_axis(|axis| Dual { value: step.old.edge[axis], slopes: old.edge[axis] });
-        springs.edge = edge_spring([&before, &now], &displacement, old_edge).map(|edge| edge.slopes);
-        if step.blend.part > 0.0 {
-            let first = to.shells.innermost();
-            let innermost = by_axis(|axis| Dual { value: step.old.v[axis][first], slopes: old.v[axis][first] });
-            let blend = GrossSlipBlend::new([&before, &now], &displacement, innermost);
-            let edge_limits = now.edge_limits();
-            for axis in 0..2 {
-                for j in 0..SPRINGS {
-                    let v = Dual { value: step.end.points.v[axis][j], slopes: springs.v[axis][j] };
-                    springs.v[axis][j] = blend.of_spring(axis, v, limit(j)[axis]).slopes;
-                }
-                let edge = Dual { value: step.edge[axis], slopes: springs.edge[axis] };
-                springs.edge[axis] = blend.of_spring(axis, edge, edge_limits[axis]).slopes;
-            }
-        }
-        let mut force = [Lanes::ZERO; 2];
-        for axis in 0..2 {
-            for j in 0..SPRINGS {
-                force[axis] += step.springs.stiffness[axis][j] * springs.v[axis][j];
-            }
-            force[axis] += to.shells.edge_stiffness[axis] * springs.edge[axis];
-            force[axis].add_first(parameters.sum(|terms| terms.force[axis]));
-        }
-        force
-    }
-
-    /// Changes of a force that Coulomb's law bounds.
-    pub fn within_friction_limit<const L: usize>(
-        &self,
-        force: PerAxis<f64>,
-        slopes: PerAxis<Lanes<L>>,
-    ) -> PerAxis<Lanes<L>> {
-        let bound = self.dual(self.contacts[1].now.load, |terms| terms.states[1].load);
-        let force = by_axis(|axis| Dual { value: force[axis], slopes: slopes[axis] });
-        within_friction_limit(force, bound, LENGTH_SLIP_THRESHOLD).map(|force| force.slopes)
+            };
+            *v = by_spring(|axis, j| dual(springs[axis][j], changes[axis][j]));
+        });
+        let bound = input.states[1].load;
+        let force = within_friction_limit(output.force, bound, LENGTH_SLIP_THRESHOLD);
+        let Displacements { v, edge } = output.springs;
+        let springs = Displacements { v: by_spring(|axis, j| v[axis][j].slopes), edge: edge.map(|edge| edge.slopes) };
+        (springs, force.map(|force| force.slopes))
     }
 }
 
@@ -406,7 +344,7 @@ impl Slip {
     fn tractions_of<const L: usize>(&self, jacobian: &SlipJacobian, slip: &mut PerAxis<Changes<L>>, range: [usize; 2]) {
         let [first, end] = range.map(|i| i.min(SPRINGS));
         let (points, SlipJacobian { metric, inverse }) = (&self.points, jacobian);
-        let sticks = !points.set & within([first, end]);
+        let sticks = !points.set & points_in([first, end]);
         if sticks != 0 {
             condense_sticking_points(metric, slip, [first, end], (points.set, sticks));
         }
@@ -445,7 +383,7 @@ fn condense_sticking_points<const L: usize>(
     metric: &PerAxis<Matrix>,
     slip: &mut PerAxis<Changes<L>>,
     [first, end]: [usize; 2],
-    (set, sticks): (Set, Set),
+    (set, sticks): (PointSet, PointSet),
 ) {
     for axis in 0..2 {
         let own = slip[axis];

@@ -213,15 +213,20 @@ fn invalid_states() {
                 found(4, 1e-6 * load, "less than the last knot");
             }
             _ => {
-                // Loads, units, the normal state, and rows of the tables of nodes.
+                // Loads, units, the normal state and its derivatives, springs, guesses of slips, a double of 17 digits, and rows of the nodes.
                 const ROW: usize = 16;
-                let tables = [(6, 3), (11, 3), (12, 3), (13, 3), (14, 3), (17, 2)].map(|(row, i)| ROW * row + i);
-                let sizes = [1, 7, 8, 9, ROW, ROW + 1, ROW + 2, ROW + 3];
+                let [pressed, slopes, springs, guesses, all_digits, nodes] = [10, 17, 24, 58, 90, 91];
+                let tables = [(0, 3), (5, 3), (6, 3), (7, 3), (8, 3), (11, 2)].map(|(row, j)| nodes + ROW * row + j);
+                let sizes = [1, 7, 8, 9, pressed, pressed + 1, pressed + 2, pressed + 3];
                 sizes.into_iter().chain(tables).for_each(|i| _ = found(i, -1.0, "a negative size"));
-                found(12, 1000.0, "text of 16 digits");
-                found(2 * ROW - 6, 1e50, "a derivative that overflows");
-                [4 * ROW + 2, 5 * ROW + 2].into_iter().for_each(|i| _ = found(i, 2.0, "a point that turns too far"));
-                [2 * ROW + 3, 3 * ROW + 3].into_iter().for_each(|i| _ = found(i, 10.0, "a spring beyond its limit"));
+                found(all_digits, 1000.0, "text of 16 digits");
+                found(slopes + 3, 1e50, "a derivative that overflows");
+                [guesses + 2, guesses + ROW + 2]
+                    .into_iter()
+                    .for_each(|i| _ = found(i, 2.0, "a point that turns too far"));
+                [springs + 3, springs + ROW + 3]
+                    .into_iter()
+                    .for_each(|i| _ = found(i, 10.0, "a spring beyond its limit"));
             }
         }
         let length = state.bytes / 8;
