@@ -20,6 +20,11 @@ pub(crate) trait Number:
         if other.value() > self.value() { other } else { self }
     }
 
+    /// The smaller of both, the first one if they are equal.
+    fn min(self, other: Self) -> Self {
+        if other.value() < self.value() { other } else { self }
+    }
+
     /// The number between 0 and 1; the nearer of both beyond, where derivatives are 0.
     fn clamp_to_unit(self) -> Self {
         let value = self.value();

@@ -353,7 +353,7 @@ fn differentiate(
         }
         let parameters = ParameterChanges { tangent, changes };
         let propagation = Propagation { contacts, nodes, path, work, parameters };
-        (*springs, *forces) = propagation.propagate(&displacement, springs);
+        *forces = propagation.propagate(&displacement, springs);
     }
 }
 

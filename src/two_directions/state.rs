@@ -219,7 +219,7 @@ impl State {
         let displacement = [Lanes([1.0, 0.0, path.per_input[0][1], 0.0]), Lanes([0.0, 1.0, path.per_input[1][1], 0.0])];
         let parameters = ParameterChanges { tangent: &tangent, changes };
         let propagation = Propagation { contacts, nodes: &self.nodes, path, work, parameters };
-        propagation.propagate(&displacement, &springs).1
+        propagation.propagate(&displacement, &mut springs)
     }
 
     /// A step of a contact that is open at its end.

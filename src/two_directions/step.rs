@@ -37,8 +37,12 @@ impl LoadedContact {
 
     /// The limits S_b - S_j of the springs, 0 beyond the edge.
     pub fn limits(&self, nodes: &Nodes) -> PerAxis<Row> {
-        let used = mask_of(points_in([self.shells.first, self.shells.last + 1]));
-        by_axis(|axis| used * (self.now.shift[axis] - nodes.shift[axis]))
+        by_axis(|axis| self.in_use() * (self.now.shift[axis] - nodes.shift[axis]))
+    }
+
+    /// 1 for springs up to the edge, 0 beyond.
+    pub fn in_use(&self) -> Row {
+        mask_of(points_in([self.shells.first, self.shells.last + 1]))
     }
 }
 
@@ -48,6 +52,15 @@ pub(crate) type PerSpring<T> = PerAxis<[T; SPRINGS]>;
 /// The values of a function of the direction and the spring.
 pub(crate) fn by_spring<T>(value: impl Fn(usize, usize) -> T) -> PerSpring<T> {
     by_axis(|axis| core::array::from_fn(|j| value(axis, j)))
+}
+
+/// Changes each value, given the direction and the spring.
+pub(crate) fn update<T: Copy>(values: &mut PerSpring<T>, change: impl Fn(usize, usize, T) -> T) {
+    for axis in 0..2 {
+        for j in 0..SPRINGS {
+            values[axis][j] = change(axis, j, values[axis][j]);
+        }
+    }
 }
 
 record! {
@@ -166,8 +179,6 @@ pub(crate) struct StepOutput<T> {
     pub springs: Displacements<T>,
     /// The force, which is not yet bounded.
     pub force: PerAxis<T>,
-    /// The springs if they followed the displacement alone.
-    pub follow: PerSpring<T>,
     /// The part of the springs that ends in gross slip.
     pub gross_slip: T,
 }
@@ -177,54 +188,54 @@ impl<T: Number> StepInput<T> {
     pub fn advance(&self, mut slip: impl FnMut(SlipOf, &mut PerSpring<T>)) -> StepOutput<T> {
         let StepInput { states, displacement, old, limits, stiffness, .. } = self;
         let blend = GrossSlipBlend::new(states, *displacement, by_axis(|axis| old.v[axis][self.used.start]));
-        let follow = self.follow();
-        let mut v = self.trial(&follow);
+        let mut v = self.follow();
+        self.release(&mut v);
         if blend.part.value() < 1.0 {
-            v = by_spring(|axis, j| (old.v[axis][j] + v[axis][j]) * 0.5);
+            update(&mut v, |axis, j, v| (old.v[axis][j] + v) * 0.5);
             slip(SlipOf::Middle, &mut v);
-            v = self.by_used_spring(|axis, j| v[axis][j] * 2.0 - old.v[axis][j]);
+            update(&mut v, |axis, j, v| self.if_used(j, v * 2.0 - old.v[axis][j]));
             slip(SlipOf::End, &mut v);
         }
         let mut edge = edge_spring(states, *displacement, old.edge);
         if blend.part.value() > 0.0 {
             let edge_limits = states[1].edge_limits();
-            v = by_spring(|axis, j| blend.of_spring(axis, v[axis][j], limits[axis][j]));
+            update(&mut v, |axis, j, v| blend.of_spring(axis, v, limits[axis][j]));
             edge = by_axis(|axis| blend.of_spring(axis, edge[axis], edge_limits[axis]));
         }
         let force = by_axis(|axis| {
             let forces = stiffness[axis].iter().zip(v[axis]).map(|(stiffness, v)| *stiffness * v);
             forces.fold(self.edge_stiffness[axis] * edge[axis], |sum, force| sum + force)
         });
-        StepOutput { springs: Displacements { v, edge }, force, follow, gross_slip: blend.part }
+        StepOutput { springs: Displacements { v, edge }, force, gross_slip: blend.part }
     }
 
-    /// The values of a function of the springs in use, 0 for others.
-    fn by_used_spring(&self, value: impl Fn(usize, usize) -> T) -> PerSpring<T> {
-        by_spring(|axis, j| if self.used.contains(&j) { value(axis, j) } else { T::constant(0.0) })
+    /// The value of a spring if it is in use, 0 otherwise.
+    fn if_used(&self, j: usize, value: T) -> T {
+        if self.used.contains(&j) { value } else { T::constant(0.0) }
     }
 
     /// The springs if they follow the displacement: those that a rising load engages, the part (S_b - S_j)/ΔS_b of it.
     fn follow(&self) -> PerSpring<T> {
+        let (one, mut v) = (T::constant(1.0), self.old.v);
         let rise = by_axis(|axis| self.states[1].shift[axis] - self.states[0].shift[axis]);
-        self.by_used_spring(|axis, j| {
-            let (limit, displacement) = (self.limits[axis][j], self.displacement[axis]);
-            let engaged = rise[axis].value() > limit.value();
-            let part = if engaged { limit.quotient(at_least_smallest(rise[axis])) } else { T::constant(1.0) };
-            self.old.v[axis][j] + part * displacement
-        })
+        let per_rise = rise.map(|rise| one.quotient(at_least_smallest(rise)));
+        update(&mut v, |axis, j, v| {
+            let part = if rise[axis].value() > 0.0 { (self.limits[axis][j] * per_rise[axis]).min(one) } else { one };
+            self.if_used(j, v + part * self.displacement[axis])
+        });
+        v
     }
 
-    /// The trial state, in which nothing slips but springs that are released.
-    fn trial(&self, follow: &PerSpring<T>) -> PerSpring<T> {
-        let ([before, now], mut trial) = (&self.states, *follow);
+    /// Releases the springs of a trial state whose limits fall steeply.
+    fn release(&self, trial: &mut PerSpring<T>) {
+        let [before, now] = &self.states;
         let (fall, outermost) = (before.shift[0] - now.shift[0], self.limits[0][self.used.end.clamp(1, SPRINGS) - 1]);
         if fall.value() > (RELEASE_RATIO - 1.0) * outermost.value() {
             for j in self.used.start..self.used.end.min(SPRINGS) {
-                let of_spring = |springs: &PerSpring<T>| by_axis(|axis| springs[axis][j]);
-                [trial[0][j], trial[1][j]] = released(of_spring(&self.limits), fall, of_spring(follow));
+                let limit = by_axis(|axis| self.limits[axis][j]);
+                [trial[0][j], trial[1][j]] = released(limit, fall, by_axis(|axis| trial[axis][j]));
             }
         }
-        trial
     }
 }
 
@@ -291,7 +302,7 @@ impl StepWork {
             slip.find(&mut self.metric, springs, v.map(Lanes), load);
             *v = slip.points.v.map(|v| v.0);
         });
-        (self.follow, self.gross_slip, *springs) = (output.follow, output.gross_slip, output.springs);
+        (self.follow, self.gross_slip, *springs) = (input.follow(), output.gross_slip, output.springs);
         output.force
     }
 

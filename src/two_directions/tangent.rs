@@ -13,7 +13,8 @@ use super::path::ContactPath;
 use super::shells::{ScaledNormalState, Shells, Springs, minus_next};
 use super::slip::{PointSet, Slip, points_in, set_metric};
 use super::step::{
-    Displacements, LENGTH_SLIP_THRESHOLD, LoadedContact, SlipOf, StepInput, StepWork, by_spring, within_friction_limit,
+    Displacements, LENGTH_SLIP_THRESHOLD, LoadedContact, SlipOf, StepInput, StepWork, by_spring, update,
+    within_friction_limit,
 };
 use crate::numerics::dual::{Dual, Number};
 use crate::numerics::lanes::Lanes;
@@ -241,12 +242,12 @@ pub(crate) struct Propagation<'a> {
 }
 
 impl Propagation<'_> {
-    /// Propagates changes of the displacement and of the springs: those of the springs after the step, and of the force.
+    /// Propagates changes of the displacement and of the springs: those of the springs after the step, in place, and of the force.
     pub fn propagate<const L: usize>(
         &self,
         displacement: &PerAxis<Lanes<L>>,
-        springs: &Displacements<Lanes<L>>,
-    ) -> (Displacements<Lanes<L>>, PerAxis<Lanes<L>>) {
+        springs: &mut Displacements<Lanes<L>>,
+    ) -> PerAxis<Lanes<L>> {
         let Propagation { contacts, nodes, path, work, parameters } = self;
         let [_, to] = contacts;
         let state = |end: usize| {
@@ -255,10 +256,10 @@ impl Propagation<'_> {
             ScaledNormalState::from_values(core::array::from_fn(number))
         };
         let dual = |value: f64, slopes: Lanes<L>| Dual { value, slopes };
-        let (used, limits) = (to.shells.range(), to.limits(nodes));
+        let (in_use, limits) = (to.in_use(), to.limits(nodes));
         let limit = |axis: usize, j: usize| {
-            let of_used = |terms: &ParameterTerms| terms.states[1].shift[axis] - terms.shift_of_nodes[axis][j];
-            parameters.dual(limits[axis][j], |terms| if used.contains(&j) { of_used(terms) } else { 0.0 })
+            let slope = |terms: &ParameterTerms| terms.states[1].shift[axis] - terms.shift_of_nodes[axis][j];
+            parameters.dual(limits[axis][j], |terms| in_use[j] * slope(terms))
         };
         let (stiffness, edge_stiffness) = (&work.end_springs.stiffness, to.shells.edge_stiffness);
         let input = StepInput {
@@ -267,7 +268,7 @@ impl Propagation<'_> {
                 v: by_spring(|axis, j| dual(work.old.v[axis][j], springs.v[axis][j])),
                 edge: by_axis(|axis| dual(work.old.edge[axis], springs.edge[axis])),
             },
-            used: used.clone(),
+            used: to.shells.range(),
             limits: by_spring(limit),
             stiffness: by_spring(|axis, j| parameters.dual(stiffness[axis][j], |terms| terms.stiffness[axis][j])),
             edge_stiffness: by_axis(|axis| parameters.dual(edge_stiffness[axis], |terms| terms.edge_stiffness[axis])),
@@ -289,13 +290,14 @@ impl Propagation<'_> {
                     &work.end_slip.points.v
                 }
             };
-            *v = by_spring(|axis, j| dual(springs[axis][j], changes[axis][j]));
+            update(v, |axis, j, _| dual(springs[axis][j], changes[axis][j]));
         });
         let bound = input.states[1].load;
         let force = within_friction_limit(output.force, bound, LENGTH_SLIP_THRESHOLD);
-        let Displacements { v, edge } = output.springs;
-        let springs = Displacements { v: by_spring(|axis, j| v[axis][j].slopes), edge: edge.map(|edge| edge.slopes) };
-        (springs, force.map(|force| force.slopes))
+        let Displacements { v, edge } = &output.springs;
+        update(&mut springs.v, |axis, j, _| v[axis][j].slopes);
+        springs.edge = edge.map(|edge| edge.slopes);
+        force.map(|force| force.slopes)
     }
 }
 
