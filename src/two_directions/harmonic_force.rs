@@ -14,10 +14,10 @@
 //! propagated for a few coefficients at once.
 
 use super::matrix::dot;
-use super::nodes::{Nodes, PerAxis, Units, by_axis, length};
+use super::moving_nodes::{State, Step};
+use super::nodes::{Nodes, PerAxis, by_axis, length};
 use super::path::ContactPath;
-use super::shells::ScaledNormalState;
-use super::step::{Displacements, LoadedContact, StepWork, within_friction_limit};
+use super::step::{Displacements, LoadedContact, StepWork};
 use super::tangent::{ContactSlopes, ParameterChanges, PerParameter, Propagation, StepTangent};
 use crate::element::{Element, Normal};
 use crate::error::Error;
@@ -134,12 +134,6 @@ impl<'a> TwoDirectionsWorkspace<'a> {
     /// Errors: those of [`harmonic_force`].
     pub(crate) fn check(&mut self, element: &Element, displacement: &[f64]) -> Result<(), Error> {
         check_coefficients(displacement)?;
-        let input = displacement.get(2 * self.coefficients()..).unwrap_or(&[]);
-        let mean = input.first().copied().unwrap_or(0.0);
-        let amplitude: f64 = input.iter().skip(1).map(|value| value.abs()).sum();
-        if (element.by_approach() || mean >= amplitude) && element.check_input(mean + amplitude).is_ok() {
-            return Ok(());
-        }
         self.synthesise(element, displacement)
     }
 
@@ -233,90 +227,41 @@ fn first_of_largest_load(workspace: &TwoDirectionsWorkspace) -> (usize, f64) {
 /// The integration along the samples of a motion.
 struct PeriodIntegration<'a> {
     element: &'a Element,
-    units: Units,
-    nodes: &'a Nodes,
+    state: State,
     /// Derivatives of the nodes by the logarithm of the reference size.
-    by_nodes: &'a Nodes,
-    at: [f64; 3],
+    by_nodes: Nodes,
     /// The contact at the start and at the end of a step.
-    from: LoadedContact,
-    contact: LoadedContact,
-    normal: Normal,
-    springs: Displacements,
-    work: &'a mut StepWork,
+    contacts: [LoadedContact; 2],
+    work: StepWork,
     /// Derivatives of the contact before and of the present one, if they are known.
     slopes: [Option<ContactSlopes>; 2],
-    tangent: &'a mut StepTangent,
+    tangent: StepTangent,
 }
 
-/// Results of a step other than the springs.
-struct StepForces {
-    force: PerAxis<f64>,
-    path: ContactPath,
-    closed: [bool; 2],
-}
-
-impl<'a> PeriodIntegration<'a> {
-    /// Pressed by a normal component. The step and its tangent are large: memory of the caller is not copied.
-    fn new(
-        element: &'a Element,
-        (units, nodes, by_nodes): (Units, &'a Nodes, &'a Nodes),
-        top: f64,
-        (work, tangent): (&'a mut StepWork, &'a mut StepTangent),
-    ) -> PeriodIntegration<'a> {
-        let mut integration = PeriodIntegration {
-            element,
-            units,
-            nodes,
-            by_nodes,
-            at: [0.0, 0.0, top],
-            from: LoadedContact::default(),
-            contact: LoadedContact::default(),
-            normal: Normal::OPEN,
-            springs: Displacements::NONE,
-            work,
-            slopes: [None; 2],
-            tangent,
-        };
-        integration.press(top);
-        integration
-    }
-
-    /// Advances to a sample.
-    fn advance(&mut self, to: [f64; 3]) -> StepForces {
-        let closed = [self.contact.now.load > 0.0, self.element.is_closed(to[2])];
-        let path = ContactPath::new(self.element, &self.units, [self.at, to], closed);
-        (self.from, self.at) = (self.contact, to);
-        let mut force = [0.0; 2];
-        if closed[1] {
-            if !path.constant_load {
-                self.press(to[2]);
-            }
-            let contacts = [&self.from, &self.contact];
-            force = self.work.advance(self.nodes, contacts, &path, &mut self.springs);
-            force = within_friction_limit(force, self.contact.now.load, 1.0);
-        } else {
-            (self.contact, self.springs, self.normal) = (LoadedContact::default(), Displacements::NONE, Normal::OPEN);
-            self.slopes = [None; 2];
+impl PeriodIntegration<'_> {
+    /// Advances to a sample that closes the contact.
+    fn advance(&mut self, to: [f64; 3]) -> Step {
+        let step = self.state.step_at_nodes(self.element, &mut self.contacts, to, &mut self.work);
+        if !step.path.constant_load {
+            self.slopes = [self.slopes[1], None];
         }
-        StepForces { force, path, closed }
+        step
     }
 
-    /// The contact under a normal component that closes it.
-    fn press(&mut self, input: f64) {
-        self.slopes = [self.slopes[1], None];
-        self.normal = self.element.normal(input);
-        self.contact =
-            LoadedContact::new(self.nodes, &ScaledNormalState::new(self.element, &self.units, input, &self.normal));
+    /// Opens the contact.
+    fn open(&mut self, to: [f64; 3]) {
+        (self.contacts[1], self.slopes) = (LoadedContact::default(), [None; 2]);
+        let State { displacement, springs, normal_force, load_slope, .. } = &mut self.state;
+        (*displacement, *springs, *normal_force, *load_slope) = (to, Displacements::NONE, 0.0, 0.0);
     }
 
     /// The change of the force from other springs, over its bound.
     fn change(&self, from: &Displacements) -> f64 {
         let change = by_axis(|axis| {
-            let differences = (Lanes(self.springs.v[axis]) - Lanes(from.v[axis])).map(f64::abs);
+            let differences = (Lanes(self.state.springs.v[axis]) - Lanes(from.v[axis])).map(f64::abs);
             dot(&self.work.end_springs.stiffness[axis], &differences)
         });
-        quotient(length(change), self.contact.now.load)
+        quotient(length(change), self.contacts[1].now.load)
     }
 }
 
@@ -332,8 +277,8 @@ fn differentiate(
     let n = workspace.coefficients();
     let [start, end, top] = samples.map(|index| index.map_or(&[][..], |index| row(workspace.basis, n, index)));
     let per_scale = 1.0 / integration.element.input_scale();
-    let PeriodIntegration { nodes, by_nodes, from, contact, work, slopes: [first, second], tangent, .. } = integration;
-    let (nodes, contacts) = (*nodes, [&*from, &*contact]);
+    let PeriodIntegration { state, by_nodes, contacts, work, slopes: [first, second], tangent, .. } = integration;
+    let (nodes, contacts) = (&state.nodes, contacts.each_ref());
     let slopes = |contact| ContactSlopes::new(nodes, Some(by_nodes), contact);
     let by_end = &*second.get_or_insert_with(|| slopes(contacts[1]));
     let by_start = if path.constant_load { by_end } else { &*first.get_or_insert_with(|| slopes(contacts[0])) };
@@ -393,46 +338,56 @@ fn integrate_periods(element: &Element, workspace: &mut TwoDirectionsWorkspace, 
         }
         return SteadyState { unit: None, drift: 0.0 };
     }
-    let units = Units::at_load(element, element.normal(top).load);
-    let unit = element.friction_coefficient * units.load;
     // A contact that opens has no memory: whatever was before, the second period is the steady state.
     let opens = workspace.samples.iter().any(|sample| !element.is_closed(sample.displacement[2]));
     let periods = if opens { 1 } else { periods };
     let stride = count.checked_div(TRANSIENT_SAMPLES * harmonics).unwrap_or(1).max(1);
-    let [mut nodes, mut by_nodes] = [Nodes::zero(); 2];
-    nodes.fill(element, &units, 1.0);
+    let mut integration = PeriodIntegration {
+        element,
+        state: State::open([0.0, 0.0, top]),
+        by_nodes: Nodes::zero(),
+        contacts: [LoadedContact::default(); 2],
+        work: StepWork::NONE,
+        slopes: [None; 2],
+        tangent: StepTangent::NONE,
+    };
+    let load = element.normal(top).load;
+    integration.state.set_nodes(element, load);
+    integration.contacts[1] = integration.state.press(element, top);
+    let units = integration.state.units;
+    let unit = element.friction_coefficient * units.load;
     if derivatives {
-        by_nodes = Nodes::slopes(element, &units);
+        integration.by_nodes = Nodes::slopes(element, &units);
         workspace.changes.fill(Displacements::zero());
         workspace.sums.fill(Zero::zero());
     }
-    let (mut work, mut tangent) = (StepWork::NONE, StepTangent::NONE);
-    let mut integration = PeriodIntegration::new(element, (units, &nodes, &by_nodes), top, (&mut work, &mut tangent));
     // The reference size is not that of the largest load if this is below the least reference load.
-    let is_reference = integration.normal.load >= units.load * 0.99;
-    let by_top = if is_reference { 0.5 * integration.contact.slopes.leg_squared } else { 0.0 };
+    let is_reference = load >= units.load * 0.99;
+    let by_top = if is_reference { 0.5 * integration.contacts[1].slopes.leg_squared } else { 0.0 };
     let mut before = None;
-    let (mut start, mut changes, mut extrapolated) = (integration.springs, [0.0; 2], 0.0);
-    for step in 0..=(periods + 1) * count {
-        let counts = step > periods * count;
-        let place = step.checked_rem(count).unwrap_or(0);
-        if step < (periods - 1) * count && !place.is_multiple_of(stride) {
+    let (mut start, mut changes, mut extrapolated) = (integration.state.springs, [0.0; 2], 0.0);
+    for number in 0..=(periods + 1) * count {
+        let counts = number > periods * count;
+        let place = number.checked_rem(count).unwrap_or(0);
+        if number < (periods - 1) * count && !place.is_multiple_of(stride) {
             continue;
         }
-        let index = (largest + step).checked_rem(count).unwrap_or(0);
+        let index = (largest + number).checked_rem(count).unwrap_or(0);
         let to = workspace.samples.get(index).map_or([0.0; 3], |sample| sample.displacement);
-        let forces = integration.advance(to);
+        let was_closed = integration.contacts[1].now.load > 0.0;
+        let step = element.is_closed(to[2]).then(|| integration.advance(to));
+        if step.is_none() {
+            integration.open(to);
+        }
         if derivatives {
-            if forces.closed != [true, true] {
+            if step.is_none() || !was_closed {
                 workspace.changes.fill(Displacements::zero());
-            } else if step % FADING == 0 {
+                workspace.force_changes.fill(Zero::zero());
+            } else if number % FADING == 0 {
                 workspace.changes.iter_mut().for_each(fade);
             }
-            if forces.closed[1] {
-                let samples = [before, Some(index), Some(largest)];
-                differentiate(workspace, &mut integration, &forces.path, by_top, samples);
-            } else {
-                workspace.force_changes.fill(Zero::zero());
+            if let Some(step) = &step {
+                differentiate(workspace, &mut integration, &step.path, by_top, [before, Some(index), Some(largest)]);
             }
             if counts {
                 accumulate(workspace, index);
@@ -440,20 +395,20 @@ fn integrate_periods(element: &Element, workspace: &mut TwoDirectionsWorkspace, 
         }
         before = Some(index);
         if let Some(sample) = workspace.samples.get_mut(index) {
-            (sample.load, sample.load_slope) = (integration.normal.load, integration.normal.load_slope);
-            sample.force = forces.force.map(|force| unit * force);
+            (sample.load, sample.load_slope) = (integration.state.normal_force, integration.state.load_slope);
+            sample.force = step.map_or([0.0; 2], |step| step.force.map(|force| unit * force));
         }
-        if count > 0 && step > 0 && step.is_multiple_of(count) {
+        if count > 0 && number > 0 && number.is_multiple_of(count) {
             changes = [changes[1], integration.change(&start)];
-            if step == count {
+            if number == count {
                 workspace.earlier.copy_from(workspace.changes);
-            } else if step == 2 * count && periods > 2 {
+            } else if number == 2 * count && periods > 2 {
                 extrapolated = changes[1];
-                extrapolate(&mut integration.springs, &mut start);
+                extrapolate(&mut integration.state.springs, &mut start);
                 let pairs = workspace.changes.iter_mut().zip(&mut *workspace.earlier);
                 pairs.for_each(|(changes, earlier)| extrapolate(changes, earlier));
             }
-            start = integration.springs;
+            start = integration.state.springs;
         }
     }
     let drift = remaining(changes).max(extrapolated.min(LEAST_DRIFT_FACTOR * changes[1]));

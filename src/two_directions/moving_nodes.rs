@@ -5,8 +5,9 @@
 //! direction erases the memory of an overload: there all springs are at their limits, which any nodes represent.
 
 use super::nodes::{FLAT_EDGE, NodeNumbers, Nodes, PerAxis, Row, Units, by_axis, length};
+use super::path::ContactPath;
 use super::shells::ScaledNormalState;
-use super::step::{Displacements, LoadedContact, SMALLEST_LENGTH, StepWork, by_spring};
+use super::step::{Displacements, LoadedContact, SMALLEST_LENGTH, StepWork, by_spring, within_friction_limit};
 use crate::element::Element;
 use crate::fourier::workspace::record;
 use crate::numerics::dual::Number;
@@ -61,15 +62,38 @@ impl State {
         LoadedContact::new(&self.nodes, &self.pressed)
     }
 
+    /// Presses the contact: the normal state under a normal component, and the contact with the present nodes.
+    pub fn press(&mut self, element: &Element, input: f64) -> LoadedContact {
+        let normal = element.normal(input);
+        (self.normal_force, self.load_slope) = (normal.load, normal.load_slope);
+        self.pressed = ScaledNormalState::new(element, &self.units, input, &normal);
+        self.contact()
+    }
+
     /// Nodes of a load.
     #[inline(never)]
     pub fn set_nodes(&mut self, element: &Element, load: f64) {
-        let [.., input] = self.displacement;
-        let normal = element.normal(input);
         self.units = Units::at_load(element, load);
         self.nodes.fill(element, &self.units, 1.0);
-        self.pressed = ScaledNormalState::new(element, &self.units, input, &normal);
-        (self.normal_force, self.load_slope) = (normal.load, normal.load_slope);
+    }
+
+    /// A step at the present nodes to a contact that is closed, from the second contact, open or closed: the contacts at its start and end.
+    pub fn step_at_nodes(
+        &mut self,
+        element: &Element,
+        contacts: &mut [LoadedContact; 2],
+        to: [f64; 3],
+        work: &mut StepWork,
+    ) -> Step {
+        let [from, contact] = contacts;
+        *from = *contact;
+        let path = ContactPath::new(element, &self.units, [self.displacement, to], [from.now.load > 0.0, true]);
+        if !path.constant_load {
+            *contact = self.press(element, to[2]);
+        }
+        self.displacement = to;
+        let force = work.advance(&self.nodes, [from, contact], &path, &mut self.springs);
+        Step { path, force: within_friction_limit(force, contact.now.load, 1.0) }
     }
 
     /// Moves the nodes and the springs of a contact to a load: the springs before, and the contact with the new nodes.
@@ -77,7 +101,8 @@ impl State {
         let (springs, limits) = (self.springs, old.limits(&self.nodes));
         let old = OldSprings { shift_unit: self.units.shift, springs, limits, used: old.shells.range() };
         self.set_nodes(element, load);
-        let contact = self.contact();
+        let [.., input] = self.displacement;
+        let contact = self.press(element, input);
         self.springs = old.moved_to(&contact, &self.units, &self.nodes);
         (old, contact)
     }
@@ -102,6 +127,13 @@ impl State {
         let nodes_load = load + (largest - load) / (1.0 + aligned.min(1.0) * length(slip));
         (nodes_load < largest * (1.0 - WORTH_NEW_NODES)).then_some(nodes_load)
     }
+}
+
+/// A step of a contact that is closed at its end, but for the springs.
+pub(super) struct Step {
+    pub path: ContactPath,
+    /// The tangential force over that of gross slip under the load of the nodes.
+    pub force: PerAxis<f64>,
 }
 
 /// Springs at nodes of another load.

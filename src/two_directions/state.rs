@@ -3,11 +3,11 @@
 use super::TwoDirections;
 use super::energy::{dissipated, separated};
 use super::harmonic_force::{HarmonicOutput, TwoDirectionsWorkspace, harmonic_force};
-use super::moving_nodes::{ALL_DIGITS, LENGTH, OldSprings, State};
+use super::moving_nodes::{ALL_DIGITS, LENGTH, OldSprings, State, Step};
 use super::nodes::{FLAT_EDGE, Nodes, PerAxis, Row, SPRINGS, Units};
 use super::path::{ContactPath, MAX_MOTION};
 use super::shells::ScaledNormalState;
-use super::step::{Displacements, LoadedContact, SMALLEST_LENGTH, StepWork, by_spring, within_friction_limit};
+use super::step::{Displacements, LoadedContact, SMALLEST_LENGTH, StepWork, by_spring};
 use super::tangent::{ContactSlopes, ParameterChanges, PerParameter, Propagation, StepTangent};
 use crate::element::{Directions, Element, Normal};
 use crate::error::{Error, ensure};
@@ -133,6 +133,7 @@ impl State {
             let [.., input] = self.displacement;
             if was_closed && element.is_closed(input) {
                 self.set_nodes(element, element.normal(input).load);
+                self.press(element, input);
             }
         }
         (self.key, self.all_digits) = (element.key, ALL_DIGITS);
@@ -141,38 +142,24 @@ impl State {
 
     /// A step of a contact that is closed at its end.
     fn step(&mut self, element: &Element, to: [f64; 3], requested: Requested) -> StepOf<TwoDirections> {
-        let was_closed = self.normal_force > 0.0;
-        let same = was_closed && to[2].to_bits() == self.displacement[2].to_bits();
-        let normal = if same {
-            Normal { load: self.normal_force, load_slope: self.load_slope, ..Normal::OPEN }
-        } else {
-            element.normal(to[2])
-        };
-        let (mut from, mut old_springs) = (LoadedContact::default(), None);
-        if was_closed {
-            from = self.contact();
-            if normal.load > self.units.load * (1.0 + LOAD_TOLERANCE) {
-                let (old, moved) = self.move_nodes(element, &from, normal.load);
-                (from, old_springs) = (moved, Some(old));
+        let (mut contacts, mut old_springs) = ([LoadedContact::default(); 2], None);
+        let constant_load = self.normal_force > 0.0 && to[2].to_bits() == self.displacement[2].to_bits();
+        let load = if constant_load { self.normal_force } else { element.normal(to[2]).load };
+        if self.normal_force > 0.0 {
+            contacts[1] = self.contact();
+            if load > self.units.load * (1.0 + LOAD_TOLERANCE) {
+                let (old, moved) = self.move_nodes(element, &contacts[1], load);
+                (contacts[1], old_springs) = (moved, Some(old));
             }
         } else {
             // Springs that close in a step all carry the same part of it, at any nodes.
-            self.units = Units::at_load(element, normal.load);
-            self.nodes.fill(element, &self.units, 1.0);
-        }
-        let path = ContactPath::new(element, &self.units, [self.displacement, to], [was_closed, true]);
-        let unit = element.friction_coefficient * self.units.load;
-        let mut contact = from;
-        if !same {
-            self.pressed = ScaledNormalState::new(element, &self.units, to[2], &normal);
-            contact = self.contact();
+            self.set_nodes(element, load);
         }
         let mut work = StepWork::NONE;
         [work.middle_slip.rotation_guess, work.end_slip.rotation_guess] = self.rotation_guess;
-        let contacts = [&from, &contact];
-        let force = work.advance(&self.nodes, contacts, &path, &mut self.springs);
-        let [x, y] = within_friction_limit(force, contact.now.load, 1.0);
-        let mut result = StepResult { force: [unit * x, unit * y, normal.load], ..StepResult::NONE };
+        let Step { path, force: [x, y] } = self.step_at_nodes(element, &mut contacts, to, &mut work);
+        let (contacts, unit) = (contacts.each_ref(), element.friction_coefficient * self.units.load);
+        let mut result = StepResult { force: [unit * x, unit * y, self.normal_force], ..StepResult::NONE };
         if requested.tangent {
             let by_nodes = old_springs.map(|old_springs| (old_springs, Nodes::slopes(element, &self.units)));
             let [x, y] = self.tangent(contacts, &path, &work, by_nodes.as_ref());
@@ -180,16 +167,15 @@ impl State {
             let column = |lane: usize, unit: f64| [unit * x[lane], unit * y[lane]];
             let ([xx, yx], [xy, yy]) = (column(0, per_distance), column(1, per_distance));
             let [xn, yn] = column(NORMAL_COMPONENT, per_input);
-            result.tangent = [xx, yx, 0.0, xy, yy, 0.0, xn, yn, normal.load_slope];
+            result.tangent = [xx, yx, 0.0, xy, yy, 0.0, xn, yn, self.load_slope];
         }
         if requested.energy {
             let unit = unit * element.friction_coefficient * self.units.shift * path.scale;
             result.dissipated = unit * dissipated(&self.nodes, contacts, &path, &work, &self.springs);
         }
         self.rotation_guess = [work.middle_slip.rotation_guess, work.end_slip.rotation_guess];
-        (self.displacement, self.normal_force, self.load_slope) = (to, normal.load, normal.load_slope);
-        if let Some(load) = self.load_of_nodes_after_gross_slip(&contact, &work, [x, y]) {
-            self.move_nodes(element, &contact, load);
+        if let Some(load) = self.load_of_nodes_after_gross_slip(contacts[1], &work, [x, y]) {
+            self.move_nodes(element, contacts[1], load);
         }
         result
     }
