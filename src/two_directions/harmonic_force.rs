@@ -134,6 +134,12 @@ impl<'a> TwoDirectionsWorkspace<'a> {
     /// Errors: those of [`harmonic_force`].
     pub(crate) fn check(&mut self, element: &Element, displacement: &[f64]) -> Result<(), Error> {
         check_coefficients(displacement)?;
+        // What is allowed for any phases needs no samples.
+        let (mean, others) = displacement.part(2 * self.coefficients()..).split_first().unwrap_or((&0.0, &[]));
+        let amplitude: f64 = others.iter().map(|value| value.abs()).sum();
+        if (element.by_approach() || *mean >= amplitude) && element.check_input(mean + amplitude).is_ok() {
+            return Ok(());
+        }
         self.synthesise(element, displacement)
     }
 

@@ -38,15 +38,19 @@ pub(super) fn eliminate(matrix: &mut Matrix, i: usize, [first, end]: [usize; 2])
     matrix[i][i] = -per_pivot;
 }
 
-/// A x in place, of several x at once, by rows of a symmetric matrix A from one to another.
-pub(super) fn times_symmetric<const L: usize>(rows: &Matrix, [first, end]: [usize; 2], x: &mut [Lanes<L>; SPRINGS]) {
-    let old = *x;
+/// A x of several x at once, by rows of a symmetric matrix A from one to another.
+pub(super) fn times_symmetric<const L: usize>(
+    rows: &Matrix,
+    [first, end]: [usize; 2],
+    x: &[Lanes<L>; SPRINGS],
+) -> [Lanes<L>; SPRINGS] {
+    let mut y = [Lanes::ZERO; SPRINGS];
     for i in first..end.min(SPRINGS) {
-        x[i] = Lanes::ZERO;
         for m in first..end.min(SPRINGS) {
-            x[i] += rows[i][m] * old[m];
+            y[i] += rows[i][m] * x[m];
         }
     }
+    y
 }
 
 /// U x in place, of several x at once, by rows of an upper triangular matrix U from one to another.

@@ -49,6 +49,23 @@ pub(crate) fn length([x, y]: PerAxis<f64>) -> f64 {
     (x * x + y * y).sqrt()
 }
 
+/// Bits of points or springs.
+pub(crate) type PointSet = u32;
+
+/// 1 at the points of a set, 0 at others.
+pub(crate) fn mask_of(set: PointSet) -> Row {
+    let mut row = Row::ZERO;
+    for i in 0..SPRINGS {
+        row[i] = if set >> i & 1 == 1 { 1.0 } else { 0.0 };
+    }
+    row
+}
+
+/// The points of a range.
+pub(crate) fn points_in([first, end]: [usize; 2]) -> PointSet {
+    ((1 << end.min(31)) - 1) & !((1 << first.min(31)) - 1)
+}
+
 /// The first node under pressure: the edge of the flat.
 pub(crate) const FLAT_EDGE: usize = 1;
 /// The share of the nodes that is graded towards the edge: more of it makes circles more accurate, less of it motion on a line.

@@ -14,14 +14,11 @@
 //! Derivatives are one more step of Newton's method from the solution, see [`Slip::differentiate`].
 
 use super::matrix::{dot, eliminate, times};
-use super::nodes::{Matrix, PerAxis, Row, SPRINGS, length};
+use super::nodes::{Matrix, PerAxis, PointSet, Row, SPRINGS, length, mask_of, points_in};
 use super::shells::Springs;
 use crate::numerics::guard::{TINY, quotient};
 use crate::numerics::lanes::Lanes;
 use crate::numerics::total::Total;
-
-/// Bits of points.
-pub(crate) type PointSet = u32;
 
 /// Newton steps, and changes of the set, after which a guess is given up.
 const MAX_STEPS: usize = 60;
@@ -301,20 +298,6 @@ pub(crate) fn set_metric(metric: &mut PerAxis<Matrix>, springs: &Springs, [first
             }
         }
     }
-}
-
-/// 1 at the points of a set, 0 at others.
-pub(crate) fn mask_of(set: PointSet) -> Row {
-    let mut row = Row::ZERO;
-    for i in 0..SPRINGS {
-        row[i] = if set >> i & 1 == 1 { 1.0 } else { 0.0 };
-    }
-    row
-}
-
-/// The points of a range.
-pub(crate) fn points_in([first, end]: [usize; 2]) -> PointSet {
-    ((1 << end.min(31)) - 1) & !((1 << first.min(31)) - 1)
 }
 
 /// Sweeps of the points, each of which moves towards the nearest traction within its bound: directions, and the points at the bound.

@@ -13,10 +13,10 @@
 //!
 //! The bounds beside the points are formulas of any number. With numbers that carry derivatives they are their own tangent.
 
-use super::nodes::{Nodes, PerAxis, Row, SPRINGS, by_axis};
+use super::nodes::{Nodes, PerAxis, Row, SPRINGS, by_axis, mask_of, points_in};
 use super::path::ContactPath;
 use super::shells::{ScaledNormalState, Shells, Springs};
-use super::slip::{Metric, Slip, mask_of, points_in};
+use super::slip::{Metric, Slip};
 use crate::fourier::workspace::record;
 use crate::numerics::dual::Number;
 use crate::numerics::lanes::Lanes;

@@ -8,19 +8,16 @@
 //! ```
 
 use super::matrix::{dot, times_symmetric, times_upper, times_upper_transposed};
-use super::nodes::{FLAT_EDGE, Matrix, Nodes, PerAxis, Row, SPRINGS, by_axis};
+use super::nodes::{FLAT_EDGE, Matrix, Nodes, PerAxis, PointSet, Row, SPRINGS, by_axis, points_in};
 use super::path::ContactPath;
 use super::shells::{ScaledNormalState, Shells, Springs, minus_next};
-use super::slip::{PointSet, Slip, points_in, set_metric};
+use super::slip::{Points, Slip, set_metric};
 use super::step::{
-    Displacements, LENGTH_SLIP_THRESHOLD, LoadedContact, SlipOf, StepInput, StepWork, by_spring, update,
+    Displacements, LENGTH_SLIP_THRESHOLD, LoadedContact, PerSpring, SlipOf, StepInput, StepWork, by_spring, update,
     within_friction_limit,
 };
 use crate::numerics::dual::{Dual, Number};
 use crate::numerics::lanes::Lanes;
-
-/// Changes of each spring.
-type Changes<const L: usize> = [Lanes<L>; SPRINGS];
 
 /// A value for each parameter of a step: the normal component over its scale at the start and at the end, and the logarithm of the reference
 /// size of the nodes.
@@ -307,7 +304,7 @@ impl Slip {
         &self,
         jacobian: &SlipJacobian,
         springs: &Springs,
-        v: &mut PerAxis<Changes<L>>,
+        v: &mut PerSpring<Lanes<L>>,
         parameters: &ParameterChanges,
         slip_of: impl Fn(&ParameterTerms) -> &SlipTerms,
     ) {
@@ -343,60 +340,37 @@ impl Slip {
     }
 
     /// Changes of the tractions, in place of those of slip at the present tractions.
-    fn tractions_of<const L: usize>(&self, jacobian: &SlipJacobian, slip: &mut PerAxis<Changes<L>>, range: [usize; 2]) {
-        let [first, end] = range.map(|i| i.min(SPRINGS));
-        let (points, SlipJacobian { metric, inverse }) = (&self.points, jacobian);
-        let sticks = !points.set & points_in([first, end]);
+    fn tractions_of<const L: usize>(&self, jacobian: &SlipJacobian, slip: &mut PerSpring<Lanes<L>>, range: [usize; 2]) {
+        let (Points { set, e, .. }, SlipJacobian { metric, inverse }) = (&self.points, jacobian);
+        let sticks = !set & points_in(range);
+        let is_in = |set: PointSet, i: usize| set >> i & 1 == 1;
+        // The product of K with the changes of the points of a set.
+        let product = |set: PointSet, changes: &PerSpring<Lanes<L>>| {
+            by_axis(|axis| {
+                let of_set = |i: usize| if is_in(set, i) { changes[axis][i] } else { Lanes::ZERO };
+                times_symmetric(&metric[axis], range, &core::array::from_fn(of_set))
+            })
+        };
         if sticks != 0 {
-            condense_sticking_points(metric, slip, [first, end], (points.set, sticks));
+            // Points that stick between others are eliminated from K: their changes of slip become changes of their tractions, and are
+            // subtracted from those of the others by their share.
+            let taken = product(sticks, slip);
+            update(slip, |axis, i, slip| if is_in(sticks, i) { -taken[axis][i] } else { slip - taken[axis][i] });
         }
-        let mut across = [Lanes::ZERO; SPRINGS];
-        for m in first..end {
-            if points.set >> m & 1 == 1 {
-                across[m] = points.e[0][m] * slip[1][m] - points.e[1][m] * slip[0][m];
-            }
-        }
-        times_symmetric(inverse, [first, end], &mut across);
-        for i in first..end {
-            if points.set >> i & 1 == 1 {
-                (slip[0][i], slip[1][i]) = (points.e[1][i] * across[i], -points.e[0][i] * across[i]);
+        let across = core::array::from_fn(|i| {
+            let across = e[0][i] * slip[1][i] - e[1][i] * slip[0][i];
+            if is_in(*set, i) { across } else { Lanes::ZERO }
+        });
+        let across = times_symmetric(inverse, range, &across);
+        for i in 0..SPRINGS {
+            if is_in(*set, i) {
+                (slip[0][i], slip[1][i]) = (e[1][i] * across[i], -e[0][i] * across[i]);
             }
         }
         if sticks != 0 {
-            // Subtract the effect of the points that slip on the tractions of those that stick.
-            for axis in 0..2 {
-                for i in first..end {
-                    for m in first..end {
-                        if sticks >> i & points.set >> m & 1 == 1 {
-                            let taken = metric[axis][m][i] * slip[axis][m];
-                            slip[axis][i] -= taken;
-                        }
-                    }
-                }
-            }
-        }
-    }
-}
-
-/// Eliminates the points that stick between others: the change of slip of such a point becomes the change of its traction, and is subtracted
-/// from the change of slip of the others by their share.
-#[inline(never)]
-fn condense_sticking_points<const L: usize>(
-    metric: &PerAxis<Matrix>,
-    slip: &mut PerAxis<Changes<L>>,
-    [first, end]: [usize; 2],
-    (set, sticks): (PointSet, PointSet),
-) {
-    for axis in 0..2 {
-        let own = slip[axis];
-        for i in first..end.min(SPRINGS) {
-            let mut sum = if set >> i & 1 == 1 { own[i] } else { Lanes::ZERO };
-            for m in first..end.min(SPRINGS) {
-                if sticks >> m & 1 == 1 {
-                    sum -= metric[axis][m][i] * own[m];
-                }
-            }
-            slip[axis][i] = sum;
+            // The tractions of the points that slip change those of the points that stick.
+            let taken = product(*set, slip);
+            update(slip, |axis, i, slip| if is_in(sticks, i) { slip - taken[axis][i] } else { slip });
         }
     }
 }
