@@ -28,6 +28,7 @@ use crate::numerics::guard::quotient;
 use crate::numerics::lanes::Lanes;
 use crate::numerics::total::{Total, Zero};
 use crate::tag::Kind;
+use core::iter;
 
 pub use crate::fourier::HarmonicOutput;
 
@@ -215,19 +216,9 @@ pub fn harmonic_force(
     let n = workspace.coefficients();
     output.check(3 * n, displacement)?;
     workspace.synthesise(element, displacement)?;
-    let steady = integrate_periods(element, workspace, output.jacobian.is_some());
-    write_outputs(workspace, displacement, output, &steady);
+    let drift = integrate_periods(element, workspace, output.jacobian.is_some());
+    write_outputs(workspace, displacement, output, drift);
     Ok(())
-}
-
-/// The first sample of largest normal force: its index and its normal component.
-fn first_of_largest_load(workspace: &TwoDirectionsWorkspace) -> (usize, f64) {
-    let mut largest = (0, f64::MIN);
-    for (index, sample) in workspace.samples.iter().enumerate() {
-        let [.., input] = sample.displacement;
-        largest = if input > largest.1 { (index, input) } else { largest };
-    }
-    largest
 }
 
 /// The integration along the samples of a motion.
@@ -324,28 +315,25 @@ fn fade(changes: &mut Displacements<Columns>) {
     }
 }
 
-/// The steady state of a motion: the unit of the tangential forces, unless these are 0, and an estimate of the change that remains.
-struct SteadyState {
-    unit: Option<f64>,
-    drift: f64,
-}
-
-/// Integrates along the periods of a motion that was synthesised, up to the forces at the samples and the sums of their derivatives. Not
-/// inlined: its frame is not that of a call with one direction.
+/// Integrates along the periods of a motion that was synthesised, up to the forces at the samples and the sums of their derivatives: the
+/// drift. Not inlined: its frame is not that of a call with one direction.
 #[inline(never)]
-fn integrate_periods(element: &Element, workspace: &mut TwoDirectionsWorkspace, derivatives: bool) -> SteadyState {
+fn integrate_periods(element: &Element, workspace: &mut TwoDirectionsWorkspace, derivatives: bool) -> f64 {
     let SamplingSize { samples: count, harmonics, periods } = workspace.size;
-    let (largest, top) = first_of_largest_load(workspace);
+    workspace.changes.fill(Displacements::zero());
+    workspace.sums.fill(Zero::zero());
+    let (mut largest, mut top, mut opens) = (0, f64::MIN, false);
+    for (index, sample) in workspace.samples.iter_mut().enumerate() {
+        let [.., input] = sample.displacement;
+        let normal = if element.is_closed(input) { element.normal(input) } else { Normal::OPEN };
+        (sample.load, sample.load_slope, sample.force) = (normal.load, normal.load_slope, [0.0; 2]);
+        opens |= normal.load == 0.0;
+        (largest, top) = if input > top { (index, input) } else { (largest, top) };
+    }
     if !(element.friction_coefficient > 0.0 && element.is_closed(top)) {
-        for sample in &mut *workspace.samples {
-            let [.., input] = sample.displacement;
-            let normal = if element.is_closed(input) { element.normal(input) } else { Normal::OPEN };
-            (sample.load, sample.load_slope, sample.force) = (normal.load, normal.load_slope, [0.0; 2]);
-        }
-        return SteadyState { unit: None, drift: 0.0 };
+        return 0.0;
     }
     // A contact that opens has no memory: whatever was before, the second period is the steady state.
-    let opens = workspace.samples.iter().any(|sample| !element.is_closed(sample.displacement[2]));
     let periods = if opens { 1 } else { periods };
     let stride = count.checked_div(TRANSIENT_SAMPLES * harmonics).unwrap_or(1).max(1);
     let mut integration = PeriodIntegration {
@@ -364,21 +352,19 @@ fn integrate_periods(element: &Element, workspace: &mut TwoDirectionsWorkspace, 
     let unit = element.friction_coefficient * units.load;
     if derivatives {
         integration.by_nodes = Nodes::slopes(element, &units);
-        workspace.changes.fill(Displacements::zero());
-        workspace.sums.fill(Zero::zero());
     }
     // The reference size is not that of the largest load if this is below the least reference load.
     let is_reference = load >= units.load * 0.99;
     let by_top = if is_reference { 0.5 * integration.contacts[1].slopes.leg_squared } else { 0.0 };
     let mut before = None;
     let (mut start, mut changes, mut extrapolated) = (integration.state.springs, [0.0; 2], 0.0);
-    for number in 0..=(periods + 1) * count {
-        let counts = number > periods * count;
-        let place = number.checked_rem(count).unwrap_or(0);
-        if number < (periods - 1) * count && !place.is_multiple_of(stride) {
+    // The first step is that to the sample of largest load.
+    let steps = (0..=periods).flat_map(|period| (1..=count).map(move |place| (period, place)));
+    for (number, (period, place)) in iter::once((0, 0)).chain(steps).enumerate() {
+        if period + 1 < periods && place < count && !place.is_multiple_of(stride) {
             continue;
         }
-        let index = (largest + number).checked_rem(count).unwrap_or(0);
+        let index = if largest + place < count { largest + place } else { largest + place - count };
         let to = workspace.samples.get(index).map_or([0.0; 3], |sample| sample.displacement);
         let was_closed = integration.contacts[1].now.load > 0.0;
         let step = element.is_closed(to[2]).then(|| integration.advance(to));
@@ -395,20 +381,19 @@ fn integrate_periods(element: &Element, workspace: &mut TwoDirectionsWorkspace, 
             if let Some(step) = &step {
                 differentiate(workspace, &mut integration, &step.path, by_top, [before, Some(index), Some(largest)]);
             }
-            if counts {
-                accumulate(workspace, index);
+            if period == periods {
+                accumulate(workspace, index, unit);
             }
         }
         before = Some(index);
-        if let Some(sample) = workspace.samples.get_mut(index) {
-            (sample.load, sample.load_slope) = (integration.state.normal_force, integration.state.load_slope);
-            sample.force = step.map_or([0.0; 2], |step| step.force.map(|force| unit * force));
+        if let (Some(sample), Some(step)) = (workspace.samples.get_mut(index), step) {
+            sample.force = step.force.map(|force| unit * force);
         }
-        if count > 0 && number > 0 && number.is_multiple_of(count) {
+        if place == count {
             changes = [changes[1], integration.change(&start)];
-            if number == count {
+            if period == 0 {
                 workspace.earlier.copy_from(workspace.changes);
-            } else if number == 2 * count && periods > 2 {
+            } else if period == 1 && periods > 2 {
                 extrapolated = changes[1];
                 extrapolate(&mut integration.state.springs, &mut start);
                 let pairs = workspace.changes.iter_mut().zip(&mut *workspace.earlier);
@@ -417,19 +402,17 @@ fn integrate_periods(element: &Element, workspace: &mut TwoDirectionsWorkspace, 
             start = integration.state.springs;
         }
     }
-    let drift = remaining(changes).max(extrapolated.min(LEAST_DRIFT_FACTOR * changes[1]));
-    SteadyState { unit: Some(unit), drift: if opens { 0.0 } else { drift } }
+    if opens { 0.0 } else { remaining(changes).max(extrapolated.min(LEAST_DRIFT_FACTOR * changes[1])) }
 }
 
 fn write_outputs(
     workspace: &mut TwoDirectionsWorkspace,
     displacement: &[f64],
-    output: HarmonicOutput,
-    steady: &SteadyState,
+    HarmonicOutput { force, jacobian, dissipated, drift }: HarmonicOutput,
+    own_drift: f64,
 ) {
-    let HarmonicOutput { force, jacobian, dissipated, drift } = output;
     if let Some(jacobian) = jacobian {
-        write_jacobian(workspace, steady.unit, jacobian);
+        write_jacobian(workspace, jacobian);
     }
     if force.is_some() || dissipated.is_some() {
         transform_force(workspace);
@@ -442,7 +425,7 @@ fn write_outputs(
         force.copy_from(workspace.force);
     }
     if let Some(drift) = drift {
-        *drift = steady.drift;
+        *drift = own_drift;
     }
 }
 
@@ -477,7 +460,7 @@ fn weight(size: &SamplingSize, c: usize) -> f64 {
 }
 
 /// The Jacobian from the sums, and that of the normal force.
-fn write_jacobian(workspace: &TwoDirectionsWorkspace, unit: Option<f64>, jacobian: &mut [f64]) {
+fn write_jacobian(workspace: &TwoDirectionsWorkspace, jacobian: &mut [f64]) {
     let TwoDirectionsWorkspace { size, sums, samples, basis, changes, .. } = workspace;
     let n = size.coefficients();
     for (j, column) in jacobian.chunks_exact_mut(3 * n).enumerate() {
@@ -488,7 +471,7 @@ fn write_jacobian(workspace: &TwoDirectionsWorkspace, unit: Option<f64>, jacobia
         for (axis, places) in column.chunks_exact_mut(n).enumerate().take(2) {
             for (c, place) in places.iter_mut().enumerate() {
                 let sum = sums.or_zero(c * changes.len() + block).as_slice().or_zero(axis).as_slice().or_zero(lane);
-                *place = unit.map_or(0.0, |unit| unit * weight(size, c) * sum);
+                *place = weight(size, c) * sum;
             }
         }
     }
@@ -507,14 +490,14 @@ fn row(matrix: &[f64], n: usize, r: usize) -> &[f64] {
     matrix.part(r * n..(r + 1) * n)
 }
 
-/// Adds the changes of both forces at a sample, times each value of the basis.
-fn accumulate(workspace: &mut TwoDirectionsWorkspace, sample: usize) {
+/// Adds the changes of both forces at a sample, times each value of the basis and a unit.
+fn accumulate(workspace: &mut TwoDirectionsWorkspace, sample: usize, unit: f64) {
     let TwoDirectionsWorkspace { size, basis, force_changes, sums, .. } = workspace;
     let basis = row(basis, size.coefficients(), sample);
     for (sums, value) in sums.chunks_exact_mut(force_changes.len().max(1)).zip(basis) {
         for (sums, forces) in sums.iter_mut().zip(&**force_changes) {
             for axis in 0..2 {
-                sums[axis] += *value * forces[axis];
+                sums[axis] += unit * value * forces[axis];
             }
         }
     }

@@ -261,7 +261,7 @@ pub(crate) struct Springs {
     /// 1/ΔS_j and k_j.
     pub per_shift: PerAxis<Row>,
     pub stiffness: PerAxis<Row>,
-    /// C⁻¹, the inverse of the map from v to q, a row for each spring: no entry is negative.
+    /// C⁻¹, the inverse of the map from v to q, a row for each spring in use: no entry is negative.
     pub inverse: PerAxis<Matrix>,
 }
 
@@ -291,7 +291,6 @@ impl Springs {
             per_shift[axis] = quotient(1.0, shells.shift_step[axis]);
             stiffness[axis] = shells.stiffness(axis, &per_shift[axis]);
         }
-        *inverse = [[Row::ZERO; SPRINGS]; 2];
         for i in shells.range().rev().map(|i| i.min(SPRINGS - 1)) {
             // v_i = [p_i q_i + Σ_{j>i} (g_i,j-1 - g_ij) v_j]/g_ii, with p_i g_ij in place of g_ij.
             for axis in 0..2 {
