@@ -25,14 +25,10 @@ const MAX_STEPS: usize = 60;
 const MAX_SET_CHANGES: usize = 12;
 /// Newton's method has converged when the change of the angles that would be next is at most this.
 const TURN_TOLERANCE: f64 = 1e-11;
-/// The inverse of J is kept while the changes of the angles are at most this.
+/// The inverse of J is kept while the changes of the angles fall to a tenth, and are at most this.
 const REUSE_TURN: f64 = 3e-2;
 /// Newton's method is given up at a change of angles whose square could overflow.
 const DIVERGED_TURN: f64 = 1e100;
-/// A change of the angles is a rounding error if it is more than the part `STALLED` of the one before, which was at most `SMALL_TURN`, and
-/// both followed from a new inverse.
-const SMALL_TURN: f64 = 1e-9;
-const STALLED: f64 = 0.5;
 /// Sweeps of the points before Newton's method is tried again, and attempts, the first one of which is without.
 const SWEEPS: usize = 30;
 const ATTEMPTS: usize = 8;
@@ -55,9 +51,6 @@ pub(crate) struct Slip {
     pub trial: PerAxis<Row>,
     /// Tangents of half the angles from q* to q of points that slip: the first guess of the next step.
     pub rotation_guess: Row,
-    /// -J⁻¹ of the last iteration that needed a new one, and its points.
-    inverse: Matrix,
-    inverse_of: PointSet,
 }
 
 /// The metric K of a set of slipping points under a load: from the innermost one on, with the points that stick eliminated.
@@ -66,12 +59,15 @@ pub(crate) struct Metric {
     matrices: PerAxis<Matrix>,
     /// The set and the load of K. K is computed anew if either differs, and always for `NEVER_REUSED`.
     computed_for: (PointSet, f64),
+    /// -J⁻¹.
+    inverse: Matrix,
 }
 
 impl Metric {
     /// A load at which K is not that of a contact: it equals no load.
     pub const NEVER_REUSED: f64 = f64::NAN;
-    pub const NONE: Metric = Metric { matrices: [[Row::ZERO; SPRINGS]; 2], computed_for: (0, 0.0) };
+    pub const NONE: Metric =
+        Metric { matrices: [[Row::ZERO; SPRINGS]; 2], computed_for: (0, 0.0), inverse: [Row::ZERO; SPRINGS] };
 }
 
 /// The points of a contact after slip.
@@ -96,7 +92,7 @@ impl Slip {
     pub const NONE: Slip = {
         let rows = [Row::ZERO; 2];
         let points = Points { set: 0, first: 0, slips: Row::ZERO, e: rows, q: rows, r: rows, v: rows };
-        Slip { points, trial: rows, rotation_guess: Row::ZERO, inverse: [Row::ZERO; SPRINGS], inverse_of: 0 }
+        Slip { points, trial: rows, rotation_guess: Row::ZERO }
     };
 
     /// Finds the slip from a trial state of springs under a load.
@@ -135,8 +131,8 @@ impl Slip {
 
     /// Newton's method from present directions; whether it converged.
     fn newton(&mut self, metric: &mut Metric, springs: &Springs, q: &PerAxis<Row>, load: f64) -> bool {
-        let Slip { points, trial, inverse, inverse_of, .. } = self;
-        let Metric { matrices, computed_for } = metric;
+        let Slip { points, trial, .. } = self;
+        let Metric { matrices, computed_for, inverse } = metric;
         let mut steps = 0;
         'sets: for _ in 0..MAX_SET_CHANGES {
             points.first = (points.set.trailing_zeros() as usize).min(SPRINGS);
@@ -146,9 +142,7 @@ impl Slip {
                 set_metric(matrices, springs, range, points.set);
                 *computed_for = (points.set, load);
             }
-            // The inverse of the step before is kept while changes of angles fall to a tenth.
-            let (mut largest_turn, mut converged, mut keeps_inverse) = (f64::MAX, false, *inverse_of == points.set);
-            let mut inverted = [false; 2];
+            let (mut largest_turn, mut converged, mut keeps_inverse) = (f64::MAX, false, false);
             loop {
                 let across = points.residual(matrices, q, range);
                 let undetermined = steps % REVIEW_INTERVAL == REVIEW_INTERVAL - 1;
@@ -158,10 +152,9 @@ impl Slip {
                 if converged {
                     return true;
                 }
-                inverted = [inverted[1], !keeps_inverse];
-                if inverted[1] {
+                let is_new = !keeps_inverse;
+                if is_new {
                     points.invert(inverse, matrices, range);
-                    *inverse_of = points.set;
                 }
                 let turns = -times(inverse, range, &(points.slips * across));
                 let before = largest_turn;
@@ -171,13 +164,9 @@ impl Slip {
                     return false;
                 }
                 points.turn(&turns);
-                // Quadratic with a new inverse, linear with an old one, of which the first change tells nothing.
-                let linear_rate = quotient(largest_turn, before);
-                let rate = if inverted[1] { largest_turn } else { linear_rate };
-                let is_first = before > DIVERGED_TURN && !inverted[1];
-                let stalled = inverted == [true; 2] && before <= SMALL_TURN && largest_turn >= STALLED * before;
-                converged =
-                    stalled || largest_turn * (if rate < 1.0 && !is_first { rate } else { 1.0 }) <= TURN_TOLERANCE;
+                // The next change of the angles: the square with a new inverse; with that of a step before, it falls as the last one did.
+                let rate = if is_new { largest_turn } else { quotient(largest_turn, before) };
+                converged = largest_turn * rate.min(1.0) <= TURN_TOLERANCE;
                 keeps_inverse = largest_turn <= 0.1 * before && largest_turn <= REUSE_TURN;
             }
         }
