@@ -59,6 +59,12 @@ pub(crate) fn angle(order: usize, sample: usize, samples: usize) -> f64 {
     2.0 * PI * fraction
 }
 
+/// The value of row c of 1, cos t, sin t, cos 2t, ... at one of the samples of a period.
+pub(crate) fn basis(c: usize, sample: usize, samples: usize) -> f64 {
+    let angle = angle(c.div_ceil(2), sample, samples);
+    if c > 0 && c.is_multiple_of(2) { angle.sin() } else { angle.cos() }
+}
+
 /// Completes Fourier sums over half a period by the other half, in which the function keeps (+1) or changes (-1) its sign.
 pub(crate) fn complete_half_wave(sums: &mut [f64], sign: f64) {
     for (c, sum) in sums.iter_mut().enumerate() {

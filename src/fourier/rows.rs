@@ -3,8 +3,8 @@
 //! φ is the row 1, cos t, sin t, cos 2t, ... at a sample. The sum of φ over consecutive samples is a difference of antiderivatives. The
 //! rows of many harmonics are divided into strips whose length is known to the compiler, and that stay in registers.
 
-use super::angle;
 use super::workspace::{Blocks, Parts};
+use super::{angle, basis};
 use crate::numerics::lanes::Lanes;
 use crate::numerics::total::Total;
 use core::f64::consts::PI;
@@ -64,11 +64,7 @@ impl<'a> Rows<'a> {
                 }
             }
         };
-        let is_sine = |c: usize| c > 0 && c.is_multiple_of(2);
-        fill(self.phi, &|c, n| {
-            let angle = angle(c.div_ceil(2), n, samples);
-            if is_sine(c) { angle.sin() } else { angle.cos() }
-        });
+        fill(self.phi, &|c, n| basis(c, n, samples));
         fill(self.antiderivatives, &|c, n| {
             let order = c.div_ceil(2);
             if order == 0 {
@@ -77,7 +73,7 @@ impl<'a> Rows<'a> {
             // Sums of a geometric series: the angle half a step before the sample.
             let angle = angle(order, 2 * n + 2 * samples - 1, 2 * samples);
             let scale = 0.5 / (PI * order as f64 / samples as f64).sin();
-            scale * if is_sine(c) { -angle.cos() } else { angle.sin() }
+            scale * if c.is_multiple_of(2) { -angle.cos() } else { angle.sin() }
         });
     }
 

@@ -25,7 +25,7 @@ pub(crate) fn dissipated(
     } else {
         0.0
     };
-    if step.middle_slip.points.set != 0 || step.end_slip.points.set != 0 || step.gross_slip > 0.0 {
+    if step.slips.iter().any(|slip| slip.points.set != 0) || step.gross_slip > 0.0 {
         let limits = to.limits(nodes);
         let follow = &step.follow;
         for j in to.shells.range() {

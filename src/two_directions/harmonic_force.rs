@@ -22,7 +22,7 @@ use super::tangent::{ContactSlopes, ParameterChanges, PerParameter, Propagation,
 use crate::element::{Element, Normal};
 use crate::error::Error;
 use crate::fourier::workspace::{Layout, Parts, Record, SamplingSize, doubles_mut, record};
-use crate::fourier::{angle, work};
+use crate::fourier::{basis, normalise, work};
 use crate::limits::check_coefficients;
 use crate::numerics::guard::quotient;
 use crate::numerics::lanes::Lanes;
@@ -109,12 +109,9 @@ impl<'a> Layout<'a> for TwoDirectionsWorkspace<'a> {
     }
 
     fn fill(&mut self) {
-        let samples = self.size.samples;
-        for (sample, values) in self.basis.chunks_exact_mut(self.size.coefficients().max(1)).enumerate() {
-            for (c, value) in values.iter_mut().enumerate() {
-                let angle = angle(c.div_ceil(2), sample, samples);
-                *value = if c % 2 == 0 && c > 0 { angle.sin() } else { angle.cos() };
-            }
+        let (samples, n) = (self.size.samples, self.size.coefficients());
+        for (sample, values) in self.basis.chunks_exact_mut(n.max(1)).enumerate() {
+            values.iter_mut().enumerate().for_each(|(c, value)| *value = basis(c, sample, samples));
         }
     }
 }
@@ -305,9 +302,8 @@ fn extrapolate<T: Record>(record: &mut T, before: &mut T) {
     pairs.for_each(|(value, before)| *value += EXTRAPOLATION * (*value - *before));
 }
 
-/// Changes below this are set to 0, every `FADING` steps: they would decay to subnormal numbers, which are slow.
+/// Changes below this are set to 0: they would decay to subnormal numbers, which are slow.
 const NEGLIGIBLE_CHANGE: f64 = 1e-200;
-const FADING: usize = 8;
 
 fn fade(changes: &mut Displacements<Columns>) {
     for x in doubles_mut(changes) {
@@ -360,7 +356,7 @@ fn integrate_periods(element: &Element, workspace: &mut TwoDirectionsWorkspace, 
     let (mut start, mut changes, mut extrapolated) = (integration.state.springs, [0.0; 2], 0.0);
     // The first step is that to the sample of largest load.
     let steps = (0..=periods).flat_map(|period| (1..=count).map(move |place| (period, place)));
-    for (number, (period, place)) in iter::once((0, 0)).chain(steps).enumerate() {
+    for (period, place) in iter::once((0, 0)).chain(steps) {
         if period + 1 < periods && place < count && !place.is_multiple_of(stride) {
             continue;
         }
@@ -375,9 +371,8 @@ fn integrate_periods(element: &Element, workspace: &mut TwoDirectionsWorkspace, 
             if step.is_none() || !was_closed {
                 workspace.changes.fill(Displacements::zero());
                 workspace.force_changes.fill(Zero::zero());
-            } else if number % FADING == 0 {
-                workspace.changes.iter_mut().for_each(fade);
             }
+            workspace.changes.iter_mut().for_each(fade);
             if let Some(step) = &step {
                 differentiate(workspace, &mut integration, &step.path, by_top, [before, Some(index), Some(largest)]);
             }
@@ -447,42 +442,35 @@ fn transform_force(workspace: &mut TwoDirectionsWorkspace) {
     for (sample, basis) in samples.iter().zip(basis.chunks_exact(n)) {
         let [x, y] = sample.force;
         for (places, value) in force.chunks_exact_mut(n).zip([x, y, sample.load]) {
-            for (c, (place, basis)) in places.iter_mut().zip(basis).enumerate() {
-                *place += weight(size, c) * basis * value;
-            }
+            places.iter_mut().zip(basis).for_each(|(place, basis)| *place += basis * value);
         }
     }
-}
-
-/// The weight of a sample in a coefficient.
-fn weight(size: &SamplingSize, c: usize) -> f64 {
-    (1.0 / size.samples as f64) * if c == 0 { 1.0 } else { 2.0 }
+    force.chunks_exact_mut(n).for_each(|sums| normalise(sums, 1.0 / size.samples as f64));
 }
 
 /// The Jacobian from the sums, and that of the normal force.
 fn write_jacobian(workspace: &TwoDirectionsWorkspace, jacobian: &mut [f64]) {
     let TwoDirectionsWorkspace { size, sums, samples, basis, changes, .. } = workspace;
     let n = size.coefficients();
+    jacobian.fill(0.0);
     for (j, column) in jacobian.chunks_exact_mut(3 * n).enumerate() {
         // The columns of a block are those of the normal component, of u and of v.
         let (component, coefficient) = ((j / n + 1) % 3, j % n);
         let (block, lane) = (coefficient / BLOCK, component * BLOCK + coefficient % BLOCK);
-        column.fill(0.0);
         for (axis, places) in column.chunks_exact_mut(n).enumerate().take(2) {
             for (c, place) in places.iter_mut().enumerate() {
-                let sum = sums.or_zero(c * changes.len() + block).as_slice().or_zero(axis).as_slice().or_zero(lane);
-                *place = weight(size, c) * sum;
+                *place = sums.or_zero(c * changes.len() + block).as_slice().or_zero(axis).as_slice().or_zero(lane);
             }
         }
     }
+    let by_input = jacobian.part_mut(2 * n * 3 * n..);
     for (sample, basis) in samples.iter().zip(basis.chunks_exact(n)) {
-        let slope = sample.load_slope;
-        for (column, basis_j) in jacobian.chunks_exact_mut(3 * n).skip(2 * n).zip(basis) {
-            for ((c, place), basis_c) in column.iter_mut().skip(2 * n).enumerate().zip(basis) {
-                *place += weight(size, c) * slope * basis_j * basis_c;
-            }
+        for (column, basis_j) in by_input.chunks_exact_mut(3 * n).zip(basis) {
+            let places = column.part_mut(2 * n..).iter_mut().zip(basis);
+            places.for_each(|(place, basis)| *place += sample.load_slope * basis_j * basis);
         }
     }
+    jacobian.chunks_exact_mut(n).for_each(|sums| normalise(sums, 1.0 / size.samples as f64));
 }
 
 /// Row r of a matrix with rows of n columns.

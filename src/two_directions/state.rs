@@ -156,7 +156,7 @@ impl State {
             self.set_nodes(element, load);
         }
         let mut work = StepWork::NONE;
-        [work.middle_slip.rotation_guess, work.end_slip.rotation_guess] = self.rotation_guess;
+        work.slips.iter_mut().zip(self.rotation_guess).for_each(|(slip, guess)| slip.rotation_guess = guess);
         let Step { path, force: [x, y] } = self.step_at_nodes(element, &mut contacts, to, &mut work);
         let (contacts, unit) = (contacts.each_ref(), element.friction_coefficient * self.units.load);
         let mut result = StepResult { force: [unit * x, unit * y, self.normal_force], ..StepResult::NONE };
@@ -173,7 +173,7 @@ impl State {
             let unit = unit * element.friction_coefficient * self.units.shift * path.scale;
             result.dissipated = unit * dissipated(&self.nodes, contacts, &path, &work, &self.springs);
         }
-        self.rotation_guess = [work.middle_slip.rotation_guess, work.end_slip.rotation_guess];
+        self.rotation_guess = work.slips.each_ref().map(|slip| slip.rotation_guess);
         if let Some(load) = self.load_of_nodes_after_gross_slip(contacts[1], &work, [x, y]) {
             self.move_nodes(element, contacts[1], load);
         }

@@ -154,11 +154,21 @@ fn edge_spring<T: Number>(states: &[ScaledNormalState<T>; 2], displacement: PerA
     by_axis(|axis| limit[axis] * (scale * ratio[axis]))
 }
 
-/// The two slips of a step.
+/// The two slips of a step, in this order.
 #[derive(Clone, Copy)]
 pub(crate) enum SlipOf {
     Middle,
     End,
+}
+
+impl SlipOf {
+    /// The one of this slip.
+    pub fn pick<T>(self, [middle, end]: &[T; 2]) -> &T {
+        match self {
+            SlipOf::Middle => middle,
+            SlipOf::End => end,
+        }
+    }
 }
 
 /// What the springs after a step depend on, numbers with derivatives or without.
@@ -249,8 +259,8 @@ pub(crate) struct StepWork {
     /// The springs of the contact at the end, and of that in the middle if the load changes.
     pub end_springs: Springs,
     middle_springs: Springs,
-    pub middle_slip: Slip,
-    pub end_slip: Slip,
+    /// In the middle, and at the end.
+    pub slips: [Slip; 2],
     /// K of the last slip.
     metric: Metric,
 }
@@ -262,8 +272,7 @@ impl StepWork {
         gross_slip: 0.0,
         end_springs: Springs::NONE,
         middle_springs: Springs::NONE,
-        middle_slip: Slip::NONE,
-        end_slip: Slip::NONE,
+        slips: [Slip::NONE, Slip::NONE],
         metric: Metric::NONE,
     };
 
@@ -289,16 +298,16 @@ impl StepWork {
             stiffness: self.end_springs.stiffness.map(|stiffness| stiffness.0),
             edge_stiffness: to.shells.edge_stiffness,
         };
-        (self.middle_slip.points.set, self.end_slip.points.set) = (0, 0);
+        self.slips.iter_mut().for_each(|slip| slip.points.set = 0);
         let output = input.advance(|which, v| {
-            let (slip, springs, load) = match which {
+            let (springs, load) = match which {
                 SlipOf::Middle if !path.constant_load => {
                     self.middle_springs.set(nodes, [&from.shells, &to.shells]);
-                    (&mut self.middle_slip, &self.middle_springs, Metric::NEVER_REUSED)
+                    (&self.middle_springs, Metric::NEVER_REUSED)
                 }
-                SlipOf::Middle => (&mut self.middle_slip, &self.end_springs, to.now.load),
-                SlipOf::End => (&mut self.end_slip, &self.end_springs, to.now.load),
+                _ => (&self.end_springs, to.now.load),
             };
+            let slip = &mut self.slips[which as usize];
             slip.find(&mut self.metric, springs, v.map(Lanes), load);
             *v = slip.points.v.map(|v| v.0);
         });
@@ -306,9 +315,12 @@ impl StepWork {
         output.force
     }
 
-    /// The springs of the contact in the middle of a step.
-    pub fn middle_springs(&self, path: &ContactPath) -> &Springs {
-        if path.constant_load { &self.end_springs } else { &self.middle_springs }
+    /// The springs of the contact in the middle of a step, or at the end.
+    pub fn springs(&self, which: SlipOf, path: &ContactPath) -> &Springs {
+        match which {
+            SlipOf::Middle if !path.constant_load => &self.middle_springs,
+            _ => &self.end_springs,
+        }
     }
 }
 

@@ -58,8 +58,7 @@ struct ParameterTerms {
     /// Derivatives of the stiffnesses at the end.
     stiffness: PerAxis<Row>,
     edge_stiffness: PerAxis<f64>,
-    middle: SlipTerms,
-    end: SlipTerms,
+    slips: [SlipTerms; 2],
 }
 
 /// Terms of a slip: dC v; dk (v* - v) - dC' r, in which the pressures are constant; and r dp/p, which is what their changes add to the slip.
@@ -131,8 +130,7 @@ impl ParameterTerms {
         shift_of_nodes: [Row::ZERO; 2],
         stiffness: [Row::ZERO; 2],
         edge_stiffness: [0.0; 2],
-        middle: SlipTerms::NONE,
-        end: SlipTerms::NONE,
+        slips: [SlipTerms::NONE; 2],
     };
 
     /// Sets the terms, given the derivatives of the normal states, and those of the shells as in [`SlipTerms::set`].
@@ -144,8 +142,10 @@ impl ParameterTerms {
         (ends, nodes, first): ([&Shells; 2], Option<&Nodes>, usize),
     ) {
         let [_, end] = ends;
-        self.middle.set(work.middle_springs(path), &work.middle_slip, (ends, nodes, first));
-        self.end.set(&work.end_springs, &work.end_slip, ([end; 2], nodes, first));
+        for (which, ends) in [(SlipOf::Middle, ends), (SlipOf::End, [end; 2])] {
+            let (terms, slip) = (&mut self.slips[which as usize], &work.slips[which as usize]);
+            terms.set(work.springs(which, path), slip, (ends, nodes, first));
+        }
         self.stiffness = by_axis(|axis| stiffness_slopes(&work.end_springs, axis, end));
         self.edge_stiffness = end.edge_stiffness;
         self.shift_of_nodes = nodes.map_or([Row::ZERO; 2], |nodes| nodes.shift);
@@ -174,15 +174,13 @@ impl SlipJacobian {
 /// What is linear in a step: both slips, and the terms of each parameter.
 pub(crate) struct StepTangent {
     terms: PerParameter<ParameterTerms>,
-    middle: SlipJacobian,
-    end: SlipJacobian,
+    slips: [SlipJacobian; 2],
 }
 
 impl StepTangent {
     pub const NONE: StepTangent = StepTangent {
         terms: PerParameter { start: ParameterTerms::NONE, end: ParameterTerms::NONE, reference: ParameterTerms::NONE },
-        middle: SlipJacobian::NONE,
-        end: SlipJacobian::NONE,
+        slips: [SlipJacobian::NONE, SlipJacobian::NONE],
     };
 
     /// Sets the derivatives of a step between contacts, given those of their shells, and of the nodes if they depend on the reference size.
@@ -202,8 +200,9 @@ impl StepTangent {
         if by_nodes.is_some() {
             terms.reference.set((work, path), [none; 2], ([&by_from.by_reference, &by_to.by_reference], by_nodes, 0));
         }
-        self.middle.set(work.middle_springs(path), &work.middle_slip);
-        self.end.set(&work.end_springs, &work.end_slip);
+        for which in [SlipOf::Middle, SlipOf::End] {
+            self.slips[which as usize].set(work.springs(which, path), &work.slips[which as usize]);
+        }
     }
 }
 
@@ -271,23 +270,10 @@ impl Propagation<'_> {
             edge_stiffness: by_axis(|axis| parameters.dual(edge_stiffness[axis], |terms| terms.edge_stiffness[axis])),
             states: [state(0), state(1)],
         };
-        let tangent = parameters.tangent;
         let output = input.advance(|which, v| {
-            let mut changes = by_spring(|axis, j| v[axis][j].slopes);
-            let springs = match which {
-                SlipOf::Middle => {
-                    let springs = work.middle_springs(path);
-                    work.middle_slip
-                        .differentiate(&tangent.middle, springs, &mut changes, parameters, |terms| &terms.middle);
-                    &work.middle_slip.points.v
-                }
-                SlipOf::End => {
-                    let springs = &work.end_springs;
-                    work.end_slip.differentiate(&tangent.end, springs, &mut changes, parameters, |terms| &terms.end);
-                    &work.end_slip.points.v
-                }
-            };
-            update(v, |axis, j, _| dual(springs[axis][j], changes[axis][j]));
+            let (mut changes, slip) = (by_spring(|axis, j| v[axis][j].slopes), which.pick(&work.slips));
+            slip.differentiate(which, work.springs(which, path), &mut changes, parameters);
+            update(v, |axis, j, _| dual(slip.points.v[axis][j], changes[axis][j]));
         });
         let bound = input.states[1].load;
         let force = within_friction_limit(output.force, bound, LENGTH_SLIP_THRESHOLD);
@@ -302,11 +288,10 @@ impl Slip {
     /// Changes of springs after slip, in place of those of the trial state.
     fn differentiate<const L: usize>(
         &self,
-        jacobian: &SlipJacobian,
+        which: SlipOf,
         springs: &Springs,
         v: &mut PerSpring<Lanes<L>>,
         parameters: &ParameterChanges,
-        slip_of: impl Fn(&ParameterTerms) -> &SlipTerms,
     ) {
         if self.points.set == 0 {
             return;
@@ -317,20 +302,20 @@ impl Slip {
         let mut own = [[Lanes::<4>::ZERO; SPRINGS]; 2];
         for axis in 0..2 {
             for j in first..end {
-                own[axis][j] = -parameters.sum(|terms| slip_of(terms).tractions[axis][j]);
+                own[axis][j] = -parameters.sum(|terms| which.pick(&terms.slips).tractions[axis][j]);
             }
             times_upper(&springs.inverse[axis], range, &mut own[axis]);
             for j in first..end {
                 v[axis][j].add_first(-own[axis][j]);
                 v[axis][j] = springs.stiffness[axis][j] * v[axis][j];
-                v[axis][j].add_first(parameters.sum(|terms| slip_of(terms).forces[axis][j]));
+                v[axis][j].add_first(parameters.sum(|terms| which.pick(&terms.slips).forces[axis][j]));
             }
             times_upper_transposed(&springs.inverse[axis], range, &mut v[axis]);
             for i in first..end {
-                v[axis][i].add_first(parameters.sum(|terms| slip_of(terms).slip[axis][i]));
+                v[axis][i].add_first(parameters.sum(|terms| which.pick(&terms.slips).slip[axis][i]));
             }
         }
-        self.tractions_of(jacobian, v, range);
+        self.tractions_of(which.pick(&parameters.tangent.slips), v, range);
         for axis in 0..2 {
             times_upper(&springs.inverse[axis], range, &mut v[axis]);
             for j in first..end {
