@@ -18,15 +18,14 @@ use super::nodes::{Matrix, PerAxis, PointSet, Row, SPRINGS, length, mask_of, poi
 use super::shells::Springs;
 use crate::numerics::guard::{TINY, quotient};
 use crate::numerics::lanes::Lanes;
-use crate::numerics::total::Total;
 
 /// Newton steps, and changes of the set, after which a guess is given up.
 const MAX_STEPS: usize = 60;
 const MAX_SET_CHANGES: usize = 12;
-/// Newton's method has converged when the change of the angles that would be next is at most this.
+/// Newton's method has converged when the next changes of the angles would be at most this in sum.
 const TURN_TOLERANCE: f64 = 1e-11;
-/// The inverse of J is kept while the changes of the angles fall to a tenth, and are at most this.
-const REUSE_TURN: f64 = 3e-2;
+/// The inverse of J is kept while the sum of the changes of the angles falls to a tenth, and is at most this.
+const REUSE_TURN: f64 = 2e-1;
 /// Newton's method is given up at a change of angles whose square could overflow.
 const DIVERGED_TURN: f64 = 1e100;
 /// Sweeps of the points before Newton's method is tried again, and attempts, the first one of which is without.
@@ -142,7 +141,7 @@ impl Slip {
                 set_metric(matrices, springs, range, points.set);
                 *computed_for = (points.set, load);
             }
-            let (mut largest_turn, mut converged, mut keeps_inverse) = (f64::MAX, false, false);
+            let (mut turned, mut converged, mut keeps_inverse) = (f64::MAX, false, false);
             loop {
                 let across = points.residual(matrices, q, range);
                 let undetermined = steps % REVIEW_INTERVAL == REVIEW_INTERVAL - 1;
@@ -157,17 +156,17 @@ impl Slip {
                     points.invert(inverse, matrices, range);
                 }
                 let turns = -times(inverse, range, &(points.slips * across));
-                let before = largest_turn;
-                largest_turn = largest(&turns);
+                let before = turned;
+                turned = dot(&turns.map(f64::abs), &Lanes([1.0; SPRINGS]));
                 steps += 1;
-                if steps > MAX_STEPS || largest_turn > DIVERGED_TURN {
+                if steps > MAX_STEPS || turned > DIVERGED_TURN {
                     return false;
                 }
                 points.turn(&turns);
                 // The next change of the angles: the square with a new inverse; with that of a step before, it falls as the last one did.
-                let rate = if is_new { largest_turn } else { quotient(largest_turn, before) };
-                converged = largest_turn * rate.min(1.0) <= TURN_TOLERANCE;
-                keeps_inverse = largest_turn <= 0.1 * before && largest_turn <= REUSE_TURN;
+                let rate = if is_new { turned } else { quotient(turned, before) };
+                converged = turned * rate.min(1.0) <= TURN_TOLERANCE;
+                keeps_inverse = turned <= 0.1 * before && turned <= REUSE_TURN;
             }
         }
         false
@@ -313,16 +312,4 @@ fn sweep(springs: &Springs, trial: &PerAxis<Row>, q: &mut PerAxis<Row>) -> (PerA
         }
     }
     (directions(q), set)
-}
-
-/// The largest absolute value.
-fn largest(x: &Row) -> f64 {
-    let larger = |a: f64, b: f64| if a > b { a } else { b };
-    let mut largest = Lanes::<4>::ZERO;
-    for block in x.blocks::<4>() {
-        for lane in 0..4 {
-            largest[lane] = larger(block[lane].abs(), largest[lane]);
-        }
-    }
-    larger(larger(largest[0], largest[1]), larger(largest[2], largest[3]))
 }

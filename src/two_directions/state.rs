@@ -143,8 +143,7 @@ impl State {
     /// A step of a contact that is closed at its end.
     fn step(&mut self, element: &Element, to: [f64; 3], requested: Requested) -> StepOf<TwoDirections> {
         let (mut contacts, mut old_springs) = ([LoadedContact::default(); 2], None);
-        let constant_load = self.normal_force > 0.0 && to[2].to_bits() == self.displacement[2].to_bits();
-        let load = if constant_load { self.normal_force } else { element.normal(to[2]).load };
+        let load = element.normal(to[2]).load;
         if self.normal_force > 0.0 {
             contacts[1] = self.contact();
             if load > self.units.load * (1.0 + LOAD_TOLERANCE) {
