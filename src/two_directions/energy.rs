@@ -8,10 +8,10 @@ use crate::numerics::guard::{TINY, quotient, root};
 
 /// Energy that the springs dissipate in a step, each from where its path leaves its limit.
 ///
-/// The slip of a spring acts against the mean of two displacements, `k (v_c + v)·(v* - v)/2`. v_c is the first point of the straight path from
-/// v_0 to v* with |v| = m l: the limit moves evenly from its value at the start to that at the end, and m = |v|/l at the end of the step, less
-/// than 1 if neighbours turn the tractions. Towards gross slip v_c is blended, by `gross_slip`, with v: the spring slips in its final direction from
-/// the beginning.
+/// The slip of a spring acts against the mean of two displacements, `k (v_c + v)·(v* - v)/2`. v_c is the first point of
+/// the straight path from v_0 to v* with |v| = m l: the limit moves evenly from its value at the start to that at the
+/// end, and m = |v|/l at the end of the step, less than 1 if neighbours turn the tractions. Towards gross slip v_c is
+/// blended, by `gross_slip`, with v: the spring slips in its final direction from the beginning.
 #[inline(never)]
 pub(crate) fn dissipated(
     nodes: &Nodes,
@@ -53,8 +53,8 @@ pub(crate) fn dissipated(
     energy.max(0.0)
 }
 
-/// Energy of springs that lose contact in a step to a lower load: each slips from where it reaches its limit, which falls to 0 within the
-/// part `limit/limit_drop` of the motion, to nothing.
+/// Energy of springs that lose contact in a step to a lower load: each slips from where it reaches its limit, which
+/// falls to 0 within the part `limit/limit_drop` of the motion, to nothing.
 pub(crate) fn separated(
     nodes: &Nodes,
     from: &LoadedContact,

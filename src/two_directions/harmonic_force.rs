@@ -1,17 +1,18 @@
 //! Harmonic force of a periodic motion in two tangential directions, by uniform sampling.
 //!
-//! The motion is u, v and the normal component (the approach w or the normal force N), each `c0 + Σ (a_k cos kt + b_k sin kt)`, at N
-//! uniformly spaced instants from t = 0. Between the samples the path is that of a step of the element. Steady state: the element is
-//! pressed by the normal force of the sample at which that is largest (the first such sample) with no tangential displacement, is
-//! displaced to that sample at constant normal force, and advanced along a number of periods and one more from there, which counts. The
-//! nodes are those of the largest normal force.
+//! The motion is u, v and the normal component (the approach w or the normal force N), each
+//! `c0 + Σ (a_k cos kt + b_k sin kt)`, at N uniformly spaced instants from t = 0. Between the samples the path is that
+//! of a step of the element. Steady state: the element is normal_states by the normal force of the sample at which that
+//! is largest (the first such sample) with no tangential displacement, is displaced to that sample at constant normal
+//! force, and advanced along a number of periods and one more from there, which counts. The nodes are those of the
+//! largest normal force.
 //!
-//! A vibration relaxes static shear over many periods. Those before the last two are advanced by fewer samples, and after the second of them the
-//! springs are extrapolated; the drift estimates the change that remains.
+//! A vibration relaxes static shear over many periods. Those before the last two are advanced by fewer samples, and
+//! after the second of them the springs are extrapolated; the drift estimates the change that remains.
 //!
-//! The Jacobian is the exact derivative of all this: changes of the springs by all coefficients are propagated. What the
-//! parameters of the contact add, the load at both ends and the reference size of the nodes, is computed once a step; the changes are
-//! propagated for a few coefficients at once.
+//! The Jacobian is the exact derivative of all this: changes of the springs by all coefficients are propagated. What
+//! the parameters of the contact add, the load at both ends and the reference size of the nodes, is computed once a
+//! step; the changes are propagated for a few coefficients at once.
 
 use super::matrix::dot;
 use super::moving_nodes::{State, Step};
@@ -32,25 +33,27 @@ use core::iter;
 
 pub use crate::fourier::HarmonicOutput;
 
-/// Number of doubles in a workspace for the given number of harmonics and of samples per period; 0 if these are not allowed.
+/// Number of doubles in a workspace for the given number of harmonics and of samples per period; 0 if these are not
+/// allowed.
 pub fn workspace_length(harmonics: usize, samples: usize) -> usize {
     TwoDirectionsWorkspace::length_or_zero(SamplingSize { harmonics, samples, periods: 0 })
 }
 
-/// Initialises a workspace: tables for the given harmonics and samples, the number of periods before the one that counts (0: the
-/// default, 4), and scratch memory.
-/// Errors: `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24, `BadPeriods` for more
-/// than 65536; `WorkspaceTooShort`.
+/// Initialises a workspace: tables for the given harmonics and samples, the number of periods before the one that
+/// counts (0: the default, 4), and scratch memory.
+/// Errors: `BadHarmonics` unless 1 <= harmonics <= 2^24, `BadSamples` unless 2 harmonics < samples <= 2^24,
+/// `BadPeriods` for more than 65536; `WorkspaceTooShort`.
 pub fn workspace_init(harmonics: usize, samples: usize, periods: usize, workspace: &mut [f64]) -> Result<(), Error> {
     TwoDirectionsWorkspace::init(SamplingSize { harmonics, samples, periods }, workspace)
 }
 
-/// Samples of a cycle of the highest harmonic, at least, in the periods that are advanced by fewer. With half of them a sticking core may keep
-/// another force, which more periods do not correct.
+/// Samples of a cycle of the highest harmonic, at least, in the periods that are advanced by fewer. With half of them a
+/// sticking core may keep another force, which more periods do not correct.
 const TRANSIENT_SAMPLES: usize = 32;
 
-/// Factor of the extrapolation. After the second period the springs change by this factor times their change in that period, if another
-/// period follows before the one that counts. So they would if each period changed them by 0.64 of the change before.
+/// Factor of the extrapolation. After the second period the springs change by this factor times their change in that
+/// period, if another period follows before the one that counts. So they would if each period changed them by 0.64 of
+/// the change before.
 const EXTRAPOLATION: f64 = 1.75;
 
 /// Coefficients that are propagated at once, those of the normal component, of u and of v in a block each.
@@ -132,7 +135,7 @@ impl<'a> TwoDirectionsWorkspace<'a> {
     /// Errors: those of [`harmonic_force`].
     pub(crate) fn check(&mut self, element: &Element, displacement: &[f64]) -> Result<(), Error> {
         check_coefficients(displacement)?;
-        // What is allowed for any phases needs no samples.
+        // A normal component that is allowed for all phases of its harmonics needs no samples.
         let (mean, others) = displacement.part(2 * self.coefficients()..).split_first().unwrap_or((&0.0, &[]));
         let amplitude: f64 = others.iter().map(|value| value.abs()).sum();
         if (element.by_approach() || *mean >= amplitude) && element.check_input(mean + amplitude).is_ok() {
@@ -163,15 +166,16 @@ impl<'a> TwoDirectionsWorkspace<'a> {
     }
 }
 
-/// Harmonic force of a periodic motion, given by its 3 (2H + 1) coefficients: those of u, of v \[m\], and of the normal component, the
-/// approach \[m\] or the normal force \[N\].
+/// Harmonic force of a periodic motion, given by its 3 (2H + 1) coefficients: those of u, of v \[m\], and of the normal
+/// component, the approach \[m\] or the normal force \[N\].
 ///
-/// The force has 3 (2H + 1) coefficients \[N\], Tx, Ty, N. The Jacobian has (3 (2H + 1))² entries, column by column: their derivatives
-/// with respect to the coefficients of the motion. The energy is the work of the tangential forces in the period. The drift estimates the
-/// largest difference of the tangential force from the steady state, over μ times the largest normal force; 0 if the contact opens.
-/// Errors: `BadArraySize` if a length does not agree with the workspace; `BadDisplacement` if a coefficient is not finite or
-/// exceeds 1e150; `BadNormalForce` if a sample of the normal force is negative by more than rounding; `LengthTooShort` if the
-/// contact would become too wide for its length.
+/// The force has 3 (2H + 1) coefficients \[N\], Tx, Ty, N. The Jacobian has (3 (2H + 1))² entries, column by column:
+/// their derivatives with respect to the coefficients of the motion. The energy is the work of the tangential forces in
+/// the period. The drift estimates the largest difference of the tangential force from the steady state, over μ times
+/// the largest normal force; 0 if the contact opens.
+/// Errors: `BadArraySize` if a length does not agree with the workspace; `BadDisplacement` if a coefficient is not
+/// finite or exceeds 1e150; `BadNormalForce` if a sample of the normal force is negative by more than rounding;
+/// `LengthTooShort` if the contact would become too wide for its length.
 ///
 /// A circle under a constant normal force:
 ///
@@ -227,7 +231,7 @@ struct PeriodIntegration<'a> {
     /// The contact at the start and at the end of a step.
     contacts: [LoadedContact; 2],
     work: StepWork,
-    /// Derivatives of the contact before and of the present one, if they are known.
+    /// Derivatives of the contacts at the start and at the end, if they were computed.
     slopes: [Option<ContactSlopes>; 2],
     tangent: StepTangent,
 }
@@ -259,13 +263,14 @@ impl PeriodIntegration<'_> {
     }
 }
 
-/// Changes of the springs and of the forces after a step between samples: that at the start, that at the end, and that of the largest load.
-/// `by_top` is the change of the logarithm of the reference size by the largest normal component over its scale.
+/// Changes of the springs and of the forces after a step between samples: that at the start, that at the end, and that
+/// of the largest load. `reference_by_input` is the change of the logarithm of the reference size by the largest normal
+/// component over its scale.
 fn differentiate(
     workspace: &mut TwoDirectionsWorkspace,
     integration: &mut PeriodIntegration,
     path: &ContactPath,
-    by_top: f64,
+    reference_by_input: f64,
     samples: [Option<usize>; 3],
 ) {
     let n = workspace.coefficients();
@@ -288,7 +293,7 @@ fn differentiate(
             }
             // The load at the start of the first step is that of the largest one.
             changes.start[lane] = per_scale * if start.is_empty() { top } else { from };
-            (changes.end[lane], changes.reference[lane]) = (per_scale * to, by_top * (per_scale * top));
+            (changes.end[lane], changes.reference[lane]) = (per_scale * to, reference_by_input * (per_scale * top));
         }
         let parameters = ParameterChanges { tangent, changes };
         let propagation = Propagation { contacts, nodes, path, work, parameters };
@@ -296,7 +301,7 @@ fn differentiate(
     }
 }
 
-/// Extrapolates numbers from those a period before.
+/// Extrapolates values from those a period before.
 fn extrapolate<T: Record>(record: &mut T, before: &mut T) {
     let pairs = doubles_mut(record).iter_mut().zip(doubles_mut(before));
     pairs.for_each(|(value, before)| *value += EXTRAPOLATION * (*value - *before));
@@ -311,8 +316,8 @@ fn fade(changes: &mut Displacements<Columns>) {
     }
 }
 
-/// Integrates along the periods of a motion that was synthesised, up to the forces at the samples and the sums of their derivatives: the
-/// drift. Not inlined: its frame is not that of a call with one direction.
+/// Integrates along the periods of a motion that was synthesised, up to the forces at the samples and the sums of their
+/// derivatives: the drift. Not inlined: its frame is not that of a call with one direction.
 #[inline(never)]
 fn integrate_periods(element: &Element, workspace: &mut TwoDirectionsWorkspace, derivatives: bool) -> f64 {
     let SamplingSize { samples: count, harmonics, periods } = workspace.size;
@@ -351,10 +356,10 @@ fn integrate_periods(element: &Element, workspace: &mut TwoDirectionsWorkspace, 
     }
     // The reference size is not that of the largest load if this is below the least reference load.
     let is_reference = load >= units.load * 0.99;
-    let by_top = if is_reference { 0.5 * integration.contacts[1].slopes.leg_squared } else { 0.0 };
+    let reference_by_input = if is_reference { 0.5 * integration.contacts[1].slopes.leg_squared } else { 0.0 };
     let mut before = None;
     let (mut start, mut changes, mut extrapolated) = (integration.state.springs, [0.0; 2], 0.0);
-    // The first step is that to the sample of largest load.
+    // The first step leads from no displacement to the sample of largest load.
     let steps = (0..=periods).flat_map(|period| (1..=count).map(move |place| (period, place)));
     for (period, place) in iter::once((0, 0)).chain(steps) {
         if period + 1 < periods && place < count && !place.is_multiple_of(stride) {
@@ -374,7 +379,13 @@ fn integrate_periods(element: &Element, workspace: &mut TwoDirectionsWorkspace, 
             }
             workspace.changes.iter_mut().for_each(fade);
             if let Some(step) = &step {
-                differentiate(workspace, &mut integration, &step.path, by_top, [before, Some(index), Some(largest)]);
+                differentiate(
+                    workspace,
+                    &mut integration,
+                    &step.path,
+                    reference_by_input,
+                    [before, Some(index), Some(largest)],
+                );
             }
             if period == periods {
                 accumulate(workspace, index, unit);
@@ -424,8 +435,8 @@ fn write_outputs(
     }
 }
 
-/// An extrapolation cancels a part of the changes that follow. The drift is at least this factor times the last change, or the change
-/// that was extrapolated if that is smaller.
+/// An extrapolation cancels a part of the changes that follow. The drift is at least this factor times the last change,
+/// or the change that was extrapolated if that is smaller.
 const LEAST_DRIFT_FACTOR: f64 = 5.0;
 
 /// The sum of the changes still to come, if they continue as a geometric sequence; these are the last two.
@@ -448,7 +459,7 @@ fn transform_force(workspace: &mut TwoDirectionsWorkspace) {
     force.chunks_exact_mut(n).for_each(|sums| normalise(sums, 1.0 / size.samples as f64));
 }
 
-/// The Jacobian from the sums, and that of the normal force.
+/// Writes the Jacobian: that of the tangential forces from the sums, and that of the normal force.
 fn write_jacobian(workspace: &TwoDirectionsWorkspace, jacobian: &mut [f64]) {
     let TwoDirectionsWorkspace { size, sums, samples, basis, changes, .. } = workspace;
     let n = size.coefficients();

@@ -5,7 +5,7 @@ use crate::numerics::guard::TINY;
 use crate::numerics::lanes::Lanes;
 use crate::numerics::total::Total;
 
-/// Σ x_m A_m, of the rows A_m of a matrix, from one to another.
+/// Σ x_m A_m, with the rows A_m of a matrix in a range.
 pub(super) fn times(matrix: &Matrix, [first, end]: [usize; 2], x: &Row) -> Row {
     let mut y = Row::ZERO;
     for m in first..end.min(SPRINGS) {
@@ -14,14 +14,14 @@ pub(super) fn times(matrix: &Matrix, [first, end]: [usize; 2], x: &Row) -> Row {
     y
 }
 
-/// Σ x_i y_i, in an order of vectors.
+/// Σ x_i y_i, added up in vectors of four.
 pub(crate) fn dot(x: &Row, y: &Row) -> f64 {
     let sums = (*x * *y).blocks().iter().fold(Lanes::<4>::ZERO, |sums, block| sums + Lanes(*block));
     (sums[0] + sums[1]) + (sums[2] + sums[3])
 }
 
-/// Eliminates point i of a symmetric matrix A, in place: the Schur complement of A_ii between the others, A_im/A_ii in row and column i, -1/A_ii
-/// on the diagonal. When all points are eliminated, -A⁻¹ is left.
+/// Eliminates point i of a symmetric matrix A, in place: the Schur complement of A_ii between the others, A_im/A_ii in
+/// row and column i, -1/A_ii on the diagonal. When all points are eliminated, -A⁻¹ is left.
 pub(super) fn eliminate(matrix: &mut Matrix, i: usize, [first, end]: [usize; 2]) {
     let i = i.min(SPRINGS - 1);
     let pivot = matrix[i][i];
@@ -38,7 +38,7 @@ pub(super) fn eliminate(matrix: &mut Matrix, i: usize, [first, end]: [usize; 2])
     matrix[i][i] = -per_pivot;
 }
 
-/// A x of several x at once, by rows of a symmetric matrix A from one to another.
+/// A x of several x at once, with the part of a symmetric matrix A in a range.
 pub(super) fn times_symmetric<const L: usize>(
     rows: &Matrix,
     [first, end]: [usize; 2],
@@ -53,7 +53,7 @@ pub(super) fn times_symmetric<const L: usize>(
     y
 }
 
-/// U x in place, of several x at once, by rows of an upper triangular matrix U from one to another.
+/// U x in place, of several x at once, with the part of an upper triangular matrix U in a range.
 pub(super) fn times_upper<const L: usize>(rows: &Matrix, [first, end]: [usize; 2], x: &mut [Lanes<L>; SPRINGS]) {
     for i in first..end.min(SPRINGS) {
         let mut sum = Lanes::ZERO;
@@ -64,7 +64,7 @@ pub(super) fn times_upper<const L: usize>(rows: &Matrix, [first, end]: [usize; 2
     }
 }
 
-/// U' x in place.
+/// U' x in place, as [`times_upper`].
 pub(super) fn times_upper_transposed<const L: usize>(
     rows: &Matrix,
     [first, end]: [usize; 2],

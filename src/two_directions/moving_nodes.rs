@@ -1,8 +1,9 @@
 //! The contact between two steps, and its nodes, which move with the load.
 //!
-//! The nodes are those of the largest load since the contact closed. A step to a larger one first moves them to its load, by as little as the
-//! load exceeds theirs: so the force is continuous in the load. Moved springs are the polygon of the springs over S. Gross slip of one
-//! direction erases the memory of an overload: there all springs are at their limits, which any nodes represent.
+//! The nodes are those of the largest load since the contact closed. A step to a larger one first moves them to its
+//! load, by as little as the load exceeds theirs: so the force is continuous in the load. The displacements of the
+//! springs over S are a polygon, whose values at the new nodes are the new displacements. Gross slip in one direction
+//! erases the memory of an overload: all springs are at their limits, which any nodes represent.
 
 use super::nodes::{FLAT_EDGE, NodeNumbers, Nodes, PerAxis, Row, Units, by_axis, length};
 use super::path::ContactPath;
@@ -18,14 +19,16 @@ use core::ops::Range;
 
 /// Gross slip leaves nodes whose load is at most this multiple of the present one: they are accurate enough.
 const LARGEST_LOAD_OF_NODES: f64 = 3.0;
-/// If the force is within this relative distance of Coulomb's bound, all points slip in one direction, and springs at any nodes carry the same
-/// force but for rounding. Between one and two times this distance the effect vanishes linearly.
+/// If the force is within this relative distance of Coulomb's bound, all points slip in one direction, and springs at
+/// any nodes carry the same force but for rounding. Between one and two times this distance the effect vanishes
+/// linearly.
 const SAME_DIRECTION: f64 = 1e-13;
-/// Changes of the load of the nodes that are worth new ones.
+/// Nodes move to a smaller load if this changes by more than this part.
 const WORTH_NEW_NODES: f64 = 1e-3;
 
-/// Decimal text of 16 significant digits or fewer changes this double, which is halfway between two numbers of 16 digits: the state of a
-/// closed contact is rejected then. Its springs at the edge are so stiff that rounding errors of their limits would be amplified.
+/// Decimal text of 16 significant digits or fewer changes this double, which is halfway between two numbers of 16
+/// digits: the state of a closed contact is rejected then. Its springs at the edge are so stiff that rounding errors of
+/// their limits would be amplified.
 pub(super) const ALL_DIGITS: f64 = 1_000.000_000_000_000_5;
 
 record! {
@@ -40,7 +43,7 @@ record! {
         pub key: f64,
         pub units: Units,
         /// The normal state in these units, and its derivatives by the normal component over its scale.
-        pub pressed: [ScaledNormalState; 2],
+        pub normal_states: [ScaledNormalState; 2],
         pub springs: Displacements,
         /// First guesses of both slips of a step.
         pub rotation_guess: PerAxis<Row>,
@@ -59,25 +62,26 @@ impl State {
 
     /// The contact under the present load.
     pub fn contact(&self) -> LoadedContact {
-        LoadedContact::new(&self.nodes, &self.pressed)
+        LoadedContact::new(&self.nodes, &self.normal_states)
     }
 
-    /// Presses the contact: the normal state under a normal component, and the contact with the present nodes.
+    /// Sets the normal state under a normal component that closes the contact: the contact with the present nodes.
     pub fn press(&mut self, element: &Element, input: f64) -> LoadedContact {
         let normal = element.normal(input);
         (self.normal_force, self.load_slope) = (normal.load, normal.load_slope);
-        self.pressed = ScaledNormalState::new(element, &self.units, input, &normal);
+        self.normal_states = ScaledNormalState::new(element, &self.units, input, &normal);
         self.contact()
     }
 
-    /// Nodes of a load.
+    /// Sets the units and nodes of a reference load.
     #[inline(never)]
     pub fn set_nodes(&mut self, element: &Element, load: f64) {
         self.units = Units::at_load(element, load);
         self.nodes.fill(element, &self.units, 1.0);
     }
 
-    /// A step at the present nodes to a contact that is closed, from the second contact, open or closed: the contacts at its start and end.
+    /// A step that keeps the nodes, to a contact that is closed. The second contact, open or closed, is that at the
+    /// start; after the step the contacts are those at its start and end.
     pub fn step_at_nodes(
         &mut self,
         element: &Element,
@@ -96,7 +100,8 @@ impl State {
         Step { path, force: within_friction_limit(force, contact.now.load, 1.0) }
     }
 
-    /// Moves the nodes and the springs of a contact to a load: the springs before, and the contact with the new nodes.
+    /// Moves the nodes of a contact to a reference load, and the springs with them: the springs before, and the contact
+    /// with the new nodes.
     pub fn move_nodes(&mut self, element: &Element, old: &LoadedContact, load: f64) -> (OldSprings, LoadedContact) {
         let (springs, limits) = (self.springs, old.limits(&self.nodes));
         let old = OldSprings { shift_unit: self.units.shift, springs, limits, used: old.shells.range() };
@@ -107,8 +112,8 @@ impl State {
         (old, contact)
     }
 
-    /// Gross slip in one direction erases the memory of an overload, as the innermost spring slips: the load to which the nodes move after a
-    /// step with this force, if that is worth new nodes.
+    /// Gross slip in one direction erases the memory of an overload, as the innermost spring slips: the load to which
+    /// the nodes move after a step with this force, if that is worth new nodes.
     pub fn load_of_nodes_after_gross_slip(
         &self,
         contact: &LoadedContact,
@@ -129,14 +134,14 @@ impl State {
     }
 }
 
-/// A step of a contact that is closed at its end, but for the springs.
+/// Path and force of a step to a contact that is closed.
 pub(super) struct Step {
     pub path: ContactPath,
     /// The tangential force over that of gross slip under the load of the nodes.
     pub force: PerAxis<f64>,
 }
 
-/// Springs at nodes of another load.
+/// Springs at the nodes of another load, which have moved since.
 pub(super) struct OldSprings {
     shift_unit: f64,
     springs: Displacements,
@@ -145,8 +150,8 @@ pub(super) struct OldSprings {
 }
 
 impl OldSprings {
-    /// The springs at the nodes of a contact under the same load, which may have derivatives: their displacements are polygons over S, with the
-    /// old nodes as corners.
+    /// The springs at the nodes of a contact under the same load, which may have derivatives: their displacements are
+    /// polygons over S, with the old nodes as corners.
     pub fn moved_to<T: Number>(
         &self,
         contact: &LoadedContact,

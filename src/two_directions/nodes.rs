@@ -1,25 +1,29 @@
 //! Nodes, at which the family of sizes is divided into shells, and what does not depend on the present load.
 //!
-//! A node j is a size s_j of the family, with its normal force N_j and its shift S_j in both directions. Shell j reaches from s_j to s_{j+1},
-//! the last one to the present size. Shell 0 is the flat: it carries force, but no pressure. It is empty if there is no flat, so that the nodes are
-//! continuous in a at a = 0.
+//! A node j is a size s_j of the family, with its normal force N_j and its shift S_j in both directions. Shell j
+//! reaches from s_j to s_{j+1}, the last one to the present size. Shell 0 is the flat: it carries force, but no
+//! pressure. It is empty if there is no flat, so that the nodes are continuous in a at a = 0.
 //!
-//! The cumulative distribution of the nodes is a sum of two parts. Slip reaches inwards from the edge: nodes graded in √S have the same relative distance to
-//! the edge in every shape. And between nodes N(S) is a polygon, whose errors are equal if the nodes are uniform in ∫ √(N'') dS ~ √N ψ:
+//! The cumulative distribution of the nodes is a sum of two parts. Slip reaches inwards from the edge: nodes graded in
+//! √S have the same relative distance to the edge in every shape. And between nodes N(S) is a polygon, whose errors are
+//! equal if the nodes are uniform in ∫ √(N'') dS ~ √N ψ:
 //!
 //! ```text
 //! 0.765 ln[1 - 0.972 √(S_j/S_r)]/ln 0.028 + 0.235 √(N_j/N_r) ψ(s_j)/ψ(s_r) = (j - 1)/15,   j = 1 ... 15
 //! ```
 //!
-//! N_r, S_r and s_r are those of the reference size, the largest one of a motion. In one point x_i of each shell the shell j carries the pressure
+//! N_r, S_r and s_r are those of the reference size, the largest one of a motion. In one point x_i of each shell the
+//! shell j carries the pressure
 //!
 //! ```text
 //! F_ij = ψ_j [√(s_{j+1}² - x_i²) - √(s_j² - x_i²)],
 //! ```
 //!
-//! The force of shell 0 is spread evenly over the sizes up to a, which gives `F_00 = load_unit acosh(a/x_i)/(4 a)` with `load_unit` as in `fill`;
-//! the compliance of the flat, K_t(a), takes the place of ΔS_0: that of the contact as slip reaches the flat. F_ij/ΔS_j must not increase with j: then the map from tractions to springs
-//! has no negative entry, and gross slip solves Coulomb's law. Rough layers, whose compliance falls with the load, exceed this bound; F is cut at it.
+//! The force of shell 0 is spread evenly over the sizes up to a, which gives `F_00 = load_unit acosh(a/x_i)/(4 a)` with
+//! `load_unit` as in `fill`; the compliance of the flat, K_t(a), takes the place of ΔS_0: that of the contact as slip
+//! reaches the flat. F_ij/ΔS_j must not increase with j: then the map from tractions to springs has no negative entry,
+//! and gross slip solves Coulomb's law. Rough layers, whose compliance falls with the load, exceed this bound; F is cut
+//! at it.
 //!
 //! All is in units of N, of S across the line and of the leg, √(s² - a²), of the reference size.
 
@@ -30,16 +34,16 @@ use crate::numerics::guard::{TINY, quotient};
 use crate::numerics::lanes::Lanes;
 use crate::numerics::total::Zero;
 
-/// Springs, one a shell. The first one is under the flat.
+/// Number of springs: one for each shell. The first one is that of the flat.
 pub(crate) const SPRINGS: usize = 16;
 
-/// A value of each spring, or of each point.
+/// A value for each spring, or for each point.
 pub(crate) type Row = Lanes<SPRINGS>;
-/// Values of both directions, one after the other.
+/// A value for each tangential direction, x across the line and y along it.
 pub(crate) type PerAxis<T> = [T; 2];
 pub(crate) type Matrix = [Row; SPRINGS];
 
-/// The values of a function of the direction.
+/// The values of a function for both directions, 0 and 1.
 pub(crate) fn by_axis<T>(value: impl Fn(usize) -> T) -> PerAxis<T> {
     [value(0), value(1)]
 }
@@ -49,7 +53,7 @@ pub(crate) fn length([x, y]: PerAxis<f64>) -> f64 {
     (x * x + y * y).sqrt()
 }
 
-/// Bits of points or springs.
+/// A set of points, or of springs: bit i stands for point i.
 pub(crate) type PointSet = u32;
 
 /// 1 at the points of a set, 0 at others.
@@ -61,31 +65,32 @@ pub(crate) fn mask_of(set: PointSet) -> Row {
     row
 }
 
-/// The points of a range.
+/// The set of the points of a range.
 pub(crate) fn points_in([first, end]: [usize; 2]) -> PointSet {
     ((1 << end.min(31)) - 1) & !((1 << first.min(31)) - 1)
 }
 
-/// The first node under pressure: the edge of the flat.
+/// The first node whose shell carries pressure: the edge of the flat.
 pub(crate) const FLAT_EDGE: usize = 1;
-/// The share of the nodes that is graded towards the edge: more of it makes circles more accurate, less of it motion on a line.
+/// The share of the nodes that is graded towards the edge: more of it makes circles more accurate, less of it motion on
+/// a line.
 const EDGE_SHARE: f64 = 0.765;
 /// The distance from the edge of the last node over that of the first one, in √S.
 const GRADING: f64 = 0.028;
-/// The position of x_i in its shell, see [`point_in_shell`]: in its inner half F_ij/ΔS_j decreases with j. Values from 0.03 to 0.2 are nearly as
-/// good.
+/// The position of x_i in its shell, see [`point_in_shell`]: in its inner half F_ij/ΔS_j decreases with j. Values from
+/// 0.03 to 0.2 are nearly as good.
 const POINT_FRACTION: f64 = 0.05;
-/// Number of intervals in the leg on which the cumulative distribution of the nodes is inverted by linear interpolation. The nodes need not be
-/// exact, but must depend smoothly on the load.
+/// Number of intervals in the leg on which the cumulative distribution of the nodes is inverted by linear
+/// interpolation. The nodes need not be exact, but must depend smoothly on the load.
 const INTERVALS: usize = 48;
-/// The smallest flat over the leg that has a spring: its points would round to one value.
+/// A flat that is smaller than this part of the leg has no spring: sizes on it would round to one value.
 const SMALLEST_FLAT: f64 = 1e-9;
-/// The least reference load, relative to the normal force of the parameters: with a flat, shells of much smaller sizes are so stiff that
-/// maps between them lose their digits.
+/// The least reference load, relative to the normal force of the parameters: with a flat, shells of much smaller sizes
+/// are so stiff that maps between them lose their digits.
 const LEAST_REFERENCE: f64 = 1.0 / 4096.0;
 
-/// Relative step of the central difference of nodes by the reference size. The error is the square of the step times the third derivative,
-/// up to 1e5 where nodes are close, and the rounding error over the step.
+/// Relative step of the central difference of nodes by the reference size. The error is the square of the step times
+/// the third derivative, up to 1e5 where nodes are close, and the rounding error over the step.
 const DIFFERENCE_STEP: f64 = 1e-6;
 
 record! {
@@ -120,7 +125,7 @@ record! {
 }
 
 impl Units {
-    /// For nodes with a reference load.
+    /// The units for nodes of a reference load.
     pub fn at_load(element: &Element, load: f64) -> Units {
         let shape = element.shape();
         let leg = shape.at_load(load.max(LEAST_REFERENCE * element.normal_force));
@@ -140,7 +145,7 @@ impl Nodes {
         FLAT_EDGE + self.shift[0].iter().skip(FLAT_EDGE + 1).filter(|node| **node < shift).count()
     }
 
-    /// Fills the tables for a reference size that is that of the units times a number near 1.
+    /// Fills the tables for a reference size, given as its leg over that of the units, a number near 1.
     #[inline(never)]
     pub fn fill(&mut self, element: &Element, units: &Units, reference: f64) {
         *self = Nodes::zero();
@@ -201,7 +206,7 @@ impl Nodes {
     }
 }
 
-/// A source of numbers of the nodes: with derivatives or without.
+/// Reads values of the nodes as numbers with derivatives or without.
 pub(crate) trait NodeNumbers<T> {
     fn get(&self, value: impl Fn(&Nodes) -> f64) -> T;
 }
@@ -229,8 +234,8 @@ fn point_in_shell<T: Number>(half_width: T, distance: T) -> [T; 2] {
     [to_point * twice, from_point * (twice + distance)]
 }
 
-/// F_ij of shell j up to a size: `ψ_j [√(s² - x_i²) - √(s_j² - x_i²)]`, from leg² = s² - a². The second root is 0 if x_i is beyond s_j. Free of
-/// cancellation.
+/// F_ij of shell j up to a size: `ψ_j [√(s² - x_i²) - √(s_j² - x_i²)]`, from leg² = s² - a². The second root is 0 if
+/// x_i is beyond s_j. Free of cancellation.
 pub(crate) fn pressure<T: Number>(nodes: &impl NodeNumbers<T>, j: usize, to: T, i: usize) -> T {
     let [point, inner, psi] = [
         nodes.get(|nodes| nodes.point_squared[i]),
@@ -242,7 +247,8 @@ pub(crate) fn pressure<T: Number>(nodes: &impl NodeNumbers<T>, j: usize, to: T, 
     psi * if lower.value() > 0.0 { rise } else { height }
 }
 
-/// F at the own point of the last shell.
+/// F_jj of the last shell j, which reaches up to leg² = s² - a²: the pressure at its own point, which moves with the
+/// load.
 pub(crate) fn pressure_at_edge<T: Number>(nodes: &impl NodeNumbers<T>, j: usize, to: T) -> T {
     let [flat, inner, psi] = [
         nodes.get(|nodes| nodes.leg_squared[0]),
@@ -253,13 +259,14 @@ pub(crate) fn pressure_at_edge<T: Number>(nodes: &impl NodeNumbers<T>, j: usize,
     psi * point_in_shell(half_width, (to - inner).quotient(outer_width + half_width))[1].root()
 }
 
-/// F_ij cut so that F_ij/ΔS_j does not exceed that of the shell before, given the ratios of ΔS of both.
+/// F_ij, bounded so that F_ij/ΔS_j does not exceed that of shell j - 1, given F_i,j-1 and the ratios ΔS_j/ΔS_{j-1} of
+/// both directions.
 pub(crate) fn monotone_pressure<T: Number>(pressure: T, before: T, [x, y]: PerAxis<T>) -> T {
     let bound = before * if x.value() < y.value() { x } else { y };
     if pressure.value() < bound.value() { pressure } else { bound }
 }
 
-/// The legs of the nodes, from their cumulative distribution.
+/// The legs of the nodes over that of the units: the cumulative distribution of the nodes, inverted.
 fn legs_of_nodes(element: &Element, units: &Units, reference: f64) -> Row {
     let at = |i: usize| reference * i as f64 / INTERVALS as f64;
     let shape = element.shape();

@@ -3,11 +3,11 @@
 use super::nodes::{PerAxis, Units};
 use crate::element::Element;
 
-/// A motion over more than this many slip displacements is shortened to it: the force does not depend on the rest, and the energy is
-/// proportional.
+/// A motion over more than this many slip displacements is shortened to it: the force does not depend on the rest, and
+/// the energy is proportional.
 pub(super) const MAX_MOTION: f64 = 1e9;
 
-/// Displacement of the springs and its derivatives, between contacts of which at least one is closed.
+/// The displacement of the springs in a step of which at least one end is in contact, and its derivatives.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ContactPath {
     pub displacement: PerAxis<f64>,

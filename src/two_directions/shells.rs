@@ -1,15 +1,15 @@
 //! The shells of a contact under a load, and the springs and maps that follow from them.
 //!
-//! Shell j has ΔN_j, ΔS_j in both directions and F_ij, its pressure at the points. Spring j carries the displacement v_j of the sizes from s_j
-//! on. With v of no spring beyond the edge,
+//! Shell j has ΔN_j, ΔS_j in both directions and F_ij, its pressure at the points. Spring j carries the displacement
+//! v_j of the sizes from s_j on. The displacements of springs beyond the edge are 0. So
 //!
 //! ```text
 //! T = Σ k_j v_j,   k_j = Z_j - Z_{j-1},   Z_j = ΔN_j/ΔS_j
 //! q_i = Σ_{j>=i} g_ij (v_j - v_{j+1}),   g_ij = F_ij/(p_i ΔS_j),   p_i = Σ_j F_ij without the shells under the flat
 //! ```
 //!
-//! q is the traction over the pressure: |q_i| <= 1 is Coulomb's law, in units of μ. All of this depends on sums over shells only, so the middle
-//! of a step is the contact whose shells are the means of those at both ends.
+//! q is the traction over μ times the pressure: |q_i| <= 1 is Coulomb's law. All of this depends on sums over shells
+//! only, so the contact in the middle of a step is the one whose shells are the means of those at both ends.
 
 use super::nodes::{
     FLAT_EDGE, Matrix, NodeNumbers, Nodes, NodesAndSlopes, PerAxis, Row, SPRINGS, Units, by_axis, monotone_pressure,
@@ -23,7 +23,8 @@ use crate::numerics::lanes::Lanes;
 use core::ops::Range;
 
 record! {
-    /// The normal state in the units of the springs: N, S of both directions, leg²; N and S of a slightly smaller size, inside the edge.
+    /// The normal state in the units of the springs: N, S of both directions, leg²; N and S of a slightly smaller size,
+    /// inside the edge.
     pub(crate) struct ScaledNormalState<T = f64> {
         pub load: T,
         pub shift: PerAxis<T>,
@@ -39,13 +40,14 @@ impl Default for ScaledNormalState {
     }
 }
 
-/// Values of a normal state.
+/// Number of values of a normal state.
 const VALUES: usize = 7;
 
-/// The normal component of the size inside the edge over the present one. The spring between both makes the stuck stiffness exact, to the
-/// part by which this differs from 1.
+/// The normal component of the size inside the edge over the present one. The spring between both makes the stuck
+/// stiffness exact, to the part by which this differs from 1.
 const INSIDE_EDGE: f64 = 1.0 - 8e-6;
-/// Nodes closer to the size inside than this part of its S do not count as inside: their shell would be lost in rounding.
+/// A node is not in use if it is closer to the size inside the edge than this part of its S: the shell between both
+/// would be lost in rounding.
 const THINNEST: f64 = 1e-9;
 /// The least stiffness of a spring, relative to the secant: above the rounding errors of differences.
 const LEAST_STIFFNESS: f64 = 1e-12;
@@ -56,7 +58,7 @@ impl ScaledNormalState {
 
     /// The state of a contact that is closed, and its derivatives by the normal component over its scale.
     pub fn new(element: &Element, units: &Units, input: f64, normal: &Normal) -> [ScaledNormalState; 2] {
-        // Products only: the compiler may divide by what is beside a number in its vector register.
+        // Products instead of quotients, see `numerics/guard.rs`.
         let [per_load, per_shift, per_leg] = [units.load, units.shift, units.leg].map(f64::recip);
         let [leg, slope] = element.shape().size_under(normal.load.max(SMALLEST_LOAD * element.normal_force));
         let (leg, slope) = (leg * per_leg, slope * normal.load_slope * per_leg * per_leg);
@@ -77,18 +79,19 @@ impl ScaledNormalState {
 }
 
 impl<T: Number> ScaledNormalState<T> {
-    /// The limits of the spring at the edge.
+    /// The limits of the spring at the edge: S of the present size less that of the size inside.
     pub fn edge_limits(&self) -> PerAxis<T> {
         by_axis(|axis| self.shift[axis] - self.inside_shift[axis])
     }
 
-    /// A normal state from all its values, in order.
+    /// A normal state from its values in the order of [`ScaledNormalState::values`].
     pub fn from_values([load, x, y, leg_squared, inside, inside_x, inside_y]: [T; VALUES]) -> ScaledNormalState<T> {
         ScaledNormalState { load, shift: [x, y], leg_squared, inside, inside_shift: [inside_x, inside_y] }
     }
 }
 
-/// The shells of a contact, from one to the last one; those beyond are 0. F_ij of those before the last one are in the tables of the nodes.
+/// The shells of a contact, from one to the last one; those beyond are 0. F_ij of those before the last one are in the
+/// tables of the nodes.
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(align(32))]
 pub(crate) struct Shells {
@@ -156,7 +159,7 @@ impl Shells {
         self.last_pressure = Lanes(shell.pressure.map(part));
     }
 
-    /// F_ij of a shell. Without the tables of the nodes, only that of the last shell is not 0.
+    /// F_ij of shell j; 0 for whole shells without tables of nodes, as derivatives that the nodes do not have.
     fn pressure(&self, nodes: Option<&Nodes>, j: usize) -> Row {
         match nodes {
             _ if j == self.last => self.last_pressure,
@@ -165,7 +168,7 @@ impl Shells {
         }
     }
 
-    /// F_ij of a shell in the middle of a step.
+    /// F_ij of shell j in the middle of a step.
     pub fn middle_pressure([from, to]: [&Shells; 2], nodes: Option<&Nodes>, j: usize) -> Row {
         0.5 * (from.pressure(nodes, j) + to.pressure(nodes, j))
     }
@@ -180,17 +183,17 @@ impl Shells {
         middle
     }
 
-    /// The shells, and springs, from the first to the last one.
+    /// The shells, or springs, in use.
     pub fn range(&self) -> Range<usize> {
         self.innermost()..(self.last + 1).min(SPRINGS)
     }
 
-    /// The innermost spring: the first one, bounded for the compiler.
+    /// The innermost spring in use. The minimum shows the compiler that it is one of the springs.
     pub fn innermost(&self) -> usize {
         self.first.min(FLAT_EDGE)
     }
 
-    /// k_j in a direction, given 1/ΔS_j.
+    /// k_j in a direction, given 1/ΔS_j; its derivatives are `stiffness_slopes` of [`tangent`](super::tangent).
     pub fn stiffness(&self, axis: usize, per_shift: &Row) -> Row {
         let (secant, mut stiffness) = (self.load_step[axis] * *per_shift, Row::ZERO);
         let mut before = 0.0;
@@ -275,7 +278,9 @@ impl Springs {
         inverse: [[Row::ZERO; SPRINGS]; 2],
     };
 
-    /// Sets the springs in the middle between shells: at the end of a step, between the same ones.
+    /// Sets the springs of the contact whose shells are the means of these; `SlipTerms::set` of
+    /// [`tangent`](super::tangent) has the derivatives. The contact at the end of a step is the mean of twice the same
+    /// shells.
     pub fn set(&mut self, nodes: &Nodes, ends: [&Shells; 2]) {
         let Springs { shells, pressure, per_pressure, per_shift, stiffness, inverse } = self;
         *shells = Shells::middle(ends);
@@ -307,7 +312,7 @@ impl Springs {
         }
     }
 
-    /// q of springs.
+    /// The tractions q of springs with these displacements.
     pub fn tractions(&self, v: &PerAxis<Row>) -> PerAxis<Row> {
         let mut q = [Row::ZERO; 2];
         let falls = by_axis(|axis| minus_next(&v[axis]) * self.per_shift[axis]);

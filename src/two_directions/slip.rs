@@ -6,10 +6,11 @@
 //! v_j = v*_j - Σ_i C_ij r_i/k_j,   q = C v,   |q_i| < 1 and r_i = 0,  or  q_i = e_i and r_i parallel to e_i.
 //! ```
 //!
-//! C is triangular, so with `K = C⁻¹'k C⁻¹`, a sum of positive terms, `r = K (q* - q)`: among the tractions within Coulomb's bound, q are the
-//! nearest ones to q* in the metric K. They are unique, and continuous in q*. The slipping points and the angles of e are found by
-//! Newton's method with the residuals `e × r` and the matrix `J = e × K e⊥ + e·r`. Springs from the innermost slipping point on are `v = C⁻¹ q`,
-//! without a difference from the trial state. A point in between that sticks has r = 0; q of such points is eliminated from K.
+//! C is triangular, so with `K = C⁻¹'k C⁻¹`, a sum of positive terms, `r = K (q* - q)`: among the tractions within
+//! Coulomb's bound, q are the nearest ones to q* in the metric K. They are unique, and continuous in q*. The slipping
+//! points and the angles of e are found by Newton's method with the residuals `e × r` and the matrix
+//! `J = e × K e⊥ + e·r`. Springs from the innermost slipping point on are `v = C⁻¹ q`, without a difference from the
+//! trial state. A point in between that sticks has r = 0; q of such points is eliminated from K.
 //!
 //! Derivatives are one more step of Newton's method from the solution, see [`Slip::differentiate`].
 
@@ -26,44 +27,48 @@ const MAX_SET_CHANGES: usize = 12;
 const TURN_TOLERANCE: f64 = 1e-11;
 /// The inverse of J is kept while the sum of the changes of the angles falls to a tenth, and is at most this.
 const REUSE_TURN: f64 = 2e-1;
-/// Newton's method is given up at a change of angles whose square could overflow.
+/// Newton's method is given up if the sum of the changes of the angles exceeds this: their squares could overflow.
 const DIVERGED_TURN: f64 = 1e100;
-/// Sweeps of the points before Newton's method is tried again, and attempts, the first one of which is without.
+/// Number of attempts of Newton's method, and of sweeps over the points before each of them but the first one.
 const SWEEPS: usize = 30;
 const ATTEMPTS: usize = 8;
-/// Newton steps after which points that slip backwards stick: the angle of a point that hardly slips is undetermined.
+/// After this number of steps that have not converged, points that slip backwards are made to stick: the angle of a
+/// point that hardly slips is undetermined.
 const REVIEW_INTERVAL: usize = 15;
 /// Coulomb's bound of |q|², but for rounding: a point whose |q|² is larger slips.
 const SQUARED_SLIP_THRESHOLD: f64 = 1.0 + 1e-12;
-/// A point sticks again if its slip against the traction is more than this part of the scale of slip, a rounding error.
+/// A point sticks again if its slip is opposite to the traction by more than this part of the scale of slip, which is a
+/// rounding error.
 const BACKSLIP_TOLERANCE: f64 = 1e-14;
-/// A point is expected to slip if its traction is more than this part of the bound.
+/// The first guess of Newton's method lets a point slip if its trial traction is more than this part of the bound.
 const EXPECTED_SLIP: f64 = 0.5;
-/// A point is expected to turn by the same angle in the next step if the cosine of this angle is more.
+/// The angle from q* to q is the guess for the next step if its cosine is more than this.
 const SAME_TURN_COSINE: f64 = 0.5;
 
-/// Slip of the points of a contact.
+/// Slip of a contact, from a trial state.
 #[repr(align(32))]
 pub(crate) struct Slip {
     pub points: Points,
     /// The trial state.
     pub trial: PerAxis<Row>,
-    /// Tangents of half the angles from q* to q of points that slip: the first guess of the next step.
+    /// For each point that slips, the tangent of half the angle from q* to q: the first guess for the next step.
     pub rotation_guess: Row,
 }
 
-/// The metric K of a set of slipping points under a load: from the innermost one on, with the points that stick eliminated.
+/// The metric K of a set of slipping points under a load: from the innermost one on, with the points that stick
+/// eliminated.
 #[repr(align(32))]
 pub(crate) struct Metric {
     matrices: PerAxis<Matrix>,
-    /// The set and the load of K. K is computed anew if either differs, and always for `NEVER_REUSED`.
+    /// The set of slipping points and the load for which K was computed. It is computed anew if either differs, and
+    /// always for `NEVER_REUSED`.
     computed_for: (PointSet, f64),
     /// -J⁻¹.
     inverse: Matrix,
 }
 
 impl Metric {
-    /// A load at which K is not that of a contact: it equals no load.
+    /// The load of a K that is not used again: it equals no load.
     pub const NEVER_REUSED: f64 = f64::NAN;
     pub const NONE: Metric =
         Metric { matrices: [[Row::ZERO; SPRINGS]; 2], computed_for: (0, 0.0), inverse: [Row::ZERO; SPRINGS] };
@@ -71,11 +76,11 @@ impl Metric {
 
 /// The points of a contact after slip.
 pub(crate) struct Points {
-    /// The points that slip, the innermost one, and a mask of 1 and 0.
+    /// The set of the points that slip, the innermost one of them, and the set as a row of 1 and 0.
     pub set: PointSet,
     pub first: usize,
     slips: Row,
-    /// Directions of the tractions of points that slip, tractions, slip, and the springs.
+    /// Directions of the tractions of points that slip, tractions, slip, and displacements of the springs.
     pub e: PerAxis<Row>,
     pub q: PerAxis<Row>,
     pub r: PerAxis<Row>,
@@ -83,7 +88,7 @@ pub(crate) struct Points {
 }
 
 impl Slip {
-    /// The points from the innermost one that slips on.
+    /// The points from the innermost one that slips to the edge.
     pub fn range(&self, springs: &Springs) -> [usize; 2] {
         [self.points.first.min(SPRINGS), springs.shells.range().end.min(SPRINGS)]
     }
@@ -105,7 +110,8 @@ impl Slip {
         if beyond == 0 {
             return;
         }
-        // First guess: if a point slips, so do those outside that are near their bound, and those inside that rotation_guess in the step before.
+        // First guess: besides the points beyond their bound, those outside of one of them slip if they are near their
+        // bound, and those next to them inside if they slipped in the step before.
         beyond |= points_above(&square(&q), &Lanes([EXPECTED_SLIP * EXPECTED_SLIP; SPRINGS]))
             & points_in([beyond.trailing_zeros() as usize, SPRINGS]);
         let rotated_before = points_above(&self.rotation_guess.map(f64::abs), &Row::ZERO);
@@ -114,7 +120,8 @@ impl Slip {
         }
         (points.set, points.e) = (beyond, [x, y]);
         points.turn(&(2.0 * (mask_of(beyond) * self.rotation_guess)));
-        // Sweeps converge from any guess: after the last attempt their directions, which are near the solution, are kept.
+        // Sweeps converge from any guess: after the last attempt their directions, which are near the solution, are
+        // kept.
         let mut swept = q;
         for _ in 0..ATTEMPTS {
             if self.newton(metric, springs, &q, load) {
@@ -128,7 +135,7 @@ impl Slip {
         self.rotation_guess = near * *slips * sin / (1.0 + cos.max(0.0));
     }
 
-    /// Newton's method from present directions; whether it converged.
+    /// Newton's method from the present directions; whether it converged.
     fn newton(&mut self, metric: &mut Metric, springs: &Springs, q: &PerAxis<Row>, load: f64) -> bool {
         let Slip { points, trial, .. } = self;
         let Metric { matrices, computed_for, inverse } = metric;
@@ -163,7 +170,8 @@ impl Slip {
                     return false;
                 }
                 points.turn(&turns);
-                // The next change of the angles: the square with a new inverse; with that of a step before, it falls as the last one did.
+                // The next change of the angles: the square with a new inverse; with that of a step before, it falls as
+                // the last one did.
                 let rate = if is_new { turned } else { quotient(turned, before) };
                 converged = turned * rate.min(1.0) <= TURN_TOLERANCE;
                 keeps_inverse = turned <= 0.1 * before && turned <= REUSE_TURN;
@@ -174,7 +182,7 @@ impl Slip {
 }
 
 impl Points {
-    /// Slip, whose part across the directions is the residual, and tractions of points that stick.
+    /// Sets the slip and the tractions for the present directions; the residuals e × r.
     fn residual(&mut self, metric: &PerAxis<Matrix>, q: &PerAxis<Row>, range: [usize; 2]) -> Row {
         let inside = mask_of(points_in(range)) * (1.0 - self.slips);
         for axis in 0..2 {
@@ -185,7 +193,7 @@ impl Points {
         self.e[0] * self.r[1] - self.e[1] * self.r[0]
     }
 
-    /// The slip along the directions.
+    /// The slip along the directions of the tractions, e·r.
     fn along(&self) -> Row {
         self.e[0] * self.r[0] + self.e[1] * self.r[1]
     }
@@ -203,7 +211,7 @@ impl Points {
         }
     }
 
-    /// Turns the directions, by Cayley's formula.
+    /// Turns the directions by these angles, approximately: Cayley's formula keeps their length 1.
     fn turn(&mut self, turns: &Row) {
         let ([x, y], half) = (self.e, 0.5 * *turns);
         let scale = 1.0 / (1.0 + half * half);
@@ -211,7 +219,8 @@ impl Points {
         self.e = [cos * x - sin * y, cos * y + sin * x];
     }
 
-    /// The springs after slip. Points beyond the limit slip, and those whose slip is against the traction stick: whether any has changed.
+    /// Sets the springs after slip. Then points beyond their bound are made to slip, and those whose slip is opposite
+    /// to the traction to stick: whether any point has changed.
     fn review(&mut self, springs: &Springs, metric: &PerAxis<Matrix>, trial: &PerAxis<Row>, q: &PerAxis<Row>) -> bool {
         let before = self.set;
         self.v = *trial;
@@ -240,18 +249,18 @@ impl Points {
     }
 }
 
-/// Squares of the lengths of tractions.
+/// Squares of the lengths of tractions, |q_i|².
 fn square([x, y]: &PerAxis<Row>) -> Row {
     *x * *x + *y * *y
 }
 
-/// Directions of tractions; 0 of none.
+/// Directions of tractions; 0 where there is no traction.
 fn directions(q: &PerAxis<Row>) -> PerAxis<Row> {
     let per_length = 1.0 / square(q).max(TINY).sqrt();
     q.map(|q| q * per_length)
 }
 
-/// The points at which values exceed limits.
+/// The set of the points at which values exceed limits.
 fn points_above(values: &Row, limits: &Row) -> PointSet {
     let mut set = 0;
     for i in 0..SPRINGS {
@@ -276,7 +285,8 @@ fn set_full_metric(metric: &mut PerAxis<Matrix>, springs: &Springs, first: usize
     }
 }
 
-/// Sets K of a set of points, the innermost of which is the first of a range: the others in it are eliminated.
+/// Sets K of a set of slipping points, the innermost of which is the first of a range. Points of the range that stick
+/// are eliminated.
 pub(crate) fn set_metric(metric: &mut PerAxis<Matrix>, springs: &Springs, [first, end]: [usize; 2], set: PointSet) {
     set_full_metric(metric, springs, first);
     for axis in 0..2 {
@@ -288,7 +298,8 @@ pub(crate) fn set_metric(metric: &mut PerAxis<Matrix>, springs: &Springs, [first
     }
 }
 
-/// Sweeps of the points, each of which moves towards the nearest traction within its bound: directions, and the points at the bound.
+/// Sweeps over the points, each of which moves its traction towards the nearest one within the bound: the directions of
+/// the tractions, and the set of the points at their bound.
 #[cold]
 #[inline(never)]
 fn sweep(springs: &Springs, trial: &PerAxis<Row>, q: &mut PerAxis<Row>) -> (PerAxis<Row>, PointSet) {

@@ -1,4 +1,4 @@
-//! The state of an element with two directions in the caller's memory, and a step of it. A contact that opens has the state of a new one.
+//! The law in two directions: steps of a state in the caller's memory. A contact that opens has the state of a new one.
 
 use super::TwoDirections;
 use super::energy::{dissipated, separated};
@@ -19,7 +19,7 @@ use crate::numerics::lanes::Lanes;
 use crate::tag::Kind;
 use core::ops::RangeInclusive;
 
-/// The rounding error of the load of nodes.
+/// Nodes move to a load that exceeds theirs by more than this part, its rounding error.
 const LOAD_TOLERANCE: f64 = 1e-12;
 
 impl Law for TwoDirections {
@@ -62,14 +62,16 @@ impl Law for TwoDirections {
         else {
             return Err(Error::BadState);
         };
-        let State { normal_force, units: Units { load, shift, leg }, pressed: [now, slopes], springs, nodes, .. } =
-            state;
+        let State {
+            normal_force, units: Units { load, shift, leg }, normal_states: [now, slopes], springs, nodes, ..
+        } = state;
         if *normal_force == 0.0 {
             return Ok(());
         }
         let positive = [*normal_force, *load, *shift, *leg, now.load, now.shift[0], now.shift[1], now.leg_squared];
         let small = slopes.values().iter().all(|slope| slope.abs() <= 1.0 / SMALLEST_LENGTH);
-        // The nodes lie in order. Only places of points and sizes over that of the flat may be negative, only pressures under sharp edges great.
+        // The nodes lie in order. Only places of points and sizes over that of the flat may be negative, only pressures
+        // under sharp edges great.
         let ordered = nodes.shift.iter().all(|row| row.iter().skip(FLAT_EDGE).is_sorted());
         let within = |rows: &[Row], range: RangeInclusive<f64>| {
             rows.iter().flat_map(|row| row.iter()).all(|value| range.contains(value))
@@ -112,11 +114,11 @@ impl Law for TwoDirections {
     }
 }
 
-/// Lanes of a tangent: both displacements are the first two.
+/// The lane of changes of the normal component in a tangent, after those of both displacements.
 const NORMAL_COMPONENT: usize = 2;
 
 impl State {
-    /// A step.
+    /// A step of a contact that may open or close.
     fn advance(&mut self, element: &Element, to: [f64; 3], requested: Requested) -> StepOf<TwoDirections> {
         let (closes, was_closed) = (element.is_closed(to[2]), self.normal_force > 0.0);
         if element.friction_coefficient == 0.0 || !(closes || was_closed) {
@@ -179,8 +181,9 @@ impl State {
         result
     }
 
-    /// Derivatives of the force of a step by both displacements of the springs and by the normal component over its scale. If the nodes have
-    /// moved to the load at the end, its size is their reference size, and the springs before the step depend on it too.
+    /// Derivatives of the force of a step by both displacements of the springs and by the normal component over its
+    /// scale. If the nodes have moved to the load at the end, its size is their reference size, and the springs before
+    /// the step depend on it too.
     #[inline(never)]
     fn tangent(
         &self,

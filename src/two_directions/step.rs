@@ -1,17 +1,20 @@
 //! A step of a contact that is closed at its end.
 //!
-//! The springs first stick: they follow the displacement δ, those that a rising load engages in the step the part `(S_b - S_j)/ΔS_b` of it.
-//! Slip is found twice, so that it has the direction of the middle of the step and not of its end:
+//! The springs first stick: they follow the displacement δ, those that a rising load engages in the step the part
+//! `(S_b - S_j)/ΔS_b` of it. Slip is found twice, so that it has the direction of the middle of the step and not of its
+//! end:
 //!
 //! 1. in the middle, `v_m` from `(v_0 + v*)/2`, with the shells of the middle;
 //! 2. at the end, `v_1` from `2 v_m - v_0`, where the tractions exceed their bound to second order only.
 //!
-//! On a straight path that is exact. A displacement of several times the innermost limit erases the memory: the springs end in gross slip in
-//! its direction, `v_j = (S_b - S_j) δ/|δ|`.
+//! On a straight path that is exact. A displacement of several times the innermost limit erases the memory: the springs
+//! end in gross slip in its direction, `v_j = (S_b - S_j) δ/|δ|`.
 //!
-//! The edge spring is one more spring from a size just inside the edge on, on its own: it makes the stuck stiffness that of the contact.
+//! One more spring carries the sizes from one just inside the edge on. It slips on its own, and makes the stiffness of
+//! a stuck contact exact.
 //!
-//! The bounds beside the points are formulas of any number. With numbers that carry derivatives they are their own tangent.
+//! A step is written once, for numbers with derivatives or without ([`Number`]): only the slip at the points has
+//! derivatives of its own, in [`tangent`](super::tangent).
 
 use super::nodes::{Nodes, PerAxis, Row, SPRINGS, by_axis, mask_of, points_in};
 use super::path::ContactPath;
@@ -22,7 +25,8 @@ use crate::numerics::dual::Number;
 use crate::numerics::lanes::Lanes;
 use core::ops::Range;
 
-/// A contact under a load, by default open: its normal state, with derivatives by the normal component over its scale, and its shells.
+/// A contact under a load, by default open: its normal state, with derivatives by the normal component over its scale,
+/// and its shells.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct LoadedContact {
     pub now: ScaledNormalState,
@@ -35,12 +39,12 @@ impl LoadedContact {
         LoadedContact { now: *now, slopes: *slopes, shells: Shells::new(nodes, now) }
     }
 
-    /// The limits S_b - S_j of the springs, 0 beyond the edge.
+    /// The limits S_b - S_j of the displacements of the springs; 0 beyond the edge.
     pub fn limits(&self, nodes: &Nodes) -> PerAxis<Row> {
         by_axis(|axis| self.in_use() * (self.now.shift[axis] - nodes.shift[axis]))
     }
 
-    /// 1 for springs up to the edge, 0 beyond.
+    /// 1 for springs in use, 0 for those beyond the edge.
     pub fn in_use(&self) -> Row {
         mask_of(points_in([self.shells.first, self.shells.last + 1]))
     }
@@ -54,7 +58,7 @@ pub(crate) fn by_spring<T>(value: impl Fn(usize, usize) -> T) -> PerSpring<T> {
     by_axis(|axis| core::array::from_fn(|j| value(axis, j)))
 }
 
-/// Changes each value, given the direction and the spring.
+/// Replaces each value by that of a function of the direction, the spring and the value.
 pub(crate) fn update<T: Copy>(values: &mut PerSpring<T>, change: impl Fn(usize, usize, T) -> T) {
     for axis in 0..2 {
         for j in 0..SPRINGS {
@@ -75,13 +79,14 @@ impl Displacements {
     pub const NONE: Displacements = Displacements { v: [[0.0; SPRINGS]; 2], edge: [0.0; 2] };
 }
 
-/// Limits and rises below this, in the unit of the springs, are rounding; fourth powers of a motion over it stay finite.
+/// Limits below this, in the unit of the springs, are rounding errors. The fourth power of a motion over it stays
+/// finite.
 pub(crate) const SMALLEST_LENGTH: f64 = 1e-40;
 
 /// Displacements over the innermost limit between which a step erases the memory.
 const BLEND_RANGE: [f64; 2] = [2.5, 5.0];
 
-/// Blend of the springs into gross slip.
+/// The blend of the springs into gross slip in the direction of the motion.
 struct GrossSlipBlend<T> {
     /// The part of the springs that ends in gross slip, 0 to 1.
     part: T,
@@ -104,7 +109,7 @@ impl<T: Number> GrossSlipBlend<T> {
         GrossSlipBlend { part: x * x * (T::constant(3.0) - x * 2.0), e: travel.map(|travel| travel.quotient(length)) }
     }
 
-    /// A spring of a limit: v, but for the part that ends in gross slip.
+    /// The displacement of a spring: v, but for the part that ends in gross slip, at its limit.
     fn of_spring(&self, axis: usize, v: T, limit: T) -> T {
         (T::constant(1.0) - self.part) * v + self.part * self.e[axis] * limit
     }
@@ -122,10 +127,11 @@ fn length_of<T: Number>([x, y]: PerAxis<T>) -> T {
 /// A spring is released if its limit falls by more than this factor in the step.
 const RELEASE_RATIO: f64 = 4.0;
 
-/// The trial state of a spring whose limit falls by more than `RELEASE_RATIO` in the step, or to 0 if the edge passes its node. It slips mostly on
-/// its own, before the others: only a share of the excess of its trial state over its limit is left for the joint slip.
+/// The trial state of a spring whose limit falls by more than `RELEASE_RATIO` in the step, or to 0 if the edge passes
+/// its node. It slips mostly on its own, before the others: only a share of the excess of its trial state over its
+/// limit is left for the joint slip.
 ///
-/// Not inlined: the compiler would divide by what is beside its quotients in the vector registers of a caller, too.
+/// Not inlined, so that no other numbers are divided beside its quotients, see `numerics/guard.rs`.
 #[inline(never)]
 fn released<T: Number>(limit: PerAxis<T>, fall: T, trial: PerAxis<T>) -> PerAxis<T> {
     let length = length_of(by_axis(|axis| trial[axis].quotient(at_least_smallest(limit[axis]))));
@@ -137,8 +143,8 @@ fn released<T: Number>(limit: PerAxis<T>, fall: T, trial: PerAxis<T>) -> PerAxis
     trial.map(|trial| trial * scale)
 }
 
-/// The spring at the edge after a step. It moves with the edge: under a rising load only that part of the old spring is kept which is still at
-/// the edge.
+/// The spring at the edge after a step. It moves with the edge: under a rising load only that part of the old spring is
+/// kept which is still at the edge.
 #[inline(never)]
 fn edge_spring<T: Number>(states: &[ScaledNormalState<T>; 2], displacement: PerAxis<T>, old: PerAxis<T>) -> PerAxis<T> {
     let [before, limit] = states.each_ref().map(|state| state.edge_limits().map(at_least_smallest));
@@ -154,30 +160,31 @@ fn edge_spring<T: Number>(states: &[ScaledNormalState<T>; 2], displacement: PerA
     by_axis(|axis| limit[axis] * (scale * ratio[axis]))
 }
 
-/// The two slips of a step, in this order.
+/// The two stages of a step at which slip is found, in this order.
 #[derive(Clone, Copy)]
-pub(crate) enum SlipOf {
+pub(crate) enum Stage {
     Middle,
     End,
 }
 
-impl SlipOf {
-    /// The one of this slip.
+impl Stage {
+    /// The value of this stage.
     pub fn pick<T>(self, [middle, end]: &[T; 2]) -> &T {
         match self {
-            SlipOf::Middle => middle,
-            SlipOf::End => end,
+            Stage::Middle => middle,
+            Stage::End => end,
         }
     }
 }
 
-/// What the springs after a step depend on, numbers with derivatives or without.
+/// What the springs after a step depend on, as numbers with derivatives or without.
 pub(crate) struct StepInput<T> {
     /// The normal states at the start and at the end.
     pub states: [ScaledNormalState<T>; 2],
     pub displacement: PerAxis<T>,
     pub old: Displacements<T>,
-    /// At the end: the springs in use, their limits, 0 for others, and stiffnesses.
+    /// The springs in use at the end of the step, and the limits and stiffnesses of all springs there, 0 for those that
+    /// are not in use.
     pub used: Range<usize>,
     pub limits: PerSpring<T>,
     pub stiffness: PerSpring<T>,
@@ -194,17 +201,17 @@ pub(crate) struct StepOutput<T> {
 }
 
 impl<T: Number> StepInput<T> {
-    /// Advances the springs. `slip` replaces a trial state by the springs after slip.
-    pub fn advance(&self, mut slip: impl FnMut(SlipOf, &mut PerSpring<T>)) -> StepOutput<T> {
+    /// The springs after the step. The function `slip` replaces a trial state of each stage by the springs after slip.
+    pub fn advance(&self, mut slip: impl FnMut(Stage, &mut PerSpring<T>)) -> StepOutput<T> {
         let StepInput { states, displacement, old, limits, stiffness, .. } = self;
         let blend = GrossSlipBlend::new(states, *displacement, by_axis(|axis| old.v[axis][self.used.start]));
         let mut v = self.follow();
         self.release(&mut v);
         if blend.part.value() < 1.0 {
             update(&mut v, |axis, j, v| (old.v[axis][j] + v) * 0.5);
-            slip(SlipOf::Middle, &mut v);
+            slip(Stage::Middle, &mut v);
             update(&mut v, |axis, j, v| self.if_used(j, v * 2.0 - old.v[axis][j]));
-            slip(SlipOf::End, &mut v);
+            slip(Stage::End, &mut v);
         }
         let mut edge = edge_spring(states, *displacement, old.edge);
         if blend.part.value() > 0.0 {
@@ -224,7 +231,8 @@ impl<T: Number> StepInput<T> {
         if self.used.contains(&j) { value } else { T::constant(0.0) }
     }
 
-    /// The springs if they follow the displacement: those that a rising load engages, the part (S_b - S_j)/ΔS_b of it.
+    /// The springs if they follow the displacement. Those that a rising load engages follow the part (S_b - S_j)/ΔS_b
+    /// of it.
     fn follow(&self) -> PerSpring<T> {
         let (one, mut v) = (T::constant(1.0), self.old.v);
         let rise = by_axis(|axis| self.states[1].shift[axis] - self.states[0].shift[axis]);
@@ -236,7 +244,7 @@ impl<T: Number> StepInput<T> {
         v
     }
 
-    /// Releases the springs of a trial state whose limits fall steeply.
+    /// Replaces the trial states of springs whose limits fall steeply, see [`released`].
     fn release(&self, trial: &mut PerSpring<T>) {
         let [before, now] = &self.states;
         let (fall, outermost) = (before.shift[0] - now.shift[0], self.limits[0][self.used.end.clamp(1, SPRINGS) - 1]);
@@ -251,15 +259,15 @@ impl<T: Number> StepInput<T> {
 
 /// A step while it is computed, and what its derivatives and its energy need.
 pub(crate) struct StepWork {
-    /// The springs at the start, and if they followed the displacement alone.
+    /// The springs at the start, and as they would be if they followed the displacement without slip.
     pub old: Displacements,
     pub follow: PerSpring<f64>,
     /// The part of the springs that ends in gross slip.
     pub gross_slip: f64,
-    /// The springs of the contact at the end, and of that in the middle if the load changes.
+    /// The springs of the contact at the end and, if the load changes, in the middle.
     pub end_springs: Springs,
     middle_springs: Springs,
-    /// In the middle, and at the end.
+    /// The slip of both stages.
     pub slips: [Slip; 2],
     /// K of the last slip.
     metric: Metric,
@@ -276,7 +284,7 @@ impl StepWork {
         metric: Metric::NONE,
     };
 
-    /// Advances springs; the force, which is not yet bounded.
+    /// Advances springs from one contact to another: the force, which is not yet bounded.
     #[inline(never)]
     pub fn advance(
         &mut self,
@@ -299,15 +307,15 @@ impl StepWork {
             edge_stiffness: to.shells.edge_stiffness,
         };
         self.slips.iter_mut().for_each(|slip| slip.points.set = 0);
-        let output = input.advance(|which, v| {
-            let (springs, load) = match which {
-                SlipOf::Middle if !path.constant_load => {
+        let output = input.advance(|stage, v| {
+            let (springs, load) = match stage {
+                Stage::Middle if !path.constant_load => {
                     self.middle_springs.set(nodes, [&from.shells, &to.shells]);
                     (&self.middle_springs, Metric::NEVER_REUSED)
                 }
                 _ => (&self.end_springs, to.now.load),
             };
-            let slip = &mut self.slips[which as usize];
+            let slip = &mut self.slips[stage as usize];
             slip.find(&mut self.metric, springs, v.map(Lanes), load);
             *v = slip.points.v.map(|v| v.0);
         });
@@ -315,10 +323,10 @@ impl StepWork {
         output.force
     }
 
-    /// The springs of the contact in the middle of a step, or at the end.
-    pub fn springs(&self, which: SlipOf, path: &ContactPath) -> &Springs {
-        match which {
-            SlipOf::Middle if !path.constant_load => &self.middle_springs,
+    /// The springs of the contact at a stage.
+    pub fn springs(&self, stage: Stage, path: &ContactPath) -> &Springs {
+        match stage {
+            Stage::Middle if !path.constant_load => &self.middle_springs,
             _ => &self.end_springs,
         }
     }
@@ -327,8 +335,8 @@ impl StepWork {
 /// A spring slips if its length over its limit is more than this: one that is at its limit may exceed it by rounding.
 pub(super) const LENGTH_SLIP_THRESHOLD: f64 = 1.0 + 1e-12;
 
-/// Scales a force to Coulomb's bound if it exceeds an allowed factor times the bound. A factor slightly above 1 keeps the tangent of a stuck
-/// contact whose force exceeds the bound by rounding. Not inlined, as [`released`].
+/// Scales a force to Coulomb's bound if it exceeds an allowed factor times the bound. A factor slightly above 1 keeps
+/// the tangent of a stuck contact whose force exceeds the bound by rounding. Not inlined, as [`released`].
 #[inline(never)]
 pub(crate) fn within_friction_limit<T: Number>(force: PerAxis<T>, bound: T, allowed: f64) -> PerAxis<T> {
     let length = length_of(force);

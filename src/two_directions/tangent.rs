@@ -1,7 +1,7 @@
 //! Derivatives of a step whose values are known: one more step of Newton's method from the solution of each slip.
 //!
-//! A step is linear in small changes of the motion and of the springs at its start, so many are propagated at once, in lanes. Changes of the
-//! parameters of the contact add terms to them, with the changes dC and dk of the shells:
+//! A step is linear in small changes of the motion and of the springs at its start, so many are propagated at once, in
+//! lanes. Changes of the parameters of the contact add terms to them, with the changes dC and dk of the shells:
 //!
 //! ```text
 //! C dv = dq - dC v,   dr = C⁻¹'[k (dv* - dv) + dk (v* - v) - dC' r],   e × dr + de × r = 0,   de = e⊥ dθ
@@ -13,14 +13,14 @@ use super::path::ContactPath;
 use super::shells::{ScaledNormalState, Shells, Springs, minus_next};
 use super::slip::{Points, Slip, set_metric};
 use super::step::{
-    Displacements, LENGTH_SLIP_THRESHOLD, LoadedContact, PerSpring, SlipOf, StepInput, StepWork, by_spring, update,
+    Displacements, LENGTH_SLIP_THRESHOLD, LoadedContact, PerSpring, Stage, StepInput, StepWork, by_spring, update,
     within_friction_limit,
 };
 use crate::numerics::dual::{Dual, Number};
 use crate::numerics::lanes::Lanes;
 
-/// A value for each parameter of a step: the normal component over its scale at the start and at the end, and the logarithm of the reference
-/// size of the nodes.
+/// A value for each parameter of a step: the normal component over its scale at the start and at the end, and the
+/// logarithm of the reference size of the nodes.
 #[derive(Clone, Copy, Default)]
 pub(crate) struct PerParameter<T> {
     pub start: T,
@@ -28,8 +28,8 @@ pub(crate) struct PerParameter<T> {
     pub reference: T,
 }
 
-/// Derivatives of the shells of a contact by the normal component over its scale, and by the logarithm of the reference size if the nodes
-/// depend on it.
+/// Derivatives of the shells of a contact by the normal component over its scale, and by the logarithm of the reference
+/// size if the nodes depend on it.
 #[derive(Clone, Copy)]
 pub(crate) struct ContactSlopes {
     by_load: Shells,
@@ -49,7 +49,7 @@ impl ContactSlopes {
     }
 }
 
-/// Terms of the derivative by one parameter in the changes of the springs.
+/// What a change of one parameter adds to the changes of a step.
 #[derive(Clone, Copy)]
 struct ParameterTerms {
     /// Derivatives of the normal state at the start and at the end, and of S of the nodes.
@@ -61,7 +61,8 @@ struct ParameterTerms {
     slips: [SlipTerms; 2],
 }
 
-/// Terms of a slip: dC v; dk (v* - v) - dC' r, in which the pressures are constant; and r dp/p, which is what their changes add to the slip.
+/// What a change of one parameter adds to the changes of a slip, see the equations above: `dC v` to the tractions,
+/// `dk (v* - v) - dC' r` at constant p to the forces of the springs, and `r dp/p` to the slip.
 #[derive(Clone, Copy)]
 struct SlipTerms {
     tractions: PerAxis<Row>,
@@ -75,7 +76,8 @@ impl SlipTerms {
         SlipTerms { tractions: zero, forces: zero, slip: zero }
     };
 
-    /// Sets the terms of a parameter, given the derivatives of the shells at both ends, which are not 0 from one shell on, and of the nodes.
+    /// Sets the terms, given the derivatives of the shells at both ends and of the nodes; those of shells before
+    /// `first` are 0. The values are [`Springs::set`].
     fn set(&mut self, springs: &Springs, slip: &Slip, (ends, nodes, first): ([&Shells; 2], Option<&Nodes>, usize)) {
         let (shells, trial, slip) = (&springs.shells, &slip.trial, &slip.points);
         if slip.set == 0 {
@@ -107,7 +109,7 @@ impl SlipTerms {
     }
 }
 
-/// x_j - x_{j-1}.
+/// x_j - x_{j-1}, with 0 before the first one.
 fn minus_previous(x: &Row) -> Row {
     let mut differences = *x;
     for j in 1..SPRINGS {
@@ -116,7 +118,7 @@ fn minus_previous(x: &Row) -> Row {
     differences
 }
 
-/// Derivatives of k_j.
+/// Derivatives of k_j, see [`Shells::stiffness`].
 fn stiffness_slopes(springs: &Springs, axis: usize, slopes: &Shells) -> Row {
     let secants = (slopes.load_step[axis]
         - springs.shells.load_step[axis] * springs.per_shift[axis] * slopes.shift_step[axis])
@@ -133,7 +135,8 @@ impl ParameterTerms {
         slips: [SlipTerms::NONE; 2],
     };
 
-    /// Sets the terms, given the derivatives of the normal states, and those of the shells as in [`SlipTerms::set`].
+    /// Sets the terms, given the derivatives of the normal states at both ends, and those of the shells as in
+    /// [`SlipTerms::set`].
     #[inline(never)]
     fn set(
         &mut self,
@@ -142,9 +145,9 @@ impl ParameterTerms {
         (ends, nodes, first): ([&Shells; 2], Option<&Nodes>, usize),
     ) {
         let [_, end] = ends;
-        for (which, ends) in [(SlipOf::Middle, ends), (SlipOf::End, [end; 2])] {
-            let (terms, slip) = (&mut self.slips[which as usize], &work.slips[which as usize]);
-            terms.set(work.springs(which, path), slip, (ends, nodes, first));
+        for (stage, ends) in [(Stage::Middle, ends), (Stage::End, [end; 2])] {
+            let (terms, slip) = (&mut self.slips[stage as usize], &work.slips[stage as usize]);
+            terms.set(work.springs(stage, path), slip, (ends, nodes, first));
         }
         self.stiffness = by_axis(|axis| stiffness_slopes(&work.end_springs, axis, end));
         self.edge_stiffness = end.edge_stiffness;
@@ -171,7 +174,7 @@ impl SlipJacobian {
     }
 }
 
-/// What is linear in a step: both slips, and the terms of each parameter.
+/// The derivatives of a step: those of both slips, and the terms of each parameter.
 pub(crate) struct StepTangent {
     terms: PerParameter<ParameterTerms>,
     slips: [SlipJacobian; 2],
@@ -183,7 +186,8 @@ impl StepTangent {
         slips: [SlipJacobian::NONE, SlipJacobian::NONE],
     };
 
-    /// Sets the derivatives of a step between contacts, given those of their shells, and of the nodes if they depend on the reference size.
+    /// Sets the derivatives of a step between contacts, given those of their shells, and of the nodes if they depend on
+    /// the reference size.
     pub fn set(
         &mut self,
         (work, path): (&StepWork, &ContactPath),
@@ -200,13 +204,13 @@ impl StepTangent {
         if by_nodes.is_some() {
             terms.reference.set((work, path), [none; 2], ([&by_from.by_reference, &by_to.by_reference], by_nodes, 0));
         }
-        for which in [SlipOf::Middle, SlipOf::End] {
-            self.slips[which as usize].set(work.springs(which, path), &work.slips[which as usize]);
+        for stage in [Stage::Middle, Stage::End] {
+            self.slips[stage as usize].set(work.springs(stage, path), &work.slips[stage as usize]);
         }
     }
 }
 
-/// The tangent of a step, and by how much each parameter changes in the first four of the lanes that are propagated.
+/// Changes of the parameters in the first four of the lanes that are propagated, and what they act on.
 pub(crate) struct ParameterChanges<'a> {
     pub tangent: &'a StepTangent,
     pub changes: PerParameter<Lanes<4>>,
@@ -228,7 +232,7 @@ impl ParameterChanges<'_> {
     }
 }
 
-/// A step through which changes are propagated: the contact at both ends, and what the parameters add.
+/// A step through which changes are propagated.
 pub(crate) struct Propagation<'a> {
     pub contacts: [&'a LoadedContact; 2],
     pub nodes: &'a Nodes,
@@ -238,7 +242,8 @@ pub(crate) struct Propagation<'a> {
 }
 
 impl Propagation<'_> {
-    /// Propagates changes of the displacement and of the springs: those of the springs after the step, in place, and of the force.
+    /// Propagates changes of the displacement and of the springs: those of the springs after the step, in place, and of
+    /// the force.
     pub fn propagate<const L: usize>(
         &self,
         displacement: &PerAxis<Lanes<L>>,
@@ -270,9 +275,9 @@ impl Propagation<'_> {
             edge_stiffness: by_axis(|axis| parameters.dual(edge_stiffness[axis], |terms| terms.edge_stiffness[axis])),
             states: [state(0), state(1)],
         };
-        let output = input.advance(|which, v| {
-            let (mut changes, slip) = (by_spring(|axis, j| v[axis][j].slopes), which.pick(&work.slips));
-            slip.differentiate(which, work.springs(which, path), &mut changes, parameters);
+        let output = input.advance(|stage, v| {
+            let (mut changes, slip) = (by_spring(|axis, j| v[axis][j].slopes), stage.pick(&work.slips));
+            slip.differentiate(stage, work.springs(stage, path), &mut changes, parameters);
             update(v, |axis, j, _| dual(slip.points.v[axis][j], changes[axis][j]));
         });
         let bound = input.states[1].load;
@@ -285,10 +290,10 @@ impl Propagation<'_> {
 }
 
 impl Slip {
-    /// Changes of springs after slip, in place of those of the trial state.
+    /// Replaces changes of the trial state of a stage by those of the springs after slip.
     fn differentiate<const L: usize>(
         &self,
-        which: SlipOf,
+        stage: Stage,
         springs: &Springs,
         v: &mut PerSpring<Lanes<L>>,
         parameters: &ParameterChanges,
@@ -298,24 +303,24 @@ impl Slip {
         }
         let range = self.range(springs);
         let [first, end] = range;
-        // The springs at the present tractions, and the slip at them.
+        // The changes of springs that keep their tractions, and the changes of the slip of such springs.
         let mut own = [[Lanes::<4>::ZERO; SPRINGS]; 2];
         for axis in 0..2 {
             for j in first..end {
-                own[axis][j] = -parameters.sum(|terms| which.pick(&terms.slips).tractions[axis][j]);
+                own[axis][j] = -parameters.sum(|terms| stage.pick(&terms.slips).tractions[axis][j]);
             }
             times_upper(&springs.inverse[axis], range, &mut own[axis]);
             for j in first..end {
                 v[axis][j].add_first(-own[axis][j]);
                 v[axis][j] = springs.stiffness[axis][j] * v[axis][j];
-                v[axis][j].add_first(parameters.sum(|terms| which.pick(&terms.slips).forces[axis][j]));
+                v[axis][j].add_first(parameters.sum(|terms| stage.pick(&terms.slips).forces[axis][j]));
             }
             times_upper_transposed(&springs.inverse[axis], range, &mut v[axis]);
             for i in first..end {
-                v[axis][i].add_first(parameters.sum(|terms| which.pick(&terms.slips).slip[axis][i]));
+                v[axis][i].add_first(parameters.sum(|terms| stage.pick(&terms.slips).slip[axis][i]));
             }
         }
-        self.tractions_of(which.pick(&parameters.tangent.slips), v, range);
+        self.tractions_of(stage.pick(&parameters.tangent.slips), v, range);
         for axis in 0..2 {
             times_upper(&springs.inverse[axis], range, &mut v[axis]);
             for j in first..end {
@@ -324,7 +329,7 @@ impl Slip {
         }
     }
 
-    /// Changes of the tractions, in place of those of slip at the present tractions.
+    /// Replaces changes of the slip of points that keep their tractions by the changes of the tractions.
     fn tractions_of<const L: usize>(&self, jacobian: &SlipJacobian, slip: &mut PerSpring<Lanes<L>>, range: [usize; 2]) {
         let (Points { set, e, .. }, SlipJacobian { metric, inverse }) = (&self.points, jacobian);
         let sticks = !set & points_in(range);
@@ -337,8 +342,8 @@ impl Slip {
             })
         };
         if sticks != 0 {
-            // Points that stick between others are eliminated from K: their changes of slip become changes of their tractions, and are
-            // subtracted from those of the others by their share.
+            // Points that stick between others are eliminated from K: their changes of slip become changes of their
+            // tractions, and are subtracted from those of the others by their share.
             let taken = product(sticks, slip);
             update(slip, |axis, i, slip| if is_in(sticks, i) { -taken[axis][i] } else { slip - taken[axis][i] });
         }
