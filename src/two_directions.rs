@@ -27,6 +27,8 @@ mod slip;
 mod state;
 mod step;
 mod tangent;
+#[cfg(test)]
+mod tests;
 
 pub use crate::law::Law;
 
