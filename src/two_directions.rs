@@ -27,10 +27,11 @@ mod slip;
 mod state;
 mod step;
 mod tangent;
-#[cfg(test)]
-mod tests;
 
 pub use crate::law::Law;
 
 /// The law of elements with two tangential directions.
 pub struct TwoDirections;
+
+#[cfg(test)]
+mod tests;

@@ -77,8 +77,8 @@ fn long_slides_carry_the_friction_force_and_dissipate_their_work() {
             let error = missing(&step).abs();
             let of_energy = (step.dissipated / fine.along(from, to, 64) - 1.0).abs();
             assert!(error < 1e-12 && of_energy < 0.07, "{start} {length:e}: {error:e} {of_energy:e}, {element:?}");
-            // Unless both directions are equally stiff, the points, whose shares of the force differ between them, turn apart: a shorter slide
-            // carries less, by the second order of the angles.
+            // Unless both directions are equally stiff, the points, whose shares of the force differ between them, turn apart: a shorter
+            // slide carries less, by the second order of the angles.
             if from[1] == 0.0 {
                 let part = 3.0 * slip_displacement(&element, load) / length;
                 let error = missing(&short.to([part * (to[0] - from[0]), part * to[1], load]));
@@ -109,8 +109,8 @@ fn the_stiffness_of_a_stuck_contact_is_that_of_the_curve() {
     }
 }
 
-/// The largest jump on a line from 0 to 1, of which values and derivatives are given: an interval is halved until the derivatives at its ends
-/// explain the difference of the values to 3e-7.
+/// The largest jump on a line from 0 to 1, of which values and derivatives are given: an interval is halved until the derivatives at its
+/// ends explain the difference of the values to 3e-7.
 fn jump(mut of: impl FnMut(f64) -> [[f64; 2]; 2]) -> f64 {
     let (mut largest, mut halvings) = (0.0f64, 0);
     let mut intervals = vec![[(0.0, of(0.0)), (1.0, of(1.0))]];
@@ -161,25 +161,25 @@ fn jumps(random: &mut Random, elements: usize, by_load: f64) -> f64 {
     largest
 }
 
-/// Where the middle of a step begins to slip while its end sticks, where a contact that sticks exceeds Coulomb's bound, and where Newton's
-/// method needs sweeps: with these seeds, all are met. From one load to the next the force jumps where the size inside the edge passes a node:
-/// by the part of the load between both sizes.
+/// Where the middle of a step begins to slip while its end sticks, where a contact that sticks exceeds Coulomb's bound, where Newton's
+/// method needs sweeps, and where springs are released: with these seeds, all are met. From one load to the next the force jumps where the
+/// size inside the edge, under a load that is smaller by 8e-6, passes a node.
 #[test]
 fn the_force_does_not_jump() {
     for (seed, elements) in [(15, 8), (23, 48), (1096, 8), (3220, 8)] {
-        for (by_load, bound) in [(0.0, 1e-6), (-0.03, 2e-5)] {
+        for (by_load, bound) in [(0.0, 1e-6), (-0.03, 1e-5)] {
             let size = jumps(&mut Random(seed), elements, by_load);
             assert!(size <= bound, "{seed} {by_load}: {size:e}");
         }
     }
-    for (seed, elements) in [(2010, 7), (2043, 6), (2127, 8)] {
+    for (seed, elements) in [(2010, 7), (2043, 6), (2127, 8), (3046, 8)] {
         let size = jumps(&mut Random(seed), elements, -0.9);
-        assert!(size <= 2.5e-5, "{seed}: {size:e}");
+        assert!(size <= 1e-5, "{seed}: {size:e}");
     }
 }
 
-/// The largest jump of the harmonic force, that in phase, over μ times the mean load, on a line of coefficients along which the load grows or
-/// turns its phase.
+/// The largest jump of the harmonic force, that in phase, over μ times the mean load, on a line of coefficients along which the load grows
+/// or turns its phase.
 fn jump_of_harmonic_force(random: &mut Random, periods: usize, turns: bool) -> f64 {
     let poisson_ratio = 0.5 * random.next();
     let element = element(random, poisson_ratio);

@@ -16,7 +16,7 @@
 
 use super::matrix::dot;
 use super::moving_nodes::{State, Step};
-use super::nodes::{Nodes, PerAxis, by_axis, length};
+use super::nodes::{Nodes, PerAxis, Units, by_axis, length};
 use super::path::ContactPath;
 use super::step::{Displacements, LoadedContact, StepWork};
 use super::tangent::{ContactSlopes, ParameterChanges, PerParameter, Propagation, StepTangent};
@@ -356,7 +356,7 @@ fn integrate_periods(element: &Element, workspace: &mut TwoDirectionsWorkspace, 
     }
     // The reference size is not that of the largest load if this is below the least reference load.
     let is_reference = load >= units.load * 0.99;
-    let reference_by_input = if is_reference { 0.5 * integration.contacts[1].slopes.leg_squared } else { 0.0 };
+    let reference_by_input = if is_reference { Units::logarithmic_slope(element, top) } else { 0.0 };
     let mut before = None;
     let (mut start, mut changes, mut extrapolated) = (integration.state.springs, [0.0; 2], 0.0);
     // The first step leads from no displacement to the sample of largest load.

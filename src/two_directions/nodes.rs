@@ -132,6 +132,14 @@ impl Units {
         let [load, shift, _] = shape.load_and_shifts(leg);
         Units { load, shift, leg }
     }
+
+    /// Derivative of the logarithm of the reference size by the normal component over its scale, if it is the size
+    /// under this normal component.
+    pub fn logarithmic_slope(element: &Element, input: f64) -> f64 {
+        let normal = element.normal(input);
+        let [leg, slope] = element.shape().size_under(normal.load);
+        element.input_scale() * quotient(0.5 * slope * normal.load_slope, leg * leg)
+    }
 }
 
 impl Nodes {

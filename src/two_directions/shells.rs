@@ -23,13 +23,13 @@ use crate::numerics::lanes::Lanes;
 use core::ops::Range;
 
 record! {
-    /// The normal state in the units of the springs: N, S of both directions, leg²; N and S of a slightly smaller size,
-    /// inside the edge.
+    /// The normal state in the units of the springs: N and S of both directions; N, S and leg² of a slightly smaller
+    /// size, inside the edge.
     pub(crate) struct ScaledNormalState<T = f64> {
         pub load: T,
         pub shift: PerAxis<T>,
-        pub leg_squared: T,
         pub inside: T,
+        pub inside_leg_squared: T,
         pub inside_shift: PerAxis<T>,
     }
 }
@@ -54,27 +54,28 @@ const LEAST_STIFFNESS: f64 = 1e-12;
 
 impl ScaledNormalState {
     pub const NONE: ScaledNormalState =
-        ScaledNormalState { load: 0.0, shift: [0.0; 2], leg_squared: 0.0, inside: 0.0, inside_shift: [0.0; 2] };
+        ScaledNormalState { load: 0.0, shift: [0.0; 2], inside: 0.0, inside_leg_squared: 0.0, inside_shift: [0.0; 2] };
 
     /// The state of a contact that is closed, and its derivatives by the normal component over its scale.
     pub fn new(element: &Element, units: &Units, input: f64, normal: &Normal) -> [ScaledNormalState; 2] {
         // Products instead of quotients, see `numerics/guard.rs`.
         let [per_load, per_shift, per_leg] = [units.load, units.shift, units.leg].map(f64::recip);
-        let [leg, slope] = element.shape().size_under(normal.load.max(SMALLEST_LOAD * element.normal_force));
-        let (leg, slope) = (leg * per_leg, slope * normal.load_slope * per_leg * per_leg);
         let (inside, scale) = (element.normal(INSIDE_EDGE * input), element.input_scale());
+        let [leg, slope] = element.shape().size_under(inside.load.max(SMALLEST_LOAD * element.normal_force));
+        let (leg, slope) = (leg * per_leg, INSIDE_EDGE * slope * inside.load_slope * per_leg * per_leg);
         let [y, y_inside] = [normal, &inside].map(|normal| element.lateral(normal));
-        let per = [per_load, per_shift, per_shift, 1.0, per_load, per_shift, per_shift];
-        let now = [normal.load, normal.shift, y[0], leg * leg, inside.load, inside.shift, y_inside[0]];
+        let per = [per_load, per_shift, per_shift, per_load, 1.0, per_shift, per_shift];
+        let now = [normal.load, normal.shift, y[0], inside.load, leg * leg, inside.shift, y_inside[0]];
         let inner = [inside.load_slope, inside.shift_slope, y_inside[1]].map(|slope| INSIDE_EDGE * slope);
-        let slopes = [normal.load_slope, normal.shift_slope, y[1], slope, inner[0], inner[1], inner[2]];
+        let slopes = [normal.load_slope, normal.shift_slope, y[1], inner[0], slope, inner[1], inner[2]];
         [now, slopes.map(|slope| scale * slope)]
             .map(|values| ScaledNormalState::from_values(core::array::from_fn(|i| values[i] * per[i])))
     }
 
     pub fn values(&self) -> [f64; VALUES] {
-        let ScaledNormalState { load, shift: [x, y], leg_squared, inside, inside_shift: [inside_x, inside_y] } = *self;
-        [load, x, y, leg_squared, inside, inside_x, inside_y]
+        let ScaledNormalState { load, shift: [x, y], inside, inside_leg_squared, inside_shift: [inside_x, inside_y] } =
+            *self;
+        [load, x, y, inside, inside_leg_squared, inside_x, inside_y]
     }
 }
 
@@ -85,8 +86,10 @@ impl<T: Number> ScaledNormalState<T> {
     }
 
     /// A normal state from its values in the order of [`ScaledNormalState::values`].
-    pub fn from_values([load, x, y, leg_squared, inside, inside_x, inside_y]: [T; VALUES]) -> ScaledNormalState<T> {
-        ScaledNormalState { load, shift: [x, y], leg_squared, inside, inside_shift: [inside_x, inside_y] }
+    pub fn from_values(
+        [load, x, y, inside, inside_leg_squared, inside_x, inside_y]: [T; VALUES],
+    ) -> ScaledNormalState<T> {
+        ScaledNormalState { load, shift: [x, y], inside, inside_leg_squared, inside_shift: [inside_x, inside_y] }
     }
 }
 
@@ -229,12 +232,12 @@ impl<T: Number> LastShell<T> {
         let steps = by_axis(|axis| shift_step[axis].quotient(nodes.get(|nodes| nodes.shift_step[axis][next_to_last])));
         let mut pressures = [T::constant(0.0); SPRINGS];
         for i in first..last {
-            let own = pressure(nodes, last, now.leg_squared, i);
+            let own = pressure(nodes, last, now.inside_leg_squared, i);
             let bound =
                 monotone_pressure(own, nodes.get(|nodes| nodes.pressure[next_to_last.min(SPRINGS - 2)][i]), steps);
             pressures[i] = if i <= next_to_last { bound } else { own };
         }
-        pressures[last] = pressure_at_edge(nodes, last, now.leg_squared);
+        pressures[last] = pressure_at_edge(nodes, last, now.inside_leg_squared);
         LastShell {
             load_step: by_axis(|axis| secant[axis] * shift_step[axis]),
             shift_step,

@@ -68,7 +68,7 @@ impl Law for TwoDirections {
         if *normal_force == 0.0 {
             return Ok(());
         }
-        let positive = [*normal_force, *load, *shift, *leg, now.load, now.shift[0], now.shift[1], now.leg_squared];
+        let positive = [*normal_force, *load, *shift, *leg, now.load, now.shift[0], now.shift[1], now.inside];
         let small = slopes.values().iter().all(|slope| slope.abs() <= 1.0 / SMALLEST_LENGTH);
         // The nodes lie in order. Only places of points and sizes over that of the flat may be negative, only pressures
         // under sharp edges great.
@@ -163,7 +163,7 @@ impl State {
         let mut result = StepResult { force: [unit * x, unit * y, self.normal_force], ..StepResult::NONE };
         if requested.tangent {
             let by_nodes = old_springs.map(|old_springs| (old_springs, Nodes::slopes(element, &self.units)));
-            let [x, y] = self.tangent(contacts, &path, &work, by_nodes.as_ref());
+            let [x, y] = self.tangent(element, contacts, &path, &work, by_nodes.as_ref());
             let (per_distance, per_input) = (unit * path.per_distance, unit / element.input_scale());
             let column = |lane: usize, unit: f64| [unit * x[lane], unit * y[lane]];
             let ([xx, yx], [xy, yy]) = (column(0, per_distance), column(1, per_distance));
@@ -187,6 +187,7 @@ impl State {
     #[inline(never)]
     fn tangent(
         &self,
+        element: &Element,
         contacts: [&LoadedContact; 2],
         path: &ContactPath,
         work: &StepWork,
@@ -199,7 +200,8 @@ impl State {
         changes.end = Lanes([0.0, 0.0, 1.0, 0.0]);
         let mut springs = Displacements { v: [[Lanes::ZERO; SPRINGS]; 2], edge: [Lanes::ZERO; 2] };
         if let Some((old_springs, by_nodes)) = moved {
-            let by_input = 0.5 * contacts[1].slopes.leg_squared;
+            let [.., input] = self.displacement;
+            let by_input = Units::logarithmic_slope(element, input);
             changes.reference = by_input * changes.end;
             let moved = old_springs.moved_to(contacts[0], &self.units, &(&self.nodes, Some(by_nodes)));
             springs.v = by_spring(|axis, j| moved.v[axis][j].slopes[0] * changes.reference);

@@ -247,11 +247,12 @@ impl<T: Number> StepInput<T> {
     /// Replaces the trial states of springs whose limits fall steeply, see [`released`].
     fn release(&self, trial: &mut PerSpring<T>) {
         let [before, now] = &self.states;
-        let (fall, outermost) = (before.shift[0] - now.shift[0], self.limits[0][self.used.end.clamp(1, SPRINGS) - 1]);
-        if fall.value() > (RELEASE_RATIO - 1.0) * outermost.value() {
+        let (fall, edge) = (before.shift[0] - now.shift[0], now.edge_limits());
+        // Limits up to the size inside the edge vanish where a spring falls out of use.
+        let limit = |j: usize| by_axis(|axis| self.limits[axis][j.min(SPRINGS - 1)] - edge[axis]);
+        if fall.value() > (RELEASE_RATIO - 1.0) * limit(self.used.end.max(1) - 1)[0].value() {
             for j in self.used.start..self.used.end.min(SPRINGS) {
-                let limit = by_axis(|axis| self.limits[axis][j]);
-                [trial[0][j], trial[1][j]] = released(limit, fall, by_axis(|axis| trial[axis][j]));
+                [trial[0][j], trial[1][j]] = released(limit(j), fall, by_axis(|axis| trial[axis][j]));
             }
         }
     }
