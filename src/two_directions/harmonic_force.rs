@@ -2,9 +2,9 @@
 //!
 //! The motion is u, v and the normal component (the approach w or the normal force N), each
 //! `c0 + Σ (a_k cos kt + b_k sin kt)`, at N uniformly spaced instants from t = 0. Between the samples the path is that
-//! of a step of the element. Steady state: the element is normal_states by the normal force of the sample at which that
-//! is largest (the first such sample) with no tangential displacement, is displaced to that sample at constant normal
-//! force, and advanced along a number of periods and one more from there, which counts. The nodes are those of the
+//! of a step of the element. Steady state: the contact is first pressed by the largest normal force of the samples (the
+//! first such sample), without tangential displacement, and then displaced to that sample under constant load. From
+//! there it is advanced along a number of periods, and along one more that is evaluated. The nodes are those of the
 //! largest normal force.
 //!
 //! A vibration relaxes static shear over many periods. Those before the last two are advanced by fewer samples, and
@@ -18,7 +18,7 @@ use super::matrix::dot;
 use super::moving_nodes::{State, Step};
 use super::nodes::{Nodes, PerAxis, Units, by_axis, length};
 use super::path::ContactPath;
-use super::step::{Displacements, LoadedContact, StepWork};
+use super::step::{Displacements, LoadedContact, SolvedStep};
 use super::tangent::{ContactSlopes, ParameterChanges, PerParameter, Propagation, StepTangent};
 use crate::element::{Element, Normal};
 use crate::error::Error;
@@ -79,7 +79,7 @@ pub struct TwoDirectionsWorkspace<'a> {
     basis: &'a mut [f64],
     samples: &'a mut [Sample],
     /// Changes of the springs and of both forces by the coefficients, in blocks of columns.
-    changes: &'a mut [Displacements<Columns>],
+    spring_changes: &'a mut [Displacements<Columns>],
     force_changes: &'a mut [PerAxis<Columns>],
     /// Changes of the springs after the first period.
     earlier: &'a mut [Displacements<Columns>],
@@ -103,7 +103,7 @@ impl<'a> Layout<'a> for TwoDirectionsWorkspace<'a> {
             size,
             basis: parts.take(n * size.samples),
             samples: parts.take_records(size.samples),
-            changes: parts.take_records(blocks),
+            spring_changes: parts.take_records(blocks),
             force_changes: parts.take_records(blocks),
             earlier: parts.take_records(blocks),
             sums: parts.take_records(n * blocks),
@@ -166,8 +166,8 @@ impl<'a> TwoDirectionsWorkspace<'a> {
     }
 }
 
-/// Harmonic force of a periodic motion, given by its 3 (2H + 1) coefficients: those of u, of v \[m\], and of the normal
-/// component, the approach \[m\] or the normal force \[N\].
+/// Harmonic force of a periodic motion, given by its 3 (2H + 1) coefficients: those of u, of v \[m_squared\], and of
+/// the normal component, the approach \[m_squared\] or the normal force \[N\].
 ///
 /// The force has 3 (2H + 1) coefficients \[N\], Tx, Ty, N. The Jacobian has (3 (2H + 1))² entries, column by column:
 /// their derivatives with respect to the coefficients of the motion. The energy is the work of the tangential forces in
@@ -227,10 +227,10 @@ struct PeriodIntegration<'a> {
     element: &'a Element,
     state: State,
     /// Derivatives of the nodes by the logarithm of the reference size.
-    by_nodes: Nodes,
+    node_slopes: Nodes,
     /// The contact at the start and at the end of a step.
     contacts: [LoadedContact; 2],
-    work: StepWork,
+    solved: SolvedStep,
     /// Derivatives of the contacts at the start and at the end, if they were computed.
     slopes: [Option<ContactSlopes>; 2],
     tangent: StepTangent,
@@ -239,7 +239,7 @@ struct PeriodIntegration<'a> {
 impl PeriodIntegration<'_> {
     /// Advances to a sample that closes the contact.
     fn advance(&mut self, to: [f64; 3]) -> Step {
-        let step = self.state.step_at_nodes(self.element, &mut self.contacts, to, &mut self.work);
+        let step = self.state.step_at_nodes(self.element, &mut self.contacts, to, &mut self.solved);
         if !step.path.constant_load {
             self.slopes = [self.slopes[1], None];
         }
@@ -257,9 +257,9 @@ impl PeriodIntegration<'_> {
     fn change(&self, from: &Displacements) -> f64 {
         let change = by_axis(|axis| {
             let differences = (Lanes(self.state.springs.v[axis]) - Lanes(from.v[axis])).map(f64::abs);
-            dot(&self.work.end_springs.stiffness[axis], &differences)
+            dot(&self.solved.end_springs.stiffness[axis], &differences)
         });
-        quotient(length(change), self.contacts[1].now.load)
+        quotient(length(change), self.contacts[1].normal.load)
     }
 }
 
@@ -276,13 +276,14 @@ fn differentiate(
     let n = workspace.coefficients();
     let [start, end, top] = samples.map(|index| index.map_or(&[][..], |index| row(workspace.basis, n, index)));
     let per_scale = 1.0 / integration.element.input_scale();
-    let PeriodIntegration { state, by_nodes, contacts, work, slopes: [first, second], tangent, .. } = integration;
+    let PeriodIntegration { state, node_slopes, contacts, solved, slopes: [first, second], tangent, .. } = integration;
     let (nodes, contacts) = (&state.nodes, contacts.each_ref());
-    let slopes = |contact| ContactSlopes::new(nodes, Some(by_nodes), contact);
+    let slopes = |contact| ContactSlopes::new(nodes, Some(node_slopes), contact);
     let by_end = &*second.get_or_insert_with(|| slopes(contacts[1]));
     let by_start = if path.constant_load { by_end } else { &*first.get_or_insert_with(|| slopes(contacts[0])) };
-    tangent.set((work, path), contacts, [by_start, by_end], Some(by_nodes));
-    for (block, (springs, forces)) in workspace.changes.iter_mut().zip(&mut *workspace.force_changes).enumerate() {
+    tangent.set((solved, path), contacts, [by_start, by_end], Some(node_slopes));
+    for (block, (springs, forces)) in workspace.spring_changes.iter_mut().zip(&mut *workspace.force_changes).enumerate()
+    {
         let (mut displacement, mut changes) = ([Columns::ZERO; 2], PerParameter::<Lanes<4>>::default());
         for lane in 0..BLOCK.min(n - BLOCK * block) {
             let [from, to, top] = [start, end, top].map(|basis| basis.or_zero(BLOCK * block + lane));
@@ -296,7 +297,7 @@ fn differentiate(
             (changes.end[lane], changes.reference[lane]) = (per_scale * to, reference_by_input * (per_scale * top));
         }
         let parameters = ParameterChanges { tangent, changes };
-        let propagation = Propagation { contacts, nodes, path, work, parameters };
+        let propagation = Propagation { contacts, nodes, path, solved, parameters };
         *forces = propagation.propagate(&displacement, springs);
     }
 }
@@ -317,21 +318,23 @@ fn fade(changes: &mut Displacements<Columns>) {
 }
 
 /// Integrates along the periods of a motion that was synthesised, up to the forces at the samples and the sums of their
-/// derivatives: the drift. Not inlined: its frame is not that of a call with one direction.
+/// derivatives: the drift. Not inlined, so that calls for one direction do not reserve its large stack frame.
 #[inline(never)]
 fn integrate_periods(element: &Element, workspace: &mut TwoDirectionsWorkspace, derivatives: bool) -> f64 {
     let SamplingSize { samples: count, harmonics, periods } = workspace.size;
-    workspace.changes.fill(Displacements::zero());
+    workspace.spring_changes.fill(Displacements::zero());
     workspace.sums.fill(Zero::zero());
-    let (mut largest, mut top, mut opens) = (0, f64::MIN, false);
+    let (mut largest, mut largest_input, mut opens) = (0, f64::MIN, false);
     for (index, sample) in workspace.samples.iter_mut().enumerate() {
         let [.., input] = sample.displacement;
         let normal = if element.is_closed(input) { element.normal(input) } else { Normal::OPEN };
         (sample.load, sample.load_slope, sample.force) = (normal.load, normal.load_slope, [0.0; 2]);
         opens |= normal.load == 0.0;
-        (largest, top) = if input > top { (index, input) } else { (largest, top) };
+        if input > largest_input {
+            (largest, largest_input) = (index, input);
+        }
     }
-    if !(element.friction_coefficient > 0.0 && element.is_closed(top)) {
+    if !(element.friction_coefficient > 0.0 && element.is_closed(largest_input)) {
         return 0.0;
     }
     // A contact that opens has no memory: whatever was before, the second period is the steady state.
@@ -339,26 +342,26 @@ fn integrate_periods(element: &Element, workspace: &mut TwoDirectionsWorkspace, 
     let stride = count.checked_div(TRANSIENT_SAMPLES * harmonics).unwrap_or(1).max(1);
     let mut integration = PeriodIntegration {
         element,
-        state: State::open([0.0, 0.0, top]),
-        by_nodes: Nodes::zero(),
+        state: State::open([0.0, 0.0, largest_input]),
+        node_slopes: Nodes::zero(),
         contacts: [LoadedContact::default(); 2],
-        work: StepWork::NONE,
+        solved: SolvedStep::NONE,
         slopes: [None; 2],
         tangent: StepTangent::NONE,
     };
-    let load = element.normal(top).load;
+    let load = element.normal(largest_input).load;
     integration.state.set_nodes(element, load);
-    integration.contacts[1] = integration.state.press(element, top);
+    integration.contacts[1] = integration.state.press(element, largest_input);
     let units = integration.state.units;
     let unit = element.friction_coefficient * units.load;
     if derivatives {
-        integration.by_nodes = Nodes::slopes(element, &units);
+        integration.node_slopes = Nodes::slopes(element, &units);
     }
     // The reference size is not that of the largest load if this is below the least reference load.
     let is_reference = load >= units.load * 0.99;
-    let reference_by_input = if is_reference { Units::logarithmic_slope(element, top) } else { 0.0 };
-    let mut before = None;
-    let (mut start, mut changes, mut extrapolated) = (integration.state.springs, [0.0; 2], 0.0);
+    let reference_by_input = if is_reference { Units::logarithmic_slope(element, largest_input) } else { 0.0 };
+    let mut previous = None;
+    let (mut start, mut period_changes, mut extrapolated) = (integration.state.springs, [0.0; 2], 0.0);
     // The first step leads from no displacement to the sample of largest load.
     let steps = (0..=periods).flat_map(|period| (1..=count).map(move |place| (period, place)));
     for (period, place) in iter::once((0, 0)).chain(steps) {
@@ -367,48 +370,48 @@ fn integrate_periods(element: &Element, workspace: &mut TwoDirectionsWorkspace, 
         }
         let index = if largest + place < count { largest + place } else { largest + place - count };
         let to = workspace.samples.get(index).map_or([0.0; 3], |sample| sample.displacement);
-        let was_closed = integration.contacts[1].now.load > 0.0;
+        let was_closed = integration.contacts[1].normal.load > 0.0;
         let step = element.is_closed(to[2]).then(|| integration.advance(to));
         if step.is_none() {
             integration.open(to);
         }
         if derivatives {
             if step.is_none() || !was_closed {
-                workspace.changes.fill(Displacements::zero());
+                workspace.spring_changes.fill(Displacements::zero());
                 workspace.force_changes.fill(Zero::zero());
             }
-            workspace.changes.iter_mut().for_each(fade);
+            workspace.spring_changes.iter_mut().for_each(fade);
             if let Some(step) = &step {
                 differentiate(
                     workspace,
                     &mut integration,
                     &step.path,
                     reference_by_input,
-                    [before, Some(index), Some(largest)],
+                    [previous, Some(index), Some(largest)],
                 );
             }
             if period == periods {
                 accumulate(workspace, index, unit);
             }
         }
-        before = Some(index);
+        previous = Some(index);
         if let (Some(sample), Some(step)) = (workspace.samples.get_mut(index), step) {
             sample.force = step.force.map(|force| unit * force);
         }
         if place == count {
-            changes = [changes[1], integration.change(&start)];
+            period_changes = [period_changes[1], integration.change(&start)];
             if period == 0 {
-                workspace.earlier.copy_from(workspace.changes);
+                workspace.earlier.copy_from(workspace.spring_changes);
             } else if period == 1 && periods > 2 {
-                extrapolated = changes[1];
+                extrapolated = period_changes[1];
                 extrapolate(&mut integration.state.springs, &mut start);
-                let pairs = workspace.changes.iter_mut().zip(&mut *workspace.earlier);
+                let pairs = workspace.spring_changes.iter_mut().zip(&mut *workspace.earlier);
                 pairs.for_each(|(changes, earlier)| extrapolate(changes, earlier));
             }
             start = integration.state.springs;
         }
     }
-    if opens { 0.0 } else { remaining(changes).max(extrapolated.min(LEAST_DRIFT_FACTOR * changes[1])) }
+    if opens { 0.0 } else { remaining(period_changes).max(extrapolated.min(LEAST_DRIFT_FACTOR * period_changes[1])) }
 }
 
 fn write_outputs(
@@ -461,7 +464,7 @@ fn transform_force(workspace: &mut TwoDirectionsWorkspace) {
 
 /// Writes the Jacobian: that of the tangential forces from the sums, and that of the normal force.
 fn write_jacobian(workspace: &TwoDirectionsWorkspace, jacobian: &mut [f64]) {
-    let TwoDirectionsWorkspace { size, sums, samples, basis, changes, .. } = workspace;
+    let TwoDirectionsWorkspace { size, sums, samples, basis, spring_changes, .. } = workspace;
     let n = size.coefficients();
     jacobian.fill(0.0);
     for (j, column) in jacobian.chunks_exact_mut(3 * n).enumerate() {
@@ -470,7 +473,8 @@ fn write_jacobian(workspace: &TwoDirectionsWorkspace, jacobian: &mut [f64]) {
         let (block, lane) = (coefficient / BLOCK, component * BLOCK + coefficient % BLOCK);
         for (axis, places) in column.chunks_exact_mut(n).enumerate().take(2) {
             for (c, place) in places.iter_mut().enumerate() {
-                *place = sums.or_zero(c * changes.len() + block).as_slice().or_zero(axis).as_slice().or_zero(lane);
+                *place =
+                    sums.or_zero(c * spring_changes.len() + block).as_slice().or_zero(axis).as_slice().or_zero(lane);
             }
         }
     }

@@ -5,10 +5,10 @@
 //! springs over S are a polygon, whose values at the new nodes are the new displacements. Gross slip in one direction
 //! erases the memory of an overload: all springs are at their limits, which any nodes represent.
 
-use super::nodes::{FLAT_EDGE, NodeNumbers, Nodes, PerAxis, Row, Units, by_axis, length};
+use super::nodes::{FLAT_EDGE, NodeValues, Nodes, PerAxis, Row, Units, by_axis, length};
 use super::path::ContactPath;
 use super::shells::ScaledNormalState;
-use super::step::{Displacements, LoadedContact, SMALLEST_LENGTH, StepWork, by_spring, within_friction_limit};
+use super::step::{Displacements, LoadedContact, SMALLEST_LENGTH, SolvedStep, by_spring, within_friction_limit};
 use crate::element::Element;
 use crate::fourier::workspace::record;
 use crate::numerics::dual::Number;
@@ -45,8 +45,8 @@ record! {
         /// The normal state in these units, and its derivatives by the normal component over its scale.
         pub normal_states: [ScaledNormalState; 2],
         pub springs: Displacements,
-        /// First guesses of both slips of a step.
-        pub rotation_guess: PerAxis<Row>,
+        /// First guesses of the slips of a step in its middle and at its end.
+        pub rotation_guess: [Row; 2],
         pub all_digits: f64,
         pub nodes: Nodes,
     }
@@ -80,24 +80,24 @@ impl State {
         self.nodes.fill(element, &self.units, 1.0);
     }
 
-    /// A step that keeps the nodes, to a contact that is closed. The second contact, open or closed, is that at the
-    /// start; after the step the contacts are those at its start and end.
+    /// A step that keeps the nodes, to a contact that is closed. On entry the second contact is the present one, open
+    /// or closed; on return the contacts are those at the start and at the end of the step.
     pub fn step_at_nodes(
         &mut self,
         element: &Element,
         contacts: &mut [LoadedContact; 2],
         to: [f64; 3],
-        work: &mut StepWork,
+        solved: &mut SolvedStep,
     ) -> Step {
         let [from, contact] = contacts;
         *from = *contact;
-        let path = ContactPath::new(element, &self.units, [self.displacement, to], [from.now.load > 0.0, true]);
+        let path = ContactPath::new(element, &self.units, [self.displacement, to], [from.normal.load > 0.0, true]);
         if !path.constant_load {
             *contact = self.press(element, to[2]);
         }
         self.displacement = to;
-        let force = work.advance(&self.nodes, [from, contact], &path, &mut self.springs);
-        Step { path, force: within_friction_limit(force, contact.now.load, 1.0) }
+        let force = solved.advance(&self.nodes, [from, contact], &path, &mut self.springs);
+        Step { path, force: within_friction_limit(force, contact.normal.load, 1.0) }
     }
 
     /// Moves the nodes of a contact to a reference load, and the springs with them: the springs before, and the contact
@@ -117,17 +117,17 @@ impl State {
     pub fn load_of_nodes_after_gross_slip(
         &self,
         contact: &LoadedContact,
-        step: &StepWork,
+        solved: &SolvedStep,
         force: PerAxis<f64>,
     ) -> Option<f64> {
         let (load, largest) = (LARGEST_LOAD_OF_NODES * self.normal_force, self.units.load);
-        let aligned = 2.0 - (1.0 - quotient(length(force), contact.now.load)) / SAME_DIRECTION;
+        let aligned = 2.0 - (1.0 - quotient(length(force), contact.normal.load)) / SAME_DIRECTION;
         if largest <= load || aligned <= 0.0 {
             return None;
         }
         let first = contact.shells.innermost();
         let slip = by_axis(|axis| {
-            (step.follow[axis][first] - self.springs.v[axis][first]) / contact.now.shift[axis].max(SMALLEST_LENGTH)
+            (solved.follow[axis][first] - self.springs.v[axis][first]) / contact.normal.shift[axis].max(SMALLEST_LENGTH)
         });
         let nodes_load = load + (largest - load) / (1.0 + aligned.min(1.0) * length(slip));
         (nodes_load < largest * (1.0 - WORTH_NEW_NODES)).then_some(nodes_load)
@@ -156,7 +156,7 @@ impl OldSprings {
         &self,
         contact: &LoadedContact,
         units: &Units,
-        nodes: &impl NodeNumbers<T>,
+        nodes: &impl NodeValues<T>,
     ) -> Displacements<T> {
         let ratio = self.shift_unit / units.shift;
         let edge = self.springs.edge.map(|edge| T::constant(ratio * edge));
@@ -165,7 +165,7 @@ impl OldSprings {
             let (limits, old) = (&self.limits[axis], &self.springs.v[axis]);
             for j in contact.shells.range() {
                 let corners = limits.iter().zip(old).take(self.used.end).skip(FLAT_EDGE).rev();
-                let limit = T::constant(contact.now.shift[axis]) - nodes.get(|nodes| nodes.shift[axis][j]);
+                let limit = T::constant(contact.normal.shift[axis]) - nodes.get(|nodes| nodes.shift[axis][j]);
                 springs.v[axis][j] = if j >= FLAT_EDGE {
                     polygon(limit * (1.0 / ratio), corners.map(|(limit, v)| [*limit, *v])) * ratio
                 } else {

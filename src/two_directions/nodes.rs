@@ -49,8 +49,8 @@ pub(crate) fn by_axis<T>(value: impl Fn(usize) -> T) -> PerAxis<T> {
 }
 
 /// The length of a vector.
-pub(crate) fn length([x, y]: PerAxis<f64>) -> f64 {
-    (x * x + y * y).sqrt()
+pub(crate) fn length<T: Number>([x, y]: PerAxis<T>) -> T {
+    (x * x + y * y).root()
 }
 
 /// A set of points, or of springs: bit i stands for point i.
@@ -107,9 +107,9 @@ record! {
         /// ψ_j in the middle of shell j.
         pub psi: Row,
         /// ΔN_j of whole shells, 1 for the flat.
-        pub load_step: Row,
+        pub delta_load: Row,
         /// ΔS_j of whole shells in both directions, the compliances for the flat.
-        pub shift_step: PerAxis<Row>,
+        pub delta_shift: PerAxis<Row>,
         /// F_ij of whole shells, a row for each shell j but the last one.
         pub pressure: [Row; SPRINGS - 1],
     }
@@ -172,17 +172,17 @@ impl Nodes {
             self.psi[j] = shape.pressure_weight(units.leg * 0.5 * (legs[j] + to));
         }
         for j in FLAT_EDGE..SPRINGS - 1 {
-            self.load_step[j] = self.load[j + 1] - self.load[j];
+            self.delta_load[j] = self.load[j + 1] - self.load[j];
             for axis in 0..2 {
-                self.shift_step[axis][j] = (self.shift[axis][j + 1] - self.shift[axis][j]).max(TINY);
+                self.delta_shift[axis][j] = (self.shift[axis][j + 1] - self.shift[axis][j]).max(TINY);
             }
         }
         if flat > 0.0 {
             let [inner, outer] = point_in_shell(0.0, flat);
             (self.leg_squared[0], self.point_squared[0]) = (-flat * flat, -outer);
-            self.load_step[0] = 1.0;
+            self.delta_load[0] = 1.0;
             for axis in 0..2 {
-                self.shift_step[axis][0] = units.load / units.shift * shape.compliance_of_flat(axis);
+                self.delta_shift[axis][0] = units.load / units.shift * shape.compliance_of_flat(axis);
             }
             let load_unit = units.load / shape.load_per_square() / (units.leg * units.leg);
             self.pressure[0][0] = 0.25 * load_unit * (flat / inner.sqrt()).acosh() / flat;
@@ -193,7 +193,7 @@ impl Nodes {
                 self.pressure[j][i] = pressure(self, j, self.leg_squared[j + 1], i);
             }
             if j > first {
-                let steps = by_axis(|axis| self.shift_step[axis][j] / self.shift_step[axis][j - 1]);
+                let steps = by_axis(|axis| self.delta_shift[axis][j] / self.delta_shift[axis][j - 1]);
                 for i in first..j {
                     self.pressure[j][i] = monotone_pressure(self.pressure[j][i], self.pressure[j - 1][i], steps);
                 }
@@ -215,11 +215,11 @@ impl Nodes {
 }
 
 /// Reads values of the nodes as numbers with derivatives or without.
-pub(crate) trait NodeNumbers<T> {
+pub(crate) trait NodeValues<T> {
     fn get(&self, value: impl Fn(&Nodes) -> f64) -> T;
 }
 
-impl NodeNumbers<f64> for Nodes {
+impl NodeValues<f64> for Nodes {
     fn get(&self, value: impl Fn(&Nodes) -> f64) -> f64 {
         value(self)
     }
@@ -228,7 +228,7 @@ impl NodeNumbers<f64> for Nodes {
 /// Nodes and their derivatives by one parameter, if they have any.
 pub(crate) type NodesAndSlopes<'a> = (&'a Nodes, Option<&'a Nodes>);
 
-impl NodeNumbers<Dual<1>> for NodesAndSlopes<'_> {
+impl NodeValues<Dual<1>> for NodesAndSlopes<'_> {
     fn get(&self, value: impl Fn(&Nodes) -> f64) -> Dual<1> {
         let (nodes, slopes) = self;
         Dual { value: value(nodes), slopes: Lanes([slopes.map_or(0.0, value)]) }
@@ -244,7 +244,7 @@ fn point_in_shell<T: Number>(half_width: T, distance: T) -> [T; 2] {
 
 /// F_ij of shell j up to a size: `ψ_j [√(s² - x_i²) - √(s_j² - x_i²)]`, from leg² = s² - a². The second root is 0 if
 /// x_i is beyond s_j. Free of cancellation.
-pub(crate) fn pressure<T: Number>(nodes: &impl NodeNumbers<T>, j: usize, to: T, i: usize) -> T {
+pub(crate) fn pressure<T: Number>(nodes: &impl NodeValues<T>, j: usize, to: T, i: usize) -> T {
     let [point, inner, psi] = [
         nodes.get(|nodes| nodes.point_squared[i]),
         nodes.get(|nodes| nodes.leg_squared[j]),
@@ -257,7 +257,7 @@ pub(crate) fn pressure<T: Number>(nodes: &impl NodeNumbers<T>, j: usize, to: T, 
 
 /// F_jj of the last shell j, which reaches up to leg² = s² - a²: the pressure at its own point, which moves with the
 /// load.
-pub(crate) fn pressure_at_edge<T: Number>(nodes: &impl NodeNumbers<T>, j: usize, to: T) -> T {
+pub(crate) fn pressure_at_edge<T: Number>(nodes: &impl NodeValues<T>, j: usize, to: T) -> T {
     let [flat, inner, psi] = [
         nodes.get(|nodes| nodes.leg_squared[0]),
         nodes.get(|nodes| nodes.leg_squared[j]),

@@ -13,6 +13,7 @@ pub(crate) struct ContactPath {
     pub displacement: PerAxis<f64>,
     /// Whether the normal component is that of the start, bit by bit.
     pub constant_load: bool,
+    /// Derivative by the tangential displacement \[1/m\].
     pub per_distance: f64,
     /// Derivatives by the normal component over its scale at the start and at the end, in each direction.
     pub per_input: PerAxis<[f64; 2]>,

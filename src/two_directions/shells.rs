@@ -5,14 +5,14 @@
 //!
 //! ```text
 //! T = Σ k_j v_j,   k_j = Z_j - Z_{j-1},   Z_j = ΔN_j/ΔS_j
-//! q_i = Σ_{j>=i} g_ij (v_j - v_{j+1}),   g_ij = F_ij/(p_i ΔS_j),   p_i = Σ_j F_ij without the shells under the flat
+//! q_i = Σ_{j>=i} g_ij (v_j - v_{j+1}),   g_ij = F_ij/(p_i ΔS_j),   p_i = Σ_j F_ij without shell 0
 //! ```
 //!
 //! q is the traction over μ times the pressure: |q_i| <= 1 is Coulomb's law. All of this depends on sums over shells
 //! only, so the contact in the middle of a step is the one whose shells are the means of those at both ends.
 
 use super::nodes::{
-    FLAT_EDGE, Matrix, NodeNumbers, Nodes, NodesAndSlopes, PerAxis, Row, SPRINGS, Units, by_axis, monotone_pressure,
+    FLAT_EDGE, Matrix, NodeValues, Nodes, NodesAndSlopes, PerAxis, Row, SPRINGS, Units, by_axis, monotone_pressure,
     pressure, pressure_at_edge,
 };
 use crate::element::{Element, Normal, SMALLEST_LOAD};
@@ -43,8 +43,8 @@ impl Default for ScaledNormalState {
 /// Number of values of a normal state.
 const VALUES: usize = 7;
 
-/// The normal component of the size inside the edge over the present one. The spring between both makes the stuck
-/// stiffness exact, to the part by which this differs from 1.
+/// The normal component, w or N, of the size inside the edge over the present one. The spring between both sizes makes
+/// the stiffness of a stuck contact exact, but for a relative error of about 8e-6.
 const INSIDE_EDGE: f64 = 1.0 - 8e-6;
 /// A node is not in use if it is closer to the size inside the edge than this part of its S: the shell between both
 /// would be lost in rounding.
@@ -93,7 +93,7 @@ impl<T: Number> ScaledNormalState<T> {
     }
 }
 
-/// The shells of a contact, from one to the last one; those beyond are 0. F_ij of those before the last one are in the
+/// The shells `first..=last` of a contact; entries of other shells are 0. F_ij of all but the last shell are in the
 /// tables of the nodes.
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(align(32))]
@@ -101,8 +101,8 @@ pub(crate) struct Shells {
     pub first: usize,
     pub last: usize,
     /// ΔN_j and ΔS_j for both directions.
-    pub load_step: PerAxis<Row>,
-    pub shift_step: PerAxis<Row>,
+    pub delta_load: PerAxis<Row>,
+    pub delta_shift: PerAxis<Row>,
     /// F_ij of the last shell.
     last_pressure: Row,
     /// Stiffness of the spring at the edge, from the size inside on.
@@ -113,8 +113,8 @@ impl Shells {
     pub const NONE: Shells = Shells {
         first: 0,
         last: 0,
-        load_step: [Row::ZERO; 2],
-        shift_step: [Row::ZERO; 2],
+        delta_load: [Row::ZERO; 2],
+        delta_shift: [Row::ZERO; 2],
         last_pressure: Row::ZERO,
         edge_stiffness: [0.0; 2],
     };
@@ -133,8 +133,8 @@ impl Shells {
         if let Some(nodes) = nodes {
             for j in 0..shells.last {
                 for axis in 0..2 {
-                    shells.load_step[axis][j] = nodes.load_step[j];
-                    shells.shift_step[axis][j] = nodes.shift_step[axis][j];
+                    shells.delta_load[axis][j] = nodes.delta_load[j];
+                    shells.delta_shift[axis][j] = nodes.delta_shift[axis][j];
                 }
             }
         }
@@ -155,8 +155,8 @@ impl Shells {
     fn set_last<T: Number>(&mut self, shell: &LastShell<T>, part: impl Fn(T) -> f64) {
         let last = self.last.min(SPRINGS - 1);
         for axis in 0..2 {
-            self.load_step[axis][last] = part(shell.load_step[axis]);
-            self.shift_step[axis][last] = part(shell.shift_step[axis]);
+            self.delta_load[axis][last] = part(shell.delta_load[axis]);
+            self.delta_shift[axis][last] = part(shell.delta_shift[axis]);
             self.edge_stiffness[axis] = part(shell.edge_stiffness[axis]);
         }
         self.last_pressure = Lanes(shell.pressure.map(part));
@@ -180,8 +180,8 @@ impl Shells {
     pub fn middle([from, to]: [&Shells; 2]) -> Shells {
         let mut middle = Shells { first: to.first, last: from.last.max(to.last), ..Shells::NONE };
         for axis in 0..2 {
-            middle.load_step[axis] = 0.5 * (from.load_step[axis] + to.load_step[axis]);
-            middle.shift_step[axis] = 0.5 * (from.shift_step[axis] + to.shift_step[axis]);
+            middle.delta_load[axis] = 0.5 * (from.delta_load[axis] + to.delta_load[axis]);
+            middle.delta_shift[axis] = 0.5 * (from.delta_shift[axis] + to.delta_shift[axis]);
         }
         middle
     }
@@ -197,8 +197,8 @@ impl Shells {
     }
 
     /// k_j in a direction, given 1/ΔS_j; its derivatives are `stiffness_slopes` of [`tangent`](super::tangent).
-    pub fn stiffness(&self, axis: usize, per_shift: &Row) -> Row {
-        let (secant, mut stiffness) = (self.load_step[axis] * *per_shift, Row::ZERO);
+    pub fn stiffness(&self, axis: usize, per_delta_shift: &Row) -> Row {
+        let (secant, mut stiffness) = (self.delta_load[axis] * *per_delta_shift, Row::ZERO);
         let mut before = 0.0;
         for j in self.range() {
             let least = LEAST_STIFFNESS * secant[j];
@@ -212,24 +212,25 @@ impl Shells {
 
 /// The last shell: ΔN and ΔS for both directions, F at the points, and the stiffness of the spring at the edge.
 struct LastShell<T> {
-    load_step: PerAxis<T>,
-    shift_step: PerAxis<T>,
+    delta_load: PerAxis<T>,
+    delta_shift: PerAxis<T>,
     pressure: [T; SPRINGS],
     edge_stiffness: PerAxis<T>,
 }
 
 impl<T: Number> LastShell<T> {
     /// The last shell, given the first and the last one.
-    fn new([first, last]: [usize; 2], nodes: &impl NodeNumbers<T>, now: &ScaledNormalState<T>) -> LastShell<T> {
+    fn new([first, last]: [usize; 2], nodes: &impl NodeValues<T>, now: &ScaledNormalState<T>) -> LastShell<T> {
         let last = last.min(SPRINGS - 1);
         let next_to_last = last.max(1) - 1;
         let (load, shift) =
             (nodes.get(|nodes| nodes.load[last]), by_axis(|axis| nodes.get(|nodes| nodes.shift[axis][last])));
-        let shift_step = by_axis(|axis| now.shift[axis] - shift[axis]);
+        let delta_shift = by_axis(|axis| now.shift[axis] - shift[axis]);
         // The polygon of N(S) has its last corner at the size inside.
         let secant = by_axis(|axis| (now.inside - load).quotient(now.inside_shift[axis] - shift[axis]));
         let outer = by_axis(|axis| (now.load - now.inside).quotient(now.shift[axis] - now.inside_shift[axis]));
-        let steps = by_axis(|axis| shift_step[axis].quotient(nodes.get(|nodes| nodes.shift_step[axis][next_to_last])));
+        let steps =
+            by_axis(|axis| delta_shift[axis].quotient(nodes.get(|nodes| nodes.delta_shift[axis][next_to_last])));
         let mut pressures = [T::constant(0.0); SPRINGS];
         for i in first..last {
             let own = pressure(nodes, last, now.inside_leg_squared, i);
@@ -239,8 +240,8 @@ impl<T: Number> LastShell<T> {
         }
         pressures[last] = pressure_at_edge(nodes, last, now.inside_leg_squared);
         LastShell {
-            load_step: by_axis(|axis| secant[axis] * shift_step[axis]),
-            shift_step,
+            delta_load: by_axis(|axis| secant[axis] * delta_shift[axis]),
+            delta_shift,
             pressure: pressures,
             edge_stiffness: by_axis(|axis| outer[axis] - secant[axis]),
         }
@@ -265,7 +266,7 @@ pub(crate) struct Springs {
     pub pressure: Matrix,
     pub per_pressure: Row,
     /// 1/ΔS_j and k_j.
-    pub per_shift: PerAxis<Row>,
+    pub per_delta_shift: PerAxis<Row>,
     pub stiffness: PerAxis<Row>,
     /// C⁻¹, the inverse of the map from v to q, a row for each spring in use: no entry is negative.
     pub inverse: PerAxis<Matrix>,
@@ -276,7 +277,7 @@ impl Springs {
         shells: Shells::NONE,
         pressure: [Row::ZERO; SPRINGS],
         per_pressure: Row::ZERO,
-        per_shift: [Row::ZERO; 2],
+        per_delta_shift: [Row::ZERO; 2],
         stiffness: [Row::ZERO; 2],
         inverse: [[Row::ZERO; SPRINGS]; 2],
     };
@@ -285,7 +286,7 @@ impl Springs {
     /// [`tangent`](super::tangent) has the derivatives. The contact at the end of a step is the mean of twice the same
     /// shells.
     pub fn set(&mut self, nodes: &Nodes, ends: [&Shells; 2]) {
-        let Springs { shells, pressure, per_pressure, per_shift, stiffness, inverse } = self;
+        let Springs { shells, pressure, per_pressure, per_delta_shift, stiffness, inverse } = self;
         *shells = Shells::middle(ends);
         let mut pressures = Row::ZERO;
         for j in 0..SPRINGS {
@@ -296,17 +297,17 @@ impl Springs {
         }
         *per_pressure = quotient(1.0, pressures);
         for axis in 0..2 {
-            per_shift[axis] = quotient(1.0, shells.shift_step[axis]);
-            stiffness[axis] = shells.stiffness(axis, &per_shift[axis]);
+            per_delta_shift[axis] = quotient(1.0, shells.delta_shift[axis]);
+            stiffness[axis] = shells.stiffness(axis, &per_delta_shift[axis]);
         }
         for i in shells.range().rev().map(|i| i.min(SPRINGS - 1)) {
             // v_i = [p_i q_i + Σ_{j>i} (g_i,j-1 - g_ij) v_j]/g_ii, with p_i g_ij in place of g_ij.
             for axis in 0..2 {
-                let (mut row, mut before) = (Row::ZERO, pressure[i][i] * per_shift[axis][i]);
+                let (mut row, mut before) = (Row::ZERO, pressure[i][i] * per_delta_shift[axis][i]);
                 let per_map = quotient(1.0, before);
                 row[i] = pressures[i];
                 for j in i + 1..shells.range().end {
-                    let own = pressure[j][i] * per_shift[axis][j];
+                    let own = pressure[j][i] * per_delta_shift[axis][j];
                     row += (before - own) * inverse[axis][j];
                     before = own;
                 }
@@ -318,10 +319,10 @@ impl Springs {
     /// The tractions q of springs with these displacements.
     pub fn tractions(&self, v: &PerAxis<Row>) -> PerAxis<Row> {
         let mut q = [Row::ZERO; 2];
-        let falls = by_axis(|axis| minus_next(&v[axis]) * self.per_shift[axis]);
+        let gradients = by_axis(|axis| minus_next(&v[axis]) * self.per_delta_shift[axis]);
         for j in self.shells.range() {
             for axis in 0..2 {
-                q[axis] += falls[axis][j] * self.pressure[j];
+                q[axis] += gradients[axis][j] * self.pressure[j];
             }
         }
         [self.per_pressure * q[0], self.per_pressure * q[1]]

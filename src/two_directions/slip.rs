@@ -3,7 +3,7 @@
 //! If nothing slips, the springs reach the trial state v*, with tractions q*. Slip r_i at the points relaxes them to
 //!
 //! ```text
-//! v_j = v*_j - Σ_i C_ij r_i/k_j,   q = C v,   |q_i| < 1 and r_i = 0,  or  q_i = e_i and r_i parallel to e_i.
+//! v_j = v*_j - Σ_i C_ij r_i/k_j,   q = C v,   |q_i| <= 1 and r_i = 0,  or  q_i = e_i and r_i = |r_i| e_i.
 //! ```
 //!
 //! C is triangular, so with `K = C⁻¹'k C⁻¹`, a sum of positive terms, `r = K (q* - q)`: among the tractions within
@@ -20,30 +20,31 @@ use super::shells::Springs;
 use crate::numerics::guard::{TINY, quotient};
 use crate::numerics::lanes::Lanes;
 
-/// Newton steps, and changes of the set, after which a guess is given up.
-const MAX_STEPS: usize = 60;
+/// Newton steps with a set of slipping points, and changes of the set, after which a guess is given up.
+const MAX_STEPS: usize = 30;
 const MAX_SET_CHANGES: usize = 12;
 /// Newton's method has converged when the next changes of the angles would be at most this in sum.
-const TURN_TOLERANCE: f64 = 1e-11;
+const ROTATION_TOLERANCE: f64 = 1e-11;
 /// The inverse of J is kept while the sum of the changes of the angles falls to a tenth, and is at most this.
-const REUSE_TURN: f64 = 2e-1;
+const REUSE_ROTATION: f64 = 2e-1;
 /// Newton's method is given up if the sum of the changes of the angles exceeds this: their squares could overflow.
-const DIVERGED_TURN: f64 = 1e100;
-/// Number of attempts of Newton's method, and of sweeps over the points before each of them but the first one.
+const DIVERGED_ROTATION: f64 = 1e100;
+/// Sweeps over all points after an attempt that failed.
 const SWEEPS: usize = 30;
+/// Attempts of Newton's method.
 const ATTEMPTS: usize = 8;
-/// After this number of steps that have not converged, points that slip backwards are made to stick: the angle of a
-/// point that hardly slips is undetermined.
-const REVIEW_INTERVAL: usize = 15;
+/// After this number of steps with a set of slipping points the set is updated even if the angles have not converged:
+/// the angle of a point that hardly slips is undetermined.
+const UNDETERMINED_STEP: usize = 15;
 /// Coulomb's bound of |q|², but for rounding: a point whose |q|² is larger slips.
-const SQUARED_SLIP_THRESHOLD: f64 = 1.0 + 1e-12;
+const SQUARED_BOUND: Row = Lanes([1.0 + 1e-12; SPRINGS]);
 /// A point sticks again if its slip is opposite to the traction by more than this part of the scale of slip, which is a
 /// rounding error.
 const BACKSLIP_TOLERANCE: f64 = 1e-14;
 /// The first guess of Newton's method lets a point slip if its trial traction is more than this part of the bound.
 const EXPECTED_SLIP: f64 = 0.5;
 /// The angle from q* to q is the guess for the next step if its cosine is more than this.
-const SAME_TURN_COSINE: f64 = 0.5;
+const SAME_ROTATION_COSINE: f64 = 0.5;
 
 /// Slip of a contact, from a trial state.
 #[repr(align(32))]
@@ -104,34 +105,33 @@ impl Slip {
         self.trial = trial;
         let q = springs.tractions(&trial);
         let [x, y] = directions(&q);
-        let mut beyond = points_above(&square(&q), &Lanes([SQUARED_SLIP_THRESHOLD; SPRINGS]));
+        let mut slipping = points_above(&square(&q), &SQUARED_BOUND);
         let points = &mut self.points;
-        (points.set, points.v, points.q, points.r) = (beyond, trial, q, [Row::ZERO; 2]);
-        if beyond == 0 {
+        (points.set, points.v, points.q, points.r) = (slipping, trial, q, [Row::ZERO; 2]);
+        if slipping == 0 {
             return;
         }
         // First guess: besides the points beyond their bound, those outside of one of them slip if they are near their
         // bound, and those next to them inside if they slipped in the step before.
-        beyond |= points_above(&square(&q), &Lanes([EXPECTED_SLIP * EXPECTED_SLIP; SPRINGS]))
-            & points_in([beyond.trailing_zeros() as usize, SPRINGS]);
+        slipping |= points_above(&square(&q), &Lanes([EXPECTED_SLIP * EXPECTED_SLIP; SPRINGS]))
+            & points_in([slipping.trailing_zeros() as usize, SPRINGS]);
         let rotated_before = points_above(&self.rotation_guess.map(f64::abs), &Row::ZERO);
         for _ in 0..SPRINGS {
-            beyond |= beyond >> 1 & rotated_before;
+            slipping |= slipping >> 1 & rotated_before;
         }
-        (points.set, points.e) = (beyond, [x, y]);
-        points.turn(&(2.0 * (mask_of(beyond) * self.rotation_guess)));
-        // Sweeps converge from any guess: after the last attempt their directions, which are near the solution, are
-        // kept.
+        (points.set, points.e) = (slipping, [x, y]);
+        points.rotate(&(2.0 * (mask_of(slipping) * self.rotation_guess)));
+        // Sweeps converge from any guess. If every attempt fails, the result of the last sweep is the solution.
         let mut swept = q;
         for _ in 0..ATTEMPTS {
             if self.newton(metric, springs, &q, load) {
                 break;
             }
-            (self.points.e, self.points.set) = sweep(springs, &q, &mut swept);
+            self.points.sweep(springs, &q, &mut swept);
         }
         let Points { e, slips, .. } = &self.points;
         let (cos, sin) = (x * e[0] + y * e[1], x * e[1] - y * e[0]);
-        let near = cos.map(|cos| if cos > SAME_TURN_COSINE { 1.0 } else { 0.0 });
+        let near = cos.map(|cos| if cos > SAME_ROTATION_COSINE { 1.0 } else { 0.0 });
         self.rotation_guess = near * *slips * sin / (1.0 + cos.max(0.0));
     }
 
@@ -139,7 +139,6 @@ impl Slip {
     fn newton(&mut self, metric: &mut Metric, springs: &Springs, q: &PerAxis<Row>, load: f64) -> bool {
         let Slip { points, trial, .. } = self;
         let Metric { matrices, computed_for, inverse } = metric;
-        let mut steps = 0;
         'sets: for _ in 0..MAX_SET_CHANGES {
             points.first = (points.set.trailing_zeros() as usize).min(SPRINGS);
             points.slips = mask_of(points.set);
@@ -148,11 +147,11 @@ impl Slip {
                 set_metric(matrices, springs, range, points.set);
                 *computed_for = (points.set, load);
             }
-            let (mut turned, mut converged, mut keeps_inverse) = (f64::MAX, false, false);
-            loop {
+            let (mut rotation, mut converged, mut keeps_inverse) = (f64::MAX, false, false);
+            for step in 0..MAX_STEPS {
                 let across = points.residual(matrices, q, range);
-                let undetermined = steps % REVIEW_INTERVAL == REVIEW_INTERVAL - 1;
-                if (converged || undetermined) && points.review(springs, matrices, trial, q) {
+                let undetermined = step == UNDETERMINED_STEP;
+                if (converged || undetermined) && points.update_set(springs, matrices, trial, q) {
                     continue 'sets;
                 }
                 if converged {
@@ -162,20 +161,20 @@ impl Slip {
                 if is_new {
                     points.invert(inverse, matrices, range);
                 }
-                let turns = -times(inverse, range, &(points.slips * across));
-                let before = turned;
-                turned = dot(&turns.map(f64::abs), &Lanes([1.0; SPRINGS]));
-                steps += 1;
-                if steps > MAX_STEPS || turned > DIVERGED_TURN {
+                let rotations = -times(inverse, range, &(points.slips * across));
+                let before = rotation;
+                rotation = dot(&rotations.map(f64::abs), &Lanes([1.0; SPRINGS]));
+                if rotation > DIVERGED_ROTATION {
                     return false;
                 }
-                points.turn(&turns);
+                points.rotate(&rotations);
                 // The next change of the angles: the square with a new inverse; with that of a step before, it falls as
                 // the last one did.
-                let rate = if is_new { turned } else { quotient(turned, before) };
-                converged = turned * rate.min(1.0) <= TURN_TOLERANCE;
-                keeps_inverse = turned <= 0.1 * before && turned <= REUSE_TURN;
+                let rate = if is_new { rotation } else { quotient(rotation, before) };
+                converged = rotation * rate.min(1.0) <= ROTATION_TOLERANCE;
+                keeps_inverse = rotation <= 0.1 * before && rotation <= REUSE_ROTATION;
             }
+            return false;
         }
         false
     }
@@ -202,40 +201,48 @@ impl Points {
     pub fn invert(&self, inverse: &mut Matrix, metric: &PerAxis<Matrix>, range: [usize; 2]) {
         let [x, y] = [self.slips * self.e[0], self.slips * self.e[1]];
         let diagonal = self.slips * self.along() + (1.0 - self.slips);
-        for m in range[0]..range[1].min(SPRINGS) {
-            inverse[m] = x * (x[m] * metric[1][m]) + y * (y[m] * metric[0][m]);
-            inverse[m][m] += diagonal[m];
+        for m_squared in range[0]..range[1].min(SPRINGS) {
+            inverse[m_squared] = x * (x[m_squared] * metric[1][m_squared]) + y * (y[m_squared] * metric[0][m_squared]);
+            inverse[m_squared][m_squared] += diagonal[m_squared];
         }
-        for m in range[0]..range[1] {
-            eliminate(inverse, m, range);
+        for m_squared in range[0]..range[1] {
+            eliminate(inverse, m_squared, range);
         }
     }
 
-    /// Turns the directions by these angles, approximately: Cayley's formula keeps their length 1.
-    fn turn(&mut self, turns: &Row) {
-        let ([x, y], half) = (self.e, 0.5 * *turns);
+    /// Rotates the directions by these angles, approximately: Cayley's formula keeps their length 1.
+    fn rotate(&mut self, rotations: &Row) {
+        let ([x, y], half) = (self.e, 0.5 * *rotations);
         let scale = 1.0 / (1.0 + half * half);
         let (cos, sin) = ((1.0 - half * half) * scale, 2.0 * half * scale);
         self.e = [cos * x - sin * y, cos * y + sin * x];
     }
 
+    /// Sets the displacements of the springs from the innermost point that slips on, for the present tractions.
+    fn set_springs(&mut self, springs: &Springs) {
+        for axis in 0..2 {
+            for j in self.first..springs.shells.range().end {
+                self.v[axis][j] = dot(&springs.inverse[axis][j], &self.q[axis]);
+            }
+        }
+    }
+
     /// Sets the springs after slip. Then points beyond their bound are made to slip, and those whose slip is opposite
     /// to the traction to stick: whether any point has changed.
-    fn review(&mut self, springs: &Springs, metric: &PerAxis<Matrix>, trial: &PerAxis<Row>, q: &PerAxis<Row>) -> bool {
+    fn update_set(
+        &mut self,
+        springs: &Springs,
+        metric: &PerAxis<Matrix>,
+        trial: &PerAxis<Row>,
+        q: &PerAxis<Row>,
+    ) -> bool {
         let before = self.set;
-        self.v = *trial;
+        (self.v, self.q) = (*trial, if before == 0 { *q } else { self.q });
         if before != 0 {
-            for axis in 0..2 {
-                for j in self.first..springs.shells.range().end {
-                    self.v[axis][j] = dot(&springs.inverse[axis][j], &self.q[axis]);
-                }
-            }
+            self.set_springs(springs);
             self.q = springs.tractions(&self.v);
-        } else {
-            self.q = *q;
         }
-        let (directions, beyond) =
-            (directions(&self.q), points_above(&square(&self.q), &Lanes([SQUARED_SLIP_THRESHOLD; SPRINGS])));
+        let (directions, beyond) = (directions(&self.q), points_above(&square(&self.q), &SQUARED_BOUND));
         let mut scale = Row::ZERO;
         for i in 0..SPRINGS {
             scale[i] = metric[0][i][i] + metric[1][i][i];
@@ -246,6 +253,37 @@ impl Points {
             self.e[axis] += mask_of(slips) * (directions[axis] - self.e[axis]);
         }
         self.set != before
+    }
+
+    /// Sweeps over the points, each of which moves its traction towards the nearest one within the bound. Sets the slip
+    /// and the springs for the tractions that are reached.
+    #[cold]
+    #[inline(never)]
+    pub fn sweep(&mut self, springs: &Springs, trial: &PerAxis<Row>, q: &mut PerAxis<Row>) {
+        let (mut metric, range) = ([[Row::ZERO; SPRINGS]; 2], springs.shells.range());
+        set_full_metric(&mut metric, springs, range.start);
+        for _ in 0..SWEEPS {
+            self.set = 0;
+            for i in range.clone().rev().map(|i| i.min(SPRINGS - 1)) {
+                // The stiffer direction bounds the curvature in both.
+                let per = quotient(1.0, metric[0][i][i].max(metric[1][i][i]));
+                let mut to = [0.0; 2];
+                for axis in 0..2 {
+                    to[axis] = q[axis][i] + per * dot(&metric[axis][i], &(trial[axis] - q[axis]));
+                }
+                let length = length(to);
+                self.set |= PointSet::from(length > 1.0) << i;
+                for axis in 0..2 {
+                    q[axis][i] = to[axis] / length.max(1.0);
+                }
+            }
+        }
+        (self.first, self.slips, self.q, self.e) = (range.start, mask_of(self.set), *q, directions(q));
+        for axis in 0..2 {
+            let slip = times(&metric[axis], [range.start, range.end], &(trial[axis] - q[axis]));
+            self.r[axis] = self.slips * slip;
+        }
+        self.set_springs(springs);
     }
 }
 
@@ -271,21 +309,21 @@ fn points_above(values: &Row, limits: &Row) -> PointSet {
 
 /// Sets `K = C⁻¹'k C⁻¹` of the springs from one on.
 fn set_full_metric(metric: &mut PerAxis<Matrix>, springs: &Springs, first: usize) {
-    for m in first..springs.shells.range().end {
+    for m_squared in first..springs.shells.range().end {
         let mut rows = [Row::ZERO; 2];
-        for j in first..=m {
+        for j in first..=m_squared {
             for axis in 0..2 {
                 let inverse = &springs.inverse[axis][j];
-                rows[axis] += (springs.stiffness[axis][j] * inverse[m]) * *inverse;
+                rows[axis] += (springs.stiffness[axis][j] * inverse[m_squared]) * *inverse;
             }
         }
         for axis in 0..2 {
-            metric[axis][m] = rows[axis];
+            metric[axis][m_squared] = rows[axis];
         }
     }
 }
 
-/// Sets K of a set of slipping points, the innermost of which is the first of a range. Points of the range that stick
+/// Sets K of a set of beyond points, the innermost of which is the first of a range. Points of the range that stick
 /// are eliminated.
 pub(crate) fn set_metric(metric: &mut PerAxis<Matrix>, springs: &Springs, [first, end]: [usize; 2], set: PointSet) {
     set_full_metric(metric, springs, first);
@@ -296,31 +334,4 @@ pub(crate) fn set_metric(metric: &mut PerAxis<Matrix>, springs: &Springs, [first
             }
         }
     }
-}
-
-/// Sweeps over the points, each of which moves its traction towards the nearest one within the bound: the directions of
-/// the tractions, and the set of the points at their bound.
-#[cold]
-#[inline(never)]
-fn sweep(springs: &Springs, trial: &PerAxis<Row>, q: &mut PerAxis<Row>) -> (PerAxis<Row>, PointSet) {
-    let mut metric = [[Row::ZERO; SPRINGS]; 2];
-    set_full_metric(&mut metric, springs, springs.shells.first);
-    let mut set = 0;
-    for _ in 0..SWEEPS {
-        set = 0;
-        for i in springs.shells.range().rev().map(|i| i.min(SPRINGS - 1)) {
-            // The stiffer direction bounds the curvature in both.
-            let per = quotient(1.0, metric[0][i][i].max(metric[1][i][i]));
-            let mut to = [0.0; 2];
-            for axis in 0..2 {
-                to[axis] = q[axis][i] + per * dot(&metric[axis][i], &(trial[axis] - q[axis]));
-            }
-            let length = length(to);
-            set |= PointSet::from(length > 1.0) << i;
-            for axis in 0..2 {
-                q[axis][i] = to[axis] / length.max(1.0);
-            }
-        }
-    }
-    (directions(q), set)
 }

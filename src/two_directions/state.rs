@@ -7,7 +7,7 @@ use super::moving_nodes::{ALL_DIGITS, LENGTH, OldSprings, State, Step};
 use super::nodes::{FLAT_EDGE, Nodes, PerAxis, Row, SPRINGS, Units};
 use super::path::{ContactPath, MAX_MOTION};
 use super::shells::ScaledNormalState;
-use super::step::{Displacements, LoadedContact, SMALLEST_LENGTH, StepWork, by_spring};
+use super::step::{Displacements, LoadedContact, SMALLEST_LENGTH, SolvedStep, by_spring};
 use super::tangent::{ContactSlopes, ParameterChanges, PerParameter, Propagation, StepTangent};
 use crate::element::{Directions, Element, Normal};
 use crate::error::{Error, ensure};
@@ -70,16 +70,15 @@ impl Law for TwoDirections {
         }
         let positive = [*normal_force, *load, *shift, *leg, now.load, now.shift[0], now.shift[1], now.inside];
         let small = slopes.values().iter().all(|slope| slope.abs() <= 1.0 / SMALLEST_LENGTH);
-        // The nodes lie in order. Only places of points and sizes over that of the flat may be negative, only pressures
-        // under sharp edges great.
+        // The nodes lie in order. leg² and x² - a² are negative for the flat, and F_ij may be large under sharp edges.
         let ordered = nodes.shift.iter().all(|row| row.iter().skip(FLAT_EDGE).is_sorted());
         let within = |rows: &[Row], range: RangeInclusive<f64>| {
             rows.iter().flat_map(|row| row.iter()).all(|value| range.contains(value))
         };
         let [shift_x, shift_y] = nodes.shift;
-        let [step_x, step_y] = nodes.shift_step;
+        let [step_x, step_y] = nodes.delta_shift;
         let tables =
-            within(&[nodes.load, shift_x, shift_y, nodes.psi, nodes.load_step, step_x, step_y], 0.0..=MAX_MOTION)
+            within(&[nodes.load, shift_x, shift_y, nodes.psi, nodes.delta_load, step_x, step_y], 0.0..=MAX_MOTION)
                 && within(&[nodes.leg_squared, nodes.point_squared], f64::MIN..=MAX_MOTION)
                 && within(&nodes.pressure, 0.0..=MAX_MOTION * MAX_MOTION);
         let guesses = within(&state.rotation_guess, -1.0..=1.0);
@@ -130,7 +129,7 @@ impl State {
             return result;
         }
         if self.key != element.key {
-            // The springs of another element relax where they are.
+            // The state was advanced with another element: its position is kept, its springs relax.
             *self = State::open(self.displacement);
             let [.., input] = self.displacement;
             if was_closed && element.is_closed(input) {
@@ -156,14 +155,14 @@ impl State {
             // Springs that close in a step all carry the same part of it, at any nodes.
             self.set_nodes(element, load);
         }
-        let mut work = StepWork::NONE;
-        work.slips.iter_mut().zip(self.rotation_guess).for_each(|(slip, guess)| slip.rotation_guess = guess);
-        let Step { path, force: [x, y] } = self.step_at_nodes(element, &mut contacts, to, &mut work);
+        let mut solved = SolvedStep::NONE;
+        solved.slips.iter_mut().zip(self.rotation_guess).for_each(|(slip, guess)| slip.rotation_guess = guess);
+        let Step { path, force: [x, y] } = self.step_at_nodes(element, &mut contacts, to, &mut solved);
         let (contacts, unit) = (contacts.each_ref(), element.friction_coefficient * self.units.load);
         let mut result = StepResult { force: [unit * x, unit * y, self.normal_force], ..StepResult::NONE };
         if requested.tangent {
-            let by_nodes = old_springs.map(|old_springs| (old_springs, Nodes::slopes(element, &self.units)));
-            let [x, y] = self.tangent(element, contacts, &path, &work, by_nodes.as_ref());
+            let node_slopes = old_springs.map(|old_springs| (old_springs, Nodes::slopes(element, &self.units)));
+            let [x, y] = self.tangent(element, contacts, &path, &solved, node_slopes.as_ref());
             let (per_distance, per_input) = (unit * path.per_distance, unit / element.input_scale());
             let column = |lane: usize, unit: f64| [unit * x[lane], unit * y[lane]];
             let ([xx, yx], [xy, yy]) = (column(0, per_distance), column(1, per_distance));
@@ -172,10 +171,10 @@ impl State {
         }
         if requested.energy {
             let unit = unit * element.friction_coefficient * self.units.shift * path.scale;
-            result.dissipated = unit * dissipated(&self.nodes, contacts, &path, &work, &self.springs);
+            result.dissipated = unit * dissipated(&self.nodes, contacts, &path, &solved, &self.springs);
         }
-        self.rotation_guess = work.slips.each_ref().map(|slip| slip.rotation_guess);
-        if let Some(load) = self.load_of_nodes_after_gross_slip(contacts[1], &work, [x, y]) {
+        self.rotation_guess = solved.slips.each_ref().map(|slip| slip.rotation_guess);
+        if let Some(load) = self.load_of_nodes_after_gross_slip(contacts[1], &solved, [x, y]) {
             self.move_nodes(element, contacts[1], load);
         }
         result
@@ -190,25 +189,25 @@ impl State {
         element: &Element,
         contacts: [&LoadedContact; 2],
         path: &ContactPath,
-        work: &StepWork,
+        solved: &SolvedStep,
         moved: Option<&(OldSprings, Nodes)>,
     ) -> PerAxis<Lanes<4>> {
-        let by_nodes = moved.map(|(_, by_nodes)| by_nodes);
+        let node_slopes = moved.map(|(_, node_slopes)| node_slopes);
         let (mut tangent, mut changes) = (StepTangent::NONE, PerParameter::default());
-        let [from, to] = contacts.map(|contact| ContactSlopes::new(&self.nodes, by_nodes, contact));
-        tangent.set((work, path), contacts, [&from, &to], by_nodes);
+        let [from, to] = contacts.map(|contact| ContactSlopes::new(&self.nodes, node_slopes, contact));
+        tangent.set((solved, path), contacts, [&from, &to], node_slopes);
         changes.end = Lanes([0.0, 0.0, 1.0, 0.0]);
         let mut springs = Displacements { v: [[Lanes::ZERO; SPRINGS]; 2], edge: [Lanes::ZERO; 2] };
-        if let Some((old_springs, by_nodes)) = moved {
+        if let Some((old_springs, node_slopes)) = moved {
             let [.., input] = self.displacement;
             let by_input = Units::logarithmic_slope(element, input);
             changes.reference = by_input * changes.end;
-            let moved = old_springs.moved_to(contacts[0], &self.units, &(&self.nodes, Some(by_nodes)));
+            let moved = old_springs.moved_to(contacts[0], &self.units, &(&self.nodes, Some(node_slopes)));
             springs.v = by_spring(|axis, j| moved.v[axis][j].slopes[0] * changes.reference);
         }
         let displacement = [Lanes([1.0, 0.0, path.per_input[0][1], 0.0]), Lanes([0.0, 1.0, path.per_input[1][1], 0.0])];
         let parameters = ParameterChanges { tangent: &tangent, changes };
-        let propagation = Propagation { contacts, nodes: &self.nodes, path, work, parameters };
+        let propagation = Propagation { contacts, nodes: &self.nodes, path, solved, parameters };
         propagation.propagate(&displacement, &mut springs)
     }
 

@@ -16,7 +16,7 @@
 //! A step is written once, for numbers with derivatives or without ([`Number`]): only the slip at the points has
 //! derivatives of its own, in [`tangent`](super::tangent).
 
-use super::nodes::{Nodes, PerAxis, Row, SPRINGS, by_axis, mask_of, points_in};
+use super::nodes::{Nodes, PerAxis, Row, SPRINGS, by_axis, length, mask_of, points_in};
 use super::path::ContactPath;
 use super::shells::{ScaledNormalState, Shells, Springs};
 use super::slip::{Metric, Slip};
@@ -29,19 +29,19 @@ use core::ops::Range;
 /// and its shells.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct LoadedContact {
-    pub now: ScaledNormalState,
+    pub normal: ScaledNormalState,
     pub slopes: ScaledNormalState,
     pub shells: Shells,
 }
 
 impl LoadedContact {
-    pub fn new(nodes: &Nodes, [now, slopes]: &[ScaledNormalState; 2]) -> LoadedContact {
-        LoadedContact { now: *now, slopes: *slopes, shells: Shells::new(nodes, now) }
+    pub fn new(nodes: &Nodes, [normal, slopes]: &[ScaledNormalState; 2]) -> LoadedContact {
+        LoadedContact { normal: *normal, slopes: *slopes, shells: Shells::new(nodes, normal) }
     }
 
     /// The limits S_b - S_j of the displacements of the springs; 0 beyond the edge.
     pub fn limits(&self, nodes: &Nodes) -> PerAxis<Row> {
-        by_axis(|axis| self.in_use() * (self.now.shift[axis] - nodes.shift[axis]))
+        by_axis(|axis| self.in_use() * (self.normal.shift[axis] - nodes.shift[axis]))
     }
 
     /// 1 for springs in use, 0 for those beyond the edge.
@@ -102,10 +102,10 @@ impl<T: Number> GrossSlipBlend<T> {
             let kept = limit[axis].quotient(before.shift[axis].max(limit[axis]));
             displacement[axis] + (T::constant(1.0) - kept) * innermost[axis]
         });
-        let distance = length_of(by_axis(|axis| travel[axis].quotient(limit[axis])));
+        let distance = length(by_axis(|axis| travel[axis].quotient(limit[axis])));
         let [begins, ends] = BLEND_RANGE;
         let x = ((distance - T::constant(begins)) * (1.0 / (ends - begins))).clamp_to_unit();
-        let length = at_least_smallest(length_of(travel));
+        let length = at_least_smallest(length(travel));
         GrossSlipBlend { part: x * x * (T::constant(3.0) - x * 2.0), e: travel.map(|travel| travel.quotient(length)) }
     }
 
@@ -119,11 +119,6 @@ fn at_least_smallest<T: Number>(length: T) -> T {
     length.max(T::constant(SMALLEST_LENGTH))
 }
 
-/// The length of a vector of numbers with derivatives.
-fn length_of<T: Number>([x, y]: PerAxis<T>) -> T {
-    (x * x + y * y).root()
-}
-
 /// A spring is released if its limit falls by more than this factor in the step.
 const RELEASE_RATIO: f64 = 4.0;
 
@@ -134,7 +129,7 @@ const RELEASE_RATIO: f64 = 4.0;
 /// Not inlined, so that no other numbers are divided beside its quotients, see `numerics/guard.rs`.
 #[inline(never)]
 fn released<T: Number>(limit: PerAxis<T>, fall: T, trial: PerAxis<T>) -> PerAxis<T> {
-    let length = length_of(by_axis(|axis| trial[axis].quotient(at_least_smallest(limit[axis]))));
+    let length = length(by_axis(|axis| trial[axis].quotient(at_least_smallest(limit[axis]))));
     if length.value() <= 1.0 {
         return trial;
     }
@@ -154,7 +149,7 @@ fn edge_spring<T: Number>(states: &[ScaledNormalState<T>; 2], displacement: PerA
         let kept = (limit[axis] - rise).quotient(before[axis]).clamp_to_unit();
         (kept * old[axis] + part * displacement[axis]).quotient(limit[axis])
     });
-    let length = length_of(ratio);
+    let length = length(ratio);
     let slips = length.value() > LENGTH_SLIP_THRESHOLD;
     let scale = if slips { T::constant(1.0).quotient(length) } else { T::constant(1.0) };
     by_axis(|axis| limit[axis] * (scale * ratio[axis]))
@@ -177,7 +172,7 @@ impl Stage {
     }
 }
 
-/// What the springs after a step depend on, as numbers with derivatives or without.
+/// The data of a step: numbers with derivatives or without.
 pub(crate) struct StepInput<T> {
     /// The normal states at the start and at the end.
     pub states: [ScaledNormalState<T>; 2],
@@ -259,7 +254,7 @@ impl<T: Number> StepInput<T> {
 }
 
 /// A step while it is computed, and what its derivatives and its energy need.
-pub(crate) struct StepWork {
+pub(crate) struct SolvedStep {
     /// The springs at the start, and as they would be if they followed the displacement without slip.
     pub old: Displacements,
     pub follow: PerSpring<f64>,
@@ -274,8 +269,8 @@ pub(crate) struct StepWork {
     metric: Metric,
 }
 
-impl StepWork {
-    pub const NONE: StepWork = StepWork {
+impl SolvedStep {
+    pub const NONE: SolvedStep = SolvedStep {
         old: Displacements::NONE,
         follow: [[0.0; SPRINGS]; 2],
         gross_slip: 0.0,
@@ -299,7 +294,7 @@ impl StepWork {
         }
         self.old = *springs;
         let input = StepInput {
-            states: [from.now, to.now],
+            states: [from.normal, to.normal],
             displacement: path.displacement,
             old: *springs,
             used: to.shells.range(),
@@ -314,7 +309,7 @@ impl StepWork {
                     self.middle_springs.set(nodes, [&from.shells, &to.shells]);
                     (&self.middle_springs, Metric::NEVER_REUSED)
                 }
-                _ => (&self.end_springs, to.now.load),
+                _ => (&self.end_springs, to.normal.load),
             };
             let slip = &mut self.slips[stage as usize];
             slip.find(&mut self.metric, springs, v.map(Lanes), load);
@@ -340,7 +335,7 @@ pub(super) const LENGTH_SLIP_THRESHOLD: f64 = 1.0 + 1e-12;
 /// the tangent of a stuck contact whose force exceeds the bound by rounding. Not inlined, as [`released`].
 #[inline(never)]
 pub(crate) fn within_friction_limit<T: Number>(force: PerAxis<T>, bound: T, allowed: f64) -> PerAxis<T> {
-    let length = length_of(force);
+    let length = length(force);
     let exceeds = length.value() > allowed * bound.value();
     if exceeds { force.map(|force| force * bound.quotient(length)) } else { force }
 }

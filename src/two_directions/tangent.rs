@@ -13,7 +13,7 @@ use super::path::ContactPath;
 use super::shells::{ScaledNormalState, Shells, Springs, minus_next};
 use super::slip::{Points, Slip, set_metric};
 use super::step::{
-    Displacements, LENGTH_SLIP_THRESHOLD, LoadedContact, PerSpring, Stage, StepInput, StepWork, by_spring, update,
+    Displacements, LENGTH_SLIP_THRESHOLD, LoadedContact, PerSpring, SolvedStep, Stage, StepInput, by_spring, update,
     within_friction_limit,
 };
 use crate::numerics::dual::{Dual, Number};
@@ -37,19 +37,19 @@ pub(crate) struct ContactSlopes {
 }
 
 impl ContactSlopes {
-    pub fn new(nodes: &Nodes, by_nodes: Option<&Nodes>, contact: &LoadedContact) -> ContactSlopes {
-        let LoadedContact { now, slopes, shells } = contact;
-        if now.load == 0.0 {
+    pub fn new(nodes: &Nodes, node_slopes: Option<&Nodes>, contact: &LoadedContact) -> ContactSlopes {
+        let LoadedContact { normal, slopes, shells } = contact;
+        if normal.load == 0.0 {
             return ContactSlopes { by_load: Shells::NONE, by_reference: Shells::NONE };
         }
         ContactSlopes {
-            by_load: shells.slopes((nodes, None), [now, slopes]),
-            by_reference: shells.slopes((nodes, by_nodes), [now, &ScaledNormalState::NONE]),
+            by_load: shells.slopes((nodes, None), [normal, slopes]),
+            by_reference: shells.slopes((nodes, node_slopes), [normal, &ScaledNormalState::NONE]),
         }
     }
 }
 
-/// What a change of one parameter adds to the changes of a step.
+/// Additions to the changes of a step by a change of one parameter.
 #[derive(Clone, Copy)]
 struct ParameterTerms {
     /// Derivatives of the normal state at the start and at the end, and of S of the nodes.
@@ -61,7 +61,7 @@ struct ParameterTerms {
     slips: [SlipTerms; 2],
 }
 
-/// What a change of one parameter adds to the changes of a slip, see the equations above: `dC v` to the tractions,
+/// Additions to the changes of a slip by a change of one parameter, see the equations above: `dC v` to the tractions,
 /// `dk (v* - v) - dC' r` at constant p to the forces of the springs, and `r dp/p` to the slip.
 #[derive(Clone, Copy)]
 struct SlipTerms {
@@ -85,7 +85,7 @@ impl SlipTerms {
         }
         let (shell_slopes, mut by_pressure) = (Shells::middle(ends), Row::ZERO);
         let (mut tractions, mut sums) = ([Row::ZERO; 2], [Row::ZERO; 2]);
-        let falls = by_axis(|axis| minus_next(&slip.v[axis]) * springs.per_shift[axis]);
+        let gradients = by_axis(|axis| minus_next(&slip.v[axis]) * springs.per_delta_shift[axis]);
         let slipped = by_axis(|axis| slip.r[axis] * springs.per_pressure);
         for j in first.max(shells.range().start)..shells.range().end {
             let pressure = Shells::middle_pressure(ends, nodes, j);
@@ -93,10 +93,10 @@ impl SlipTerms {
                 by_pressure += pressure;
             }
             for axis in 0..2 {
-                let per_shift = springs.per_shift[axis][j];
-                let row = pressure - shell_slopes.shift_step[axis][j] * per_shift * springs.pressure[j];
-                tractions[axis] += falls[axis][j] * row;
-                sums[axis][j] = per_shift * dot(&slipped[axis], &row);
+                let per_delta_shift = springs.per_delta_shift[axis][j];
+                let row = pressure - shell_slopes.delta_shift[axis][j] * per_delta_shift * springs.pressure[j];
+                tractions[axis] += gradients[axis][j] * row;
+                sums[axis][j] = per_delta_shift * dot(&slipped[axis], &row);
             }
         }
         by_pressure = springs.per_pressure * by_pressure;
@@ -118,11 +118,12 @@ fn minus_previous(x: &Row) -> Row {
     differences
 }
 
-/// Derivatives of k_j, see [`Shells::stiffness`].
+/// Derivatives of k_j, see [`Shells::stiffness`], but for its lower bound, which only keeps rounding errors from being
+/// negative.
 fn stiffness_slopes(springs: &Springs, axis: usize, slopes: &Shells) -> Row {
-    let secants = (slopes.load_step[axis]
-        - springs.shells.load_step[axis] * springs.per_shift[axis] * slopes.shift_step[axis])
-        * springs.per_shift[axis];
+    let secants = (slopes.delta_load[axis]
+        - springs.shells.delta_load[axis] * springs.per_delta_shift[axis] * slopes.delta_shift[axis])
+        * springs.per_delta_shift[axis];
     minus_previous(&secants)
 }
 
@@ -140,16 +141,16 @@ impl ParameterTerms {
     #[inline(never)]
     fn set(
         &mut self,
-        (work, path): (&StepWork, &ContactPath),
+        (solved, path): (&SolvedStep, &ContactPath),
         states: [ScaledNormalState; 2],
         (ends, nodes, first): ([&Shells; 2], Option<&Nodes>, usize),
     ) {
         let [_, end] = ends;
         for (stage, ends) in [(Stage::Middle, ends), (Stage::End, [end; 2])] {
-            let (terms, slip) = (&mut self.slips[stage as usize], &work.slips[stage as usize]);
-            terms.set(work.springs(stage, path), slip, (ends, nodes, first));
+            let (terms, slip) = (&mut self.slips[stage as usize], &solved.slips[stage as usize]);
+            terms.set(solved.springs(stage, path), slip, (ends, nodes, first));
         }
-        self.stiffness = by_axis(|axis| stiffness_slopes(&work.end_springs, axis, end));
+        self.stiffness = by_axis(|axis| stiffness_slopes(&solved.end_springs, axis, end));
         self.edge_stiffness = end.edge_stiffness;
         self.shift_of_nodes = nodes.map_or([Row::ZERO; 2], |nodes| nodes.shift);
         self.states = states;
@@ -190,22 +191,26 @@ impl StepTangent {
     /// the reference size.
     pub fn set(
         &mut self,
-        (work, path): (&StepWork, &ContactPath),
+        (solved, path): (&SolvedStep, &ContactPath),
         [from, to]: [&LoadedContact; 2],
         [by_from, by_to]: [&ContactSlopes; 2],
-        by_nodes: Option<&Nodes>,
+        node_slopes: Option<&Nodes>,
     ) {
         let (none, terms) = (ScaledNormalState::NONE, &mut self.terms);
         // By the load, only the last shells have derivatives.
         let by_start = ([&by_from.by_load, &Shells::NONE], None, from.shells.last);
         let by_end = ([&Shells::NONE, &by_to.by_load], None, to.shells.last);
-        terms.start.set((work, path), [from.slopes, none], by_start);
-        terms.end.set((work, path), [none, to.slopes], by_end);
-        if by_nodes.is_some() {
-            terms.reference.set((work, path), [none; 2], ([&by_from.by_reference, &by_to.by_reference], by_nodes, 0));
+        terms.start.set((solved, path), [from.slopes, none], by_start);
+        terms.end.set((solved, path), [none, to.slopes], by_end);
+        if node_slopes.is_some() {
+            terms.reference.set(
+                (solved, path),
+                [none; 2],
+                ([&by_from.by_reference, &by_to.by_reference], node_slopes, 0),
+            );
         }
         for stage in [Stage::Middle, Stage::End] {
-            self.slips[stage as usize].set(work.springs(stage, path), &work.slips[stage as usize]);
+            self.slips[stage as usize].set(solved.springs(stage, path), &solved.slips[stage as usize]);
         }
     }
 }
@@ -237,7 +242,7 @@ pub(crate) struct Propagation<'a> {
     pub contacts: [&'a LoadedContact; 2],
     pub nodes: &'a Nodes,
     pub path: &'a ContactPath,
-    pub work: &'a StepWork,
+    pub solved: &'a SolvedStep,
     pub parameters: ParameterChanges<'a>,
 }
 
@@ -249,10 +254,10 @@ impl Propagation<'_> {
         displacement: &PerAxis<Lanes<L>>,
         springs: &mut Displacements<Lanes<L>>,
     ) -> PerAxis<Lanes<L>> {
-        let Propagation { contacts, nodes, path, work, parameters } = self;
+        let Propagation { contacts, nodes, path, solved, parameters } = self;
         let [_, to] = contacts;
         let state = |end: usize| {
-            let values = contacts[end].now.values();
+            let values = contacts[end].normal.values();
             let number = |i: usize| parameters.dual(values[i], |terms| terms.states[end].values()[i]);
             ScaledNormalState::from_values(core::array::from_fn(number))
         };
@@ -262,12 +267,12 @@ impl Propagation<'_> {
             let slope = |terms: &ParameterTerms| terms.states[1].shift[axis] - terms.shift_of_nodes[axis][j];
             parameters.dual(limits[axis][j], |terms| in_use[j] * slope(terms))
         };
-        let (stiffness, edge_stiffness) = (&work.end_springs.stiffness, to.shells.edge_stiffness);
+        let (stiffness, edge_stiffness) = (&solved.end_springs.stiffness, to.shells.edge_stiffness);
         let input = StepInput {
             displacement: by_axis(|axis| dual(path.displacement[axis], displacement[axis])),
             old: Displacements {
-                v: by_spring(|axis, j| dual(work.old.v[axis][j], springs.v[axis][j])),
-                edge: by_axis(|axis| dual(work.old.edge[axis], springs.edge[axis])),
+                v: by_spring(|axis, j| dual(solved.old.v[axis][j], springs.v[axis][j])),
+                edge: by_axis(|axis| dual(solved.old.edge[axis], springs.edge[axis])),
             },
             used: to.shells.range(),
             limits: by_spring(limit),
@@ -276,8 +281,8 @@ impl Propagation<'_> {
             states: [state(0), state(1)],
         };
         let output = input.advance(|stage, v| {
-            let (mut changes, slip) = (by_spring(|axis, j| v[axis][j].slopes), stage.pick(&work.slips));
-            slip.differentiate(stage, work.springs(stage, path), &mut changes, parameters);
+            let (mut changes, slip) = (by_spring(|axis, j| v[axis][j].slopes), stage.pick(&solved.slips));
+            slip.differentiate(stage, solved.springs(stage, path), &mut changes, parameters);
             update(v, |axis, j, _| dual(slip.points.v[axis][j], changes[axis][j]));
         });
         let bound = input.states[1].load;
@@ -303,7 +308,7 @@ impl Slip {
         }
         let range = self.range(springs);
         let [first, end] = range;
-        // The changes of springs that keep their tractions, and the changes of the slip of such springs.
+        // dv and dr at constant tractions, dq = 0.
         let mut own = [[Lanes::<4>::ZERO; SPRINGS]; 2];
         for axis in 0..2 {
             for j in first..end {
@@ -329,7 +334,7 @@ impl Slip {
         }
     }
 
-    /// Replaces changes of the slip of points that keep their tractions by the changes of the tractions.
+    /// Replaces dr at constant tractions, `C⁻¹'[...]`, by dq, which follows from `e × dr + de × r = 0`.
     fn tractions_of<const L: usize>(&self, jacobian: &SlipJacobian, slip: &mut PerSpring<Lanes<L>>, range: [usize; 2]) {
         let (Points { set, e, .. }, SlipJacobian { metric, inverse }) = (&self.points, jacobian);
         let sticks = !set & points_in(range);
