@@ -8,7 +8,7 @@ use crate::limits::{MAX_DISPLACEMENT, check_force, in_range};
 use crate::numerics::fp_class::{abs_le, in_0_to, le};
 use crate::numerics::guard::quotient;
 use crate::numerics::quadrature::gauss_nodes;
-use crate::numerics::total::Total;
+use crate::numerics::total::PanicFreeSlice;
 use crate::parameters::{Common, EllipticParameters, Parameters};
 use crate::shape::{Geometry, LARGEST, LayerCompliance, Quantity, Shape};
 use crate::tag::LAYOUT;

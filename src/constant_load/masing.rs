@@ -15,7 +15,7 @@ use crate::law::{Law, Requested, StepOf, StepResult};
 use crate::limits::{check_coefficients, check_displacement};
 use crate::numerics::fp_class::is_finite;
 use crate::numerics::lanes::Lanes;
-use crate::numerics::total::Total;
+use crate::numerics::total::PanicFreeSlice;
 use crate::tag::{Kind, is_count};
 
 impl Branch {

@@ -9,7 +9,7 @@
 use crate::numerics::chebyshev::monic_powers;
 use crate::numerics::const_math::tabulate;
 use crate::numerics::lanes::Lanes;
-use crate::numerics::total::Total;
+use crate::numerics::total::PanicFreeSlice;
 use crate::shape::series::{ORDER, Series};
 
 /// Coefficients of a quarter.

@@ -12,7 +12,7 @@ use crate::element::{Directions, Element};
 use crate::error::Error;
 use crate::fourier::workspace::Layout;
 use crate::law::{Law, Requested};
-use crate::numerics::total::Total;
+use crate::numerics::total::PanicFreeSlice;
 use core::{ptr, slice};
 use libc::size_t;
 

@@ -6,7 +6,7 @@ use crate::face::divide;
 use crate::ffi::mslip_contact;
 use crate::ffi::pointers::{self, call, each, input, item, optional_output, output, outputs, set, sum, write};
 use crate::limits::{check_displacement, check_positions};
-use crate::numerics::total::Total;
+use crate::numerics::total::PanicFreeSlice;
 use crate::parameters::PARAMETERS;
 use crate::parameters::{EllipticParameters, Parameters};
 use core::ffi::{CStr, c_char};
@@ -264,7 +264,7 @@ pub unsafe extern "C" fn mslip_monotonic_sensitivity(
             let point = contact.curve_at_displacement(displacement)?;
             set(force, || point.force());
         }
-        let columns = sensitivity.map(Total::blocks_mut).into_iter().flatten();
+        let columns = sensitivity.map(PanicFreeSlice::blocks_mut).into_iter().flatten();
         for (column, &displacement) in columns.zip(displacement) {
             *column = contact.monotonic_sensitivity(displacement)?;
         }

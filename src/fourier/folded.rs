@@ -10,7 +10,7 @@
 use super::angle;
 use super::workspace::{Blocks, Parts, padded};
 use crate::numerics::lanes::Lanes;
-use crate::numerics::total::Total;
+use crate::numerics::total::PanicFreeSlice;
 
 /// Values of four orders, or at four positions.
 type Four = Lanes<4>;

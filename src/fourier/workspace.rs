@@ -8,7 +8,7 @@
 
 use crate::error::{Error, ensure};
 use crate::numerics::lanes::Lanes;
-use crate::numerics::total::Total;
+use crate::numerics::total::PanicFreeSlice;
 use crate::tag::{Kind, count, stored};
 
 /// Doubles before the tables, which keep the alignment of the workspace.

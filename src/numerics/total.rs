@@ -35,7 +35,8 @@ impl<T: Zero, const N: usize> Zero for [T; N] {
     }
 }
 
-pub(crate) trait Total<T> {
+/// Access to a slice that cannot panic.
+pub(crate) trait PanicFreeSlice<T> {
     /// The value at an index; 0 beyond the end.
     fn or_zero(&self, index: usize) -> T;
 
@@ -54,7 +55,7 @@ pub(crate) trait Total<T> {
     fn blocks_mut<const K: usize>(&mut self) -> &mut [[T; K]];
 }
 
-impl<T: Zero> Total<T> for [T] {
+impl<T: Zero> PanicFreeSlice<T> for [T] {
     fn or_zero(&self, index: usize) -> T {
         match self.get(index) {
             Some(value) => *value,

@@ -13,7 +13,7 @@
 
 use crate::element::{Element, Normal};
 use crate::fourier::workspace::{record, records_mut};
-use crate::numerics::total::Total;
+use crate::numerics::total::PanicFreeSlice;
 
 record! {
     /// A knot of the diagram.

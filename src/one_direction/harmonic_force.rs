@@ -26,7 +26,7 @@ use crate::fourier::sampled_jacobian::Assembly;
 use crate::fourier::workspace::{Layout, Parts, SamplingSize};
 use crate::fourier::{largest_of, normalise, work};
 use crate::limits::check_coefficients;
-use crate::numerics::total::{Stack, Total};
+use crate::numerics::total::{PanicFreeSlice, Stack};
 use crate::tag::Kind;
 use forces::Forces;
 use jacobian::{Context, JacobianMemory};

@@ -11,7 +11,7 @@ use crate::fourier::workspace::records;
 use crate::law::{Law, Requested, StepOf, StepResult};
 use crate::limits::check_displacement;
 use crate::numerics::fp_class::is_finite;
-use crate::numerics::total::Total;
+use crate::numerics::total::PanicFreeSlice;
 use crate::one_direction::OneDirection;
 use crate::one_direction::diagram::{Knot, Polygon};
 use crate::one_direction::harmonic_force::{HarmonicOutput, OneDirectionWorkspace, harmonic_force};

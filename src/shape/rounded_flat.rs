@@ -22,7 +22,7 @@ use crate::limits::{LARGEST_EXPONENT, exponent_of, in_range, quotient_in_range};
 use crate::numerics::const_math::tabulate;
 use crate::numerics::guard::{TINY, quotient};
 use crate::numerics::polynomial::{self, PolynomialRows, rows};
-use crate::numerics::total::Total;
+use crate::numerics::total::PanicFreeSlice;
 use crate::parameters::{CENTRE_POINT, Common, Pair, Parameters, RIGID_STRIP, not_negative, positive};
 use crate::shape::series::{ORDER, Reversed, Series, identity};
 use crate::shape::size::Size;

@@ -1,7 +1,7 @@
 //! N, U and S as Taylor series of one of them about a size, for the tables of elements.
 
 use crate::numerics::lanes::Lanes;
-use crate::numerics::total::Total;
+use crate::numerics::total::PanicFreeSlice;
 use crate::shape::{Quantity, Shape};
 
 /// Number of Taylor coefficients in a [`Series`].

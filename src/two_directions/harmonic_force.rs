@@ -27,7 +27,7 @@ use crate::fourier::{basis, normalise, work};
 use crate::limits::check_coefficients;
 use crate::numerics::guard::quotient;
 use crate::numerics::lanes::Lanes;
-use crate::numerics::total::{Total, Zero};
+use crate::numerics::total::{PanicFreeSlice, Zero};
 use crate::tag::Kind;
 use core::iter;
 

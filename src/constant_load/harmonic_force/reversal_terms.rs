@@ -10,7 +10,7 @@
 
 use crate::fourier::rows::{OuterProducts, RowStrips, Rows, Strip, StripTerms, add_scaled, row_blocks, with_strips};
 use crate::fourier::workspace::{Blocks, record};
-use crate::numerics::total::{Total, Zero};
+use crate::numerics::total::{PanicFreeSlice, Zero};
 
 record! {
     /// Consecutive samples on a branch.

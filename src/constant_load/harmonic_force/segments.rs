@@ -7,7 +7,7 @@ use super::motion::{Motion, harmonics};
 use crate::fourier::workspace::{Parts, SamplingSize};
 use crate::numerics::lanes::Lanes;
 use crate::numerics::quadrature::{MAX_GAUSS_BLOCKS, gauss_rule};
-use crate::numerics::total::Total;
+use crate::numerics::total::PanicFreeSlice;
 use core::f64::consts::PI;
 
 /// Fewest blocks of four nodes on a segment.

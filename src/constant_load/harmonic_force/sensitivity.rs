@@ -4,7 +4,7 @@
 //! So the derivatives are those of the force along the branches: those at the reversal that a branch leaves, and its own.
 
 use crate::constant_load::steady_state::SteadyState;
-use crate::numerics::total::Total;
+use crate::numerics::total::PanicFreeSlice;
 use crate::parameters::Sensitivity;
 
 /// The derivatives at the reversals on the stack; both rules keep them where the Jacobian has its terms of the reversals.

@@ -1,7 +1,7 @@
 //! Tangential forces of the samples, run by run.
 
 use crate::element::Element;
-use crate::numerics::total::Total;
+use crate::numerics::total::PanicFreeSlice;
 use crate::one_direction::harmonic_force::runs::{PieceEnd, Run};
 use crate::one_direction::harmonic_force::samples::Samples;
 

@@ -24,7 +24,7 @@ use crate::fourier::rows::{
 };
 use crate::fourier::workspace::{Blocks, record};
 use crate::numerics::guard::quotient;
-use crate::numerics::total::{Stack, Total, Zero};
+use crate::numerics::total::{PanicFreeSlice, Stack, Zero};
 use crate::one_direction::harmonic_force::runs::{Run, closing};
 use crate::one_direction::harmonic_force::samples::{EvaluatedPart, Samples};
 use crate::one_direction::step::Crossing;

@@ -5,7 +5,7 @@
 
 use crate::element::Element;
 use crate::fourier::workspace::record;
-use crate::numerics::total::{Stack, Total};
+use crate::numerics::total::{PanicFreeSlice, Stack};
 use crate::one_direction::diagram::slope;
 use crate::one_direction::harmonic_force::samples::{EvaluatedPart, Samples, ranges};
 use crate::one_direction::step::Crossing;

@@ -2,7 +2,7 @@
 
 use super::MotionKind;
 use crate::element::Element;
-use crate::numerics::total::Total;
+use crate::numerics::total::PanicFreeSlice;
 
 /// Arrays over the samples of a period, continued periodically to whole blocks of four.
 pub(super) struct Samples<'a> {

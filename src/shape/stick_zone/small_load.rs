@@ -12,7 +12,7 @@
 use crate::numerics::chebyshev::{Interpolant, SeriesPoint};
 use crate::numerics::const_math::tabulate;
 use crate::numerics::polynomial::{self, PolynomialRows, rows};
-use crate::numerics::total::Total;
+use crate::numerics::total::PanicFreeSlice;
 use crate::shape::Complement;
 use crate::shape::stick_zone::StickZone;
 
