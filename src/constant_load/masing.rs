@@ -70,44 +70,30 @@ impl Branch {
     }
 }
 
-/// Force and stiffness after a step that only advances the present point: it continues the branch and does not reach its end. `None` for
-/// every other step. State and displacement are checked.
-pub(crate) fn continued(contact: &Contact, state: &[f64], displacement: f64) -> Option<Response> {
-    let branch = state::memory(state).branch_ahead(contact, displacement)?;
-    Some(branch.response(contact, displacement))
-}
-
 /// Relative change of a displacement by decimal text of 15 digits, at most.
 const TEXT: f64 = 1e-14;
 
-/// The transition and the response of a step; state and displacement \[m\] are checked.
-fn step(contact: &Contact, state: &[f64], displacement: f64) -> (Transition, Response) {
+/// The transition of a step, its response, and the energy that it dissipates if requested; state and displacement \[m\] are checked.
+fn step(contact: &Contact, state: &[f64], displacement: f64, has_energy: bool) -> (Transition, StepOf<ConstantLoad>) {
     let memory = state::memory(state);
-    let mut transition = memory.locate(contact, displacement, |_| {});
+    let mut energy = has_energy.then(|| Dissipation::new(contact));
+    let mut transition = memory.locate(contact, displacement, |segment| {
+        if let Some(energy) = &mut energy {
+            energy.add(segment);
+        }
+    });
     let mut is_full = transition.reversed && state::is_full(state);
     if is_full && (displacement - memory.now.displacement).abs() <= TEXT * displacement.abs() {
         // A step of no length but for rounding: it continues the present branch, so that no reversals are removed.
         let branch = memory.branch(contact, memory.depth(), -transition.branch.direction);
         (transition, is_full) = (Transition { branch, reversed: false }, false);
     }
-    let mut response = transition.branch.response(contact, displacement);
+    let Response { mut force, stiffness } = transition.branch.response(contact, displacement);
     if is_full {
         let Merge { shift, .. } = Merge::new(contact, memory.initial.offset, memory.reversals, memory.now.displacement);
-        response.force = within(contact.slip_force, response.force + shift);
+        force = within(contact.slip_force, force + shift);
     }
-    (transition, response)
-}
-
-/// The energy \[J\] that a step dissipates.
-#[inline(never)]
-fn dissipated(contact: &Contact, state: &[f64], displacement: f64) -> f64 {
-    let memory = state::memory(state);
-    if displacement == memory.now.displacement {
-        return 0.0;
-    }
-    let mut energy = Dissipation::new(contact);
-    memory.locate(contact, displacement, |segment| energy.add(segment));
-    energy.total()
+    (transition, StepResult { force, tangent: stiffness, dissipated: energy.map_or(0.0, Dissipation::total) })
 }
 
 impl Law for ConstantLoad {
@@ -185,25 +171,27 @@ impl Law for ConstantLoad {
     }
 
     fn trial(contact: &Contact, state: &[f64], displacement: f64, requested: Requested) -> StepOf<ConstantLoad> {
-        let energy = if requested.energy { dissipated(contact, state, displacement) } else { 0.0 };
-        let (_, Response { force, stiffness }) = step(contact, state, displacement);
-        StepResult { force, tangent: stiffness, dissipated: energy }
+        step(contact, state, displacement, requested.energy).1
     }
 
     fn advance(contact: &Contact, state: &mut [f64], displacement: f64, requested: Requested) -> StepOf<ConstantLoad> {
-        let energy = if requested.energy { dissipated(contact, state, displacement) } else { 0.0 };
-        if let Some(Response { force, stiffness }) = continued(contact, state, displacement) {
+        let memory = state::memory(state);
+        let Memory { initial, now, .. } = memory;
+        // Most steps only move the present point along its branch: without energy they need neither the stack nor the header.
+        if !requested.energy
+            && let Some(branch) = memory.branch_ahead(contact, displacement)
+        {
+            let Response { force, stiffness } = branch.response(contact, displacement);
             state::set_point(state, Point { displacement, force });
-            return StepResult { force, tangent: stiffness, dissipated: energy };
+            return StepResult { force, tangent: stiffness, dissipated: 0.0 };
         }
-        let Memory { initial, now, .. } = state::memory(state);
-        let (Transition { branch, reversed }, Response { force, stiffness }) = step(contact, state, displacement);
-        let mut depth = branch.depth;
+        let (Transition { branch, reversed }, result) = step(contact, state, displacement, requested.energy);
+        let (mut depth, now_after) = (branch.depth, Point { displacement, force: result.force });
         if reversed {
             (depth, _) = push(contact, initial.offset, state::reversals_mut(state), depth - 1, now);
         }
-        state::write_header(state, depth, initial.after(contact, &branch, displacement), Point { displacement, force });
-        StepResult { force, tangent: stiffness, dissipated: energy }
+        state::write_header(state, depth, initial.after(contact, &branch, displacement), now_after);
+        result
     }
 }
 

@@ -135,8 +135,8 @@ impl StickZones {
 
     /// Values and slopes of h'' over z at τ = (1+z)/4: positive, with its singularity as far beyond as the interval is long.
     fn curvatures(&self) -> [SeriesPoint; RETAINED_TERMS / 2] {
-        let mut tangents = Interpolant::<{ RETAINED_TERMS / 2 }>::at_points(|z| {
-            let load = Complement::of_remaining(0.75 + 0.25 * z);
+        Interpolant::<{ RETAINED_TERMS / 2 }>::at_points(|z| {
+            let load = Complement::of_remaining(0.75 - 0.25 * z);
             let punch = self.size_under(load.remaining);
             let value = self.curvature_of(&punch);
             // Logarithmic derivative of h'' with respect to -ln leg.
@@ -144,10 +144,7 @@ impl StickZones {
             let slope = value * (2.0 + rate - change / decrease) * self.load / punch.load_slope();
             let [layer, layer_slope] = self.layer.curvature(load);
             SeriesPoint { value: value + layer, slope: 0.25 * (slope + layer_slope) }
-        });
-        // From τ = 0 on; the points are symmetric.
-        tangents.reverse();
-        tangents
+        })
     }
 
     /// The size with `1 - τ = remaining`.

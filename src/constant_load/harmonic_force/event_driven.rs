@@ -268,19 +268,17 @@ impl Period<'_, '_, '_> {
         if let Some(sensitivity) = sensitivity {
             return stack.store(&self.law, sensitivity);
         }
-        let (row, depth) = (buffers.row(), self.law.branch().depth);
+        let row = buffers.row();
+        let mut stack = buffers.gradients.chunks_exact_mut((2 * row).max(1)).skip(left.saturating_sub(1));
+        let older = if left > 0 { stack.next() } else { None };
         if self.requested.stiffness
-            && let Some((older, newer)) = buffers.gradients.split_at_mut_checked(2 * row * (depth - 1))
-            && let Some((phi, gradient)) = newer.get_mut(..2 * row).and_then(|rows| rows.split_at_mut_checked(row))
+            && let Some((phi, gradient)) = stack.next().and_then(|rows| rows.split_at_mut_checked(row))
         {
             let k = self.now.stiffness;
             let (phi, gradient) = (phi.as_flattened_mut(), gradient.as_flattened_mut());
             fill_phi(phi.part_mut(..2 * buffers.harmonics + 1), at.t);
             gradient.iter_mut().zip(phi.iter()).for_each(|(gradient, phi)| *gradient = k * phi);
-            if left > 0
-                && let Some((phi, before)) =
-                    older.chunks_exact((2 * row).max(1)).last().and_then(|rows| rows.split_at_checked(row))
-            {
+            if let Some((phi, before)) = older.and_then(|rows| rows.split_at_checked(row)) {
                 add_scaled(gradient, 1.0, before);
                 add_scaled(gradient, -k, phi);
             }
