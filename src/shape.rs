@@ -42,8 +42,12 @@ use series::Series;
 use size::Size;
 use tractions::SurfacePoint;
 
-pub(crate) const ROUNDED_FLAT: u64 = 0;
-pub(crate) const HERTZ_ELLIPSE: u64 = 1;
+/// The shapes; the formulas of each are in a file of its name.
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) enum ShapeKind {
+    RoundedFlat,
+    HertzEllipse,
+}
 
 /// Methods of a size, each a function in the file of its shape.
 macro_rules! of_shapes {
@@ -51,9 +55,9 @@ macro_rules! of_shapes {
         impl Size {$(
             $(#[$comment])*
             pub fn $name(&self $(, $argument: $type)*) -> $result {
-                match self.kind {
-                    HERTZ_ELLIPSE => hertz_ellipse::$name(self $(, $argument)*),
-                    _ => rounded_flat::$name(self $(, $argument)*),
+                match self.kind() {
+                    ShapeKind::RoundedFlat => rounded_flat::$name(self $(, $argument)*),
+                    ShapeKind::HertzEllipse => hertz_ellipse::$name(self $(, $argument)*),
                 }
             }
         )*}
@@ -71,14 +75,14 @@ of_shapes! {
     beta(load: f64) -> f64;
     /// γ, given g.
     gamma(load: f64) -> f64;
-    /// The size that carries a load, given a: the inverse of g.
-    at_load(flat: f64, load: f64) -> Size;
-    /// leg at a shift, given a and the shift over Λ of a size close to it; exact for a power law and its size leg = 1.
-    near_shift(flat: f64, load: f64) -> f64;
+    /// The size of the same flat that carries a load: the inverse of g.
+    at_load(load: f64) -> Size;
+    /// leg at a shift, given the shift over Λ of a size close to it; exact for a power law and its size leg = 1.
+    near_shift(load: f64) -> f64;
     /// N, U and S without a layer about a size with leg > 0, as functions of one of them.
     series(shape: &Shape, leg: f64, argument: Quantity) -> [Series; 3];
     /// Pressure of the sizes with leg between two values, given also the difference of their squares; over dg/(4π).
-    pressure(flat: f64, legs: [f64; 3], point: &SurfacePoint) -> f64;
+    pressure(legs: [f64; 3], point: &SurfacePoint) -> f64;
     /// Slip beyond this stick zone, over dg/4; NaN without a closed form.
     slip(point: &SurfacePoint) -> f64;
 }
@@ -162,8 +166,13 @@ pub(crate) struct Shape {
 pub(crate) const LARGEST: f64 = f64::from_bits((1023 + 498) << 52);
 
 impl Shape {
+    /// A size of this flat, of which only the flat is used.
+    fn any_size(&self) -> Size {
+        Size { flat: self.flat, ..self.reference_size }
+    }
+
     fn size(&self, leg: f64) -> Size {
-        Size::new(self.reference_size.kind, self.flat, leg / self.unit)
+        self.any_size().resized(leg / self.unit)
     }
 
     /// Half-width s \[m\]; for an ellipse the semi-axis x.
@@ -284,7 +293,7 @@ impl Shape {
 
     /// The size under a normal force \[N\], and d(leg²)/dN \[m²/N\].
     pub fn size_under(&self, load: f64) -> [f64; 2] {
-        let size = self.reference_size.at_load(self.flat, load / self.load_scale);
+        let size = self.any_size().at_load(load / self.load_scale);
         [self.unit * size.leg, quotient(0.5, self.load_scale * size.psi) * self.unit * self.unit]
     }
 
@@ -300,8 +309,8 @@ impl Shape {
         if quantity == Quantity::Load || value <= 0.0 {
             return self.at_load(value.max(0.0));
         }
-        let (of, half_width, size) = (self.of(quantity), self.reference_half_width, self.reference_size);
-        let near = |compliance: f64| self.unit * size.near_shift(self.flat, value / (self.load_scale * compliance));
+        let (of, half_width, size) = (self.of(quantity), self.reference_half_width, self.any_size());
+        let near = |compliance: f64| self.unit * size.near_shift(value / (self.load_scale * compliance));
         let unloaded = self.layer.unloaded(quantity);
         if size.is_power_law() && unloaded <= 0.0 {
             return near(of[0]);
@@ -333,6 +342,7 @@ impl Shape {
         let point = SurfacePoint::new(x, half_width, self.flat);
         let squares = ((to - from) / unit) * ((to + from) / unit);
         let legs = [from / unit, to / unit, squares];
-        self.pressure_scale * unit * self.reference_size.pressure(self.flat / unit, legs, &point)
+        let size = Size { flat: self.flat / unit, ..self.reference_size };
+        self.pressure_scale * unit * size.pressure(legs, &point)
     }
 }

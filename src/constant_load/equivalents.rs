@@ -9,7 +9,7 @@ use crate::error::{Error, ensure};
 use crate::numerics::roots::logarithmic_newton;
 use crate::shape::size::Size;
 use crate::shape::stick_zone::StickZones;
-use crate::shape::{Complement, ROUNDED_FLAT};
+use crate::shape::{Complement, ShapeKind};
 use core::f64::consts::PI;
 
 /// A spring in series with a Coulomb slider.
@@ -49,7 +49,7 @@ pub fn jenkins(contact: &Contact, amplitude: f64) -> Result<SpringSlider, Error>
         let difference = if t > 1.0 {
             2.0 * t.atan2(1.0) - sine * cosine
         } else {
-            0.5 * Size::new(ROUNDED_FLAT, cosine, sine).load()
+            0.5 * Size::new(ShapeKind::RoundedFlat, cosine, sine).load()
         };
         let quotient = difference / (sine * sine);
         [quotient, 2.0 * (sine / quotient - cosine)]

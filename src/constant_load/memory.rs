@@ -14,7 +14,7 @@ use crate::constant_load::contact::Contact;
 use crate::numerics::total::PanicFreeSlice;
 
 /// A point of a load history.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Default)]
 pub(crate) struct Point {
     pub displacement: f64,
     pub force: f64,
@@ -27,8 +27,8 @@ fn point([displacement, force, _]: Reversal) -> Point {
     Point { displacement, force }
 }
 
-/// The initial loading (backbone) curve of a history.
-#[derive(Clone, Copy)]
+/// The initial loading (backbone) curve of a history; by default that of an unloaded contact.
+#[derive(Clone, Copy, Default)]
 pub(crate) struct InitialCurve {
     /// Displacement at which it starts.
     pub offset: f64,
@@ -38,9 +38,6 @@ pub(crate) struct InitialCurve {
 }
 
 impl InitialCurve {
-    /// That of an unloaded contact.
-    pub const UNLOADED: InitialCurve = InitialCurve { offset: 0.0, slip_direction: 0.0 };
-
     /// The curve after a step that ends on `branch` at `displacement`. Without friction it starts at every displacement.
     pub fn after(self, contact: &Contact, branch: &Branch, displacement: f64) -> InitialCurve {
         if contact.is_frictionless() {
@@ -104,8 +101,8 @@ pub(crate) struct StepSegment {
     pub slip_length: f64,
 }
 
-/// The memory of one history, for reading.
-#[derive(Clone, Copy)]
+/// The memory of one history, for reading; by default that of an unloaded contact.
+#[derive(Clone, Copy, Default)]
 pub(crate) struct Memory<'a> {
     pub initial: InitialCurve,
     pub now: Point,
@@ -122,10 +119,6 @@ pub(crate) struct Transition {
 }
 
 impl Memory<'_> {
-    /// That of an unloaded contact.
-    pub const UNLOADED: Memory<'static> =
-        Memory { initial: InitialCurve::UNLOADED, now: Point { displacement: 0.0, force: 0.0 }, reversals: &[] };
-
     pub fn depth(&self) -> usize {
         self.reversals.len()
     }

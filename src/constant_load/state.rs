@@ -40,7 +40,7 @@ pub(crate) fn is_full(state: &[f64]) -> bool {
 /// The memory in a state whose header was checked.
 pub(crate) fn memory(state: &[f64]) -> Memory<'_> {
     let &[_, depth, displacement, slip_direction, force, offset, ref reversals @ ..] = state else {
-        return Memory::UNLOADED;
+        return Memory::default();
     };
     let used = PER_REVERSAL * count(depth).unwrap_or(0);
     let (initial, now) = (InitialCurve { offset, slip_direction }, Point { displacement, force });

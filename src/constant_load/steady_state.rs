@@ -21,8 +21,8 @@ pub(crate) struct SteadyState<'c, 's> {
 impl<'c, 's> SteadyState<'c, 's> {
     pub fn new(contact: &'c Contact, reversals: &'s mut [Reversal], with_energy: bool) -> SteadyState<'c, 's> {
         let energy = with_energy.then(|| Dissipation::new(contact));
-        let branch = Memory::UNLOADED.branch(contact, 0, 1.0);
-        SteadyState { contact, energy, initial: InitialCurve::UNLOADED, branch, reversals, depth: 0 }
+        let branch = Memory::default().branch(contact, 0, 1.0);
+        SteadyState { contact, energy, initial: InitialCurve::default(), branch, reversals, depth: 0 }
     }
 
     /// The branch that follows the present one at its end.

@@ -25,7 +25,7 @@ use crate::parameters::{Common, EllipticParameters, Pair, positive};
 use crate::shape::series::{Series, identity};
 use crate::shape::size::Size;
 use crate::shape::tractions::{SurfacePoint, difference_of_heights};
-use crate::shape::{Geometry, HERTZ_ELLIPSE, LARGEST, Quantity, Shape};
+use crate::shape::{Geometry, LARGEST, Quantity, Shape, ShapeKind};
 use core::array::from_fn;
 use core::f64::consts::{FRAC_PI_2, PI};
 
@@ -63,7 +63,7 @@ impl Geometry for EllipticParameters {
             compliances: [normal, tangential, lateral].map(|scale| [scale, 0.0]),
             pressure_scale: 4.0 / PI * (normal_force / (semi_axis_x * semi_axis_y) / semi_axis_x),
             reference_half_width: semi_axis_x,
-            reference_size: Size::new(HERTZ_ELLIPSE, 0.0, 1.0),
+            reference_size: Size::new(ShapeKind::HertzEllipse, 0.0, 1.0),
             composite_modulus,
             ..Shape::default()
         })
@@ -102,16 +102,16 @@ pub fn gamma(size: &Size, _: f64) -> f64 {
     quotient(0.2, size.leg)
 }
 
-pub fn at_load(_: &Size, flat: f64, load: f64) -> Size {
-    Size::new(HERTZ_ELLIPSE, flat, load.cbrt())
+pub fn at_load(size: &Size, load: f64) -> Size {
+    size.resized(load.cbrt())
 }
 
-pub fn near_shift(_: &Size, _: f64, load: f64) -> f64 {
+pub fn near_shift(_: &Size, load: f64) -> f64 {
     (load / 1.5).sqrt()
 }
 
 /// Differences of the pressure `sqrt(s² - x²)` of a size.
-pub fn pressure(_: &Size, _: f64, [from, _, squares]: [f64; 3], point: &SurfacePoint) -> f64 {
+pub fn pressure(_: &Size, [from, _, squares]: [f64; 3], point: &SurfacePoint) -> f64 {
     let outer = point.from_edge * (1.0 + point.x);
     0.375 * difference_of_heights(outer, (from - point.x) * (from + point.x), squares)
 }

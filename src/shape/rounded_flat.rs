@@ -27,7 +27,7 @@ use crate::parameters::{CENTRE_POINT, Common, Pair, Parameters, RIGID_STRIP, not
 use crate::shape::series::{ORDER, Reversed, Series, identity};
 use crate::shape::size::Size;
 pub(super) use crate::shape::tractions::{pressure, slip};
-use crate::shape::{Geometry, Quantity, ROUNDED_FLAT, Shape};
+use crate::shape::{Geometry, Quantity, Shape};
 use core::array::from_fn;
 use core::f64::consts::{LN_2, PI};
 
@@ -136,8 +136,8 @@ pub fn gamma(size: &Size, load: f64) -> f64 {
 }
 
 /// The size under a load, from an initial guess with an error of at most 3 %. Each iteration raises the error to its fourth power.
-pub fn at_load(size: &Size, flat: f64, load: f64) -> Size {
-    let mut now = Size::new(ROUNDED_FLAT, flat, near_shift(size, flat, load));
+pub fn at_load(size: &Size, load: f64) -> Size {
+    let mut now = size.resized(near_shift(size, load));
     for _ in 0..4 {
         let found = now.load();
         let inverse = now.inverse(found, quotient(now.load_slope(), found), now.rates(), [0.0; 2]);
@@ -152,10 +152,10 @@ pub fn at_load(size: &Size, flat: f64, load: f64) -> Size {
 
 /// The inverse of g with an error of at most 3 %: the limits `sqrt(g/π)` of the cylinder and `(3ag/4)^(1/3)` of the flat, added
 /// as cubes.
-pub fn near_shift(_: &Size, flat: f64, load: f64) -> f64 {
+pub fn near_shift(size: &Size, load: f64) -> f64 {
     let load = load.max(0.0);
     let hertz = load / PI;
-    (hertz * hertz.sqrt() + 0.75 * flat * load).cbrt()
+    (hertz * hertz.sqrt() + 0.75 * size.flat * load).cbrt()
 }
 
 /// The series of a flat with rounded edges, from the differential equations, with ' the derivative with respect to ε and
@@ -307,7 +307,7 @@ pub(crate) fn size_under_load(parameters: &Parameters, modulus: f64) -> Result<(
     }
     let load = 4.0 * ((edge_radius / length) * (normal_force / modulus));
     let unit = flat.max((load / PI).sqrt());
-    let size = Size::default().at_load(flat / unit, load / unit / unit);
+    let size = Size { flat: flat / unit, ..Size::default() }.at_load(load / unit / unit);
     let half_width = size.half_width;
     let scaled = Size { flat: size.flat / half_width, leg: size.leg / half_width, half_width: 1.0, ..size };
     Ok((unit * half_width, scaled))

@@ -11,7 +11,7 @@
 //! unit, or in one that belongs to the shape.
 
 use crate::numerics::guard::{TINY, quotient};
-use crate::shape::HERTZ_ELLIPSE;
+use crate::shape::ShapeKind;
 use crate::shape::kernel::Kernel;
 
 /// A size: plain data.
@@ -23,34 +23,43 @@ pub(crate) struct Size {
     pub leg: f64,
     pub half_width: f64,
     pub psi: f64,
-    /// The number of its shape.
+    /// The number of a [`ShapeKind`]: the memory of a caller may have any bits until its tag is checked.
     pub kind: u64,
 }
 
 impl Size {
-    pub fn new(kind: u64, flat: f64, leg: f64) -> Size {
-        let size = Size { flat, leg, half_width: (flat * flat + leg * leg).sqrt(), psi: 0.0, kind };
-        Size { psi: size.angle(), ..size }
+    pub fn new(kind: ShapeKind, flat: f64, leg: f64) -> Size {
+        Size { flat, kind: kind as u64, ..Size::default() }.resized(leg)
+    }
+
+    /// The shape. [`Size::new`] sets its number from a shape, so that there are no other numbers.
+    pub fn kind(&self) -> ShapeKind {
+        const HERTZ_ELLIPSE: u64 = ShapeKind::HertzEllipse as u64;
+        match self.kind {
+            HERTZ_ELLIPSE => ShapeKind::HertzEllipse,
+            _ => ShapeKind::RoundedFlat,
+        }
     }
 
     /// Whether load and shift are powers of leg.
     pub fn is_power_law(&self) -> bool {
-        self.kind == HERTZ_ELLIPSE
+        self.kind() == ShapeKind::HertzEllipse
     }
 
     pub fn kernel(&self) -> Kernel {
         if self.is_power_law() { Kernel::Point } else { Kernel::Line }
     }
 
-    /// Another size of the same shape.
+    /// Another size of the same shape and flat.
     pub fn resized(&self, leg: f64) -> Size {
-        Size::new(self.kind, self.flat, leg)
+        let size = Size { leg, half_width: (self.flat * self.flat + leg * leg).sqrt(), ..*self };
+        Size { psi: size.angle(), ..size }
     }
 
     /// The size that carries a load, by one Newton step if that is at most 1e-9 of leg: its square is below rounding.
     pub fn at_load_near(&self, load: f64) -> Size {
         let step = quotient(load - self.load(), 4.0 * self.leg * self.psi);
-        if step.abs() > 1e-9 * self.leg { self.at_load(self.flat, load) } else { self.resized(self.leg + step) }
+        if step.abs() > 1e-9 * self.leg { self.at_load(load) } else { self.resized(self.leg + step) }
     }
 
     /// Derivative of g with respect to ln leg.

@@ -149,7 +149,7 @@ impl StickZones {
 
     /// The size with `1 - τ = remaining`.
     fn size_under(&self, remaining: f64) -> Size {
-        self.b.at_load(self.b.flat, remaining * self.load)
+        self.b.at_load(remaining * self.load)
     }
 
     /// The size with `1 - τ = remaining`, given λ of contact and layer to the rounding of Λ + λ, and its load g.
@@ -199,7 +199,7 @@ impl StickZones {
             let of_layer = self.layer.load_of_extent(remaining / self.layer.tangential);
             own = own.min(slip_shift * of_layer.sqrt()).max(f64::MIN_POSITIVE);
         }
-        let near = |compliance: f64| self.b.near_shift(self.b.flat, own / compliance * self.load);
+        let near = |compliance: f64| self.b.near_shift(own / compliance * self.load);
         let leg = near(self.contact.compliance);
         if self.b.is_power_law() {
             return self.b.resized(leg);
@@ -356,7 +356,7 @@ impl StickZones {
     /// Pressure, less that of the size with `[leg², leg_b² - leg²]`.
     fn pressure_beyond(&self, [square, squares]: [f64; 2], point: &SurfacePoint) -> f64 {
         let legs = [square.sqrt(), self.b.leg, squares];
-        self.b.pressure(self.b.flat, legs, point) * self.traction_scale() / PI
+        self.b.pressure(legs, point) * self.traction_scale() / PI
     }
 
     /// Factor of the integrals of `tractions`.

@@ -14,7 +14,6 @@
 
 use crate::numerics::guard::{TINY, quotient, root};
 use crate::numerics::quadrature::gauss;
-use crate::shape::ROUNDED_FLAT;
 use crate::shape::size::Size;
 
 /// A point along the width. The differences are computed from the dimensional lengths: for a nearly flat contact the rounding error of
@@ -47,16 +46,16 @@ const CANCELLATION_LIMIT: f64 = 1.0 / 64.0;
 
 /// `∫ ψ c' dc'/sqrt(c'² - x²)` over the sizes with leg between `from` and `to`, lengths in the units of the flat. `squares` is the
 /// difference `to² - from²`, computed without cancellation for a narrow slip zone.
-pub(crate) fn pressure(_: &Size, flat: f64, [from, to, squares]: [f64; 3], point: &SurfacePoint) -> f64 {
-    let outside = outside(flat, point);
+pub(crate) fn pressure(size: &Size, [from, to, squares]: [f64; 3], point: &SurfacePoint) -> f64 {
+    let outside = outside(size.flat, point);
     let edge = root(outside);
     if edge >= to {
         return 0.0;
     }
-    let (upper, upper_size) = antiderivative(flat, to, point);
+    let (upper, upper_size) = antiderivative(size, to, point);
     // The antiderivative is 0 if the integral starts at leg = 0 or at c' = |x|.
     let (start, lower, lower_size) = if from > edge {
-        let (lower, size) = antiderivative(flat, from, point);
+        let (lower, size) = antiderivative(size, from, point);
         (from, lower, size)
     } else {
         (edge, 0.0, 0.0)
@@ -70,7 +69,7 @@ pub(crate) fn pressure(_: &Size, flat: f64, [from, to, squares]: [f64; 3], point
     if outside < 0.0 {
         gauss(squares / (to + start), |step| {
             let leg = start + step;
-            leg.atan2(flat) * leg / root_inside(leg).max(TINY)
+            leg.atan2(size.flat) * leg / root_inside(leg).max(TINY)
         })
     } else {
         // The substitution root_inside removes the square root at c' = |x|.
@@ -79,7 +78,7 @@ pub(crate) fn pressure(_: &Size, flat: f64, [from, to, squares]: [f64; 3], point
         let length = squares / (root_inside(to) + first).max(0.5 * root(squares)).max(TINY);
         gauss(length, |step| {
             let root_inside = first + step;
-            (root_inside * root_inside + outside).sqrt().atan2(flat)
+            (root_inside * root_inside + outside).sqrt().atan2(size.flat)
         })
     }
 }
@@ -96,8 +95,8 @@ fn outside(flat: f64, point: &SurfacePoint) -> f64 {
 /// ```
 ///
 /// which vanishes at leg = 0 inside the flat and at c = x outside it, and is finite at x = a.
-fn antiderivative(flat: f64, leg: f64, point: &SurfacePoint) -> (f64, f64) {
-    let Size { half_width: c, psi, .. } = Size::new(ROUNDED_FLAT, flat, leg);
+fn antiderivative(size: &Size, leg: f64, point: &SurfacePoint) -> (f64, f64) {
+    let Size { flat, half_width: c, psi, .. } = size.resized(leg);
     let outside = outside(flat, point);
     let root_inside = root(leg * leg - outside);
     let sum = (leg + root_inside).max(TINY);
@@ -147,7 +146,7 @@ pub(crate) fn slip(stick: &Size, point: &SurfacePoint) -> f64 {
     let length = leg_at_x - leg;
     gauss(1.0, |z| {
         let gap = length * z * z;
-        let punch = Size::new(ROUNDED_FLAT, a, leg_at_x - gap);
+        let punch = stick.resized(leg_at_x - gap);
         acosh_ratio(gap * (leg_at_x + punch.leg), x, punch.half_width.max(TINY))
             * punch.psi
             * punch.leg
