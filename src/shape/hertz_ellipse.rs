@@ -146,26 +146,17 @@ pub fn series(_: &Size, shape: &Shape, leg: f64, argument: Quantity) -> [Series;
 /// With M the mean of both axes, J = π/(2M). The fraction of J for the direction of the smaller axis is
 /// `½ [1 + Σ 2ⁿ c_n²/c_0²]`, where c_n are the half-differences of the means and c_0² = 1 - k'²: positive terms.
 fn cerruti_integrals(along: f64, across: f64) -> (f64, f64) {
-    let (small, large) = (along.min(across), along.max(across));
-    let ratio = small / large;
-    let (mut mean, mut geometric) = (1.0, ratio);
-    // c_1²/c_0², then the next ones from c_{n+1} = c_n²/(4 M_{n+1}).
-    let mut half = 0.5 * (1.0 - ratio);
-    let mut square = 0.25 * (1.0 - ratio) / (1.0 + ratio);
-    let mut power = 2.0;
-    let mut sum = 1.0;
-    for _ in 0..12 {
-        sum += power * square;
-        let next = 0.5 * (mean + geometric);
-        geometric = (mean * geometric).sqrt();
-        mean = next;
-        let next_half = half * half / (2.0 * (mean + geometric));
-        square *= quotient(next_half, half) * quotient(next_half, half);
-        half = next_half;
-        power *= 2.0;
-        if square <= 1e-18 {
-            break;
-        }
+    let large = along.max(across);
+    let ratio = along.min(across) / large;
+    let (mut mean, mut geometric, mut half_difference) = (1.0, ratio, 0.5 * (1.0 - ratio));
+    // 2 c_1²/c_0², then the next terms from c_{n+1} = c_n²/(4 M_{n+1}).
+    let (mut sum, mut term) = (1.0, half_difference / (1.0 + ratio));
+    while term > 1e-17 {
+        sum += term;
+        (mean, geometric) = (0.5 * (mean + geometric), (mean * geometric).sqrt());
+        let decrease = half_difference / (2.0 * (mean + geometric));
+        half_difference *= decrease;
+        term *= 2.0 * decrease * decrease;
     }
     let all = FRAC_PI_2 / (0.5 * (mean + geometric)) / large;
     let fraction = 0.5 * sum;
