@@ -305,7 +305,7 @@ impl Merge {
         let rounding = 16.0 * f64::EPSILON * (contact.slip_force + mirrored);
         let at = |i: usize| reversals.get(i).copied().unwrap_or([newest, 0.0, 0.0]);
         let sums = error_sums(reversals);
-        let (mut best, mut least) = (Merge { pair: 0, error: 0.0, shift: 0.0 }, [f64::INFINITY; 2]);
+        let (mut best, mut least) = (Merge { pair: 0, error: 0.0, shift: 0.0 }, f64::INFINITY);
         let mut before = mirror(offset, at(0));
         for pair in 0..reversals.len().saturating_sub(1) {
             let [one, two, next] = [pair, pair + 1, pair + 2].map(at);
@@ -315,10 +315,9 @@ impl Merge {
             let change = if inner > outer { inner - outer } else { 0.0 };
             // The branch that leaves `one` has the other direction, and its error ends.
             let (same, other) = (sums[(pair + 1) % 2] + change + rounding, sums[pair % 2] - one[2]);
-            let bound = [if same > other { same } else { other }, same + other];
-            if bound < least {
+            if same < least && other < least {
                 let shift = if one[0] < before[0] { -change } else { change };
-                (best, least) = (Merge { pair, error: before[2] + two[2] + change + rounding, shift }, bound);
+                (best, least) = (Merge { pair, error: before[2] + two[2] + change + rounding, shift }, same.max(other));
             }
             before = one;
         }
