@@ -196,6 +196,17 @@ impl Shape {
         scale * (self.reference_size.kernel().value(reciprocal) + offset)
     }
 
+    /// Λ of the size under the normal force of the parameters, without the layer (Eq. 10; 1 for an ellipse).
+    pub fn full_stick(&self) -> f64 {
+        let [_, offset] = self.of(Quantity::Shift);
+        self.own_compliance([1.0, offset], self.reference_half_width / self.unit)
+    }
+
+    /// The stiffness along x for Λ = 1 \[N/m\].
+    pub fn stiffness_scale(&self) -> f64 {
+        1.0 / self.of(Quantity::Shift)[0]
+    }
+
     /// The compliance of one direction (0: normal, 1: x, 2: y) as a multiple of that of another one and a constant \[m/N\].
     pub fn per_other(&self, k: usize, other: usize) -> [f64; 2] {
         let ([scale, offset], [of_other, offset_of_other]) = (self.compliances[k], self.compliances[other]);
@@ -265,14 +276,10 @@ impl Shape {
     pub fn load_and_shifts(&self, leg: f64) -> [f64; 3] {
         let size = self.size(leg);
         let load = size.load();
-        let ([_, x, y], layer) = (self.own_shifts(&size, load), self.layer.shift(self.load_scale * load));
-        [self.load_scale * load, x + layer, y + layer]
-    }
-
-    /// U, and S in both directions, without the layer; given g.
-    fn own_shifts(&self, size: &Size, load: f64) -> [f64; 3] {
-        let mean = self.own_compliance([1.0, 0.0], size.half_width) + size.beta(load);
-        self.compliances.map(|[scale, offset]| self.load_scale * (load * scale * (mean + offset)))
+        let ([x, _], [ratio, per_load]) = (self.own_sums(self.of(Quantity::Shift), &size, load), self.per_other(2, 1));
+        let load = self.load_scale * load;
+        let layer = self.layer.shift(load);
+        [load, x + layer, ratio * x + per_load * load + layer]
     }
 
     /// K_t(a) in a direction, the compliance of the flat: a load of 0. Not used without a flat.

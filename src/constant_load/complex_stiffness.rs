@@ -75,8 +75,8 @@ static RULE_IN_SLIP: [[[f64; 4]; 3]; BLOCKS_IN_SLIP] = {
 fn two_doublings<const L: usize>(mut square: Lanes<L>) -> (Lanes<L>, Lanes<L>) {
     let mut rate = Lanes([1.0; L]);
     for _ in 0..2 {
-        rate = rate * (4.0 + 8.0 * square);
-        square = square * (4.0 + 4.0 * square);
+        rate *= 4.0 + 8.0 * square;
+        square *= 4.0 + 4.0 * square;
     }
     (square, rate)
 }
@@ -145,7 +145,7 @@ impl Contact {
             let (mut t, mut weights) = (Lanes(*nodes), Lanes(*weights));
             if is_bent {
                 let sinh = (largest * t).map(f64::sinh);
-                weights = weights * (bend * largest * (1.0 + sinh * sinh).sqrt());
+                weights *= bend * largest * (1.0 + sinh * sinh).sqrt();
                 t = bend * sinh;
             }
             let fraction = 1.0 - t * t;
@@ -246,7 +246,7 @@ impl Contact {
         }
         let series = &self.zones.small_load;
         let slope = 0.5 * series.initial_curvature() / (series.compliance * series.compliance * series.compliance);
-        let unit = self.stiffness_scale / self.displacement_scale.max(f64::MIN_POSITIVE);
+        let unit = self.stiffness_scale * self.per_displacement_scale;
         (-slope * unit, 4.0 / (3.0 * PI) * slope * unit)
     }
 }

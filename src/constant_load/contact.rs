@@ -8,9 +8,8 @@ use crate::limits::{exponent_of, in_range, quotient_in_range};
 use crate::parameters::{Common, EllipticParameters, PARAMETERS, Parameters, Sensitivity};
 use crate::shape::rounded_flat::reference_slope;
 use crate::shape::stick_zone::StickZones;
-use crate::shape::{Complement, Geometry, LayerCompliance, Quantity};
+use crate::shape::{Complement, Geometry, LayerCompliance};
 use crate::tag::LAYOUT;
-use core::f64::consts::PI;
 
 /// Blocks of four nodes of the rule of K' in gross slip.
 pub(crate) const BLOCKS_IN_SLIP: usize = 14;
@@ -75,57 +74,51 @@ impl Contact {
     /// Errors: the error of the first parameter that is not allowed; `LengthTooShort` if 2L <= b or the initial stiffness would not
     /// be positive; `OutOfRange` if results are not representable.
     pub fn rounded_flat(parameters: &Parameters) -> Result<Contact, Error> {
-        let Parameters { flat_half_width, edge_radius, length, normal_force, .. } = *parameters;
-        let mut contact = Contact::open(&parameters.checked()?)?;
-        if normal_force == 0.0 {
-            return Ok(contact);
-        }
-        let shape = parameters.shape()?;
-        let (half_width, composite_modulus) = (shape.reference_half_width, contact.composite_modulus);
-        (contact.half_width, contact.flat_half_width) = (half_width, flat_half_width.abs());
-        contact.pressure_scale = normal_force / length / half_width;
-        contact.stiffness_scale = 0.5 * PI * composite_modulus * length;
-        contact.reference_slope = reference_slope(parameters, half_width);
-        let compliance = shape.full_stick();
-        let scale = contact.stiffness_scale;
-        let (layer, under_load) = LayerCompliance::relative(&parameters.layer, normal_force, scale, compliance)?;
-        contact.zones = StickZones::new(shape.reference_size, compliance, layer);
-        contact.set_friction(normal_force, under_load, [half_width, edge_radius, length, composite_modulus])?;
-        Ok(contact)
+        let Parameters { edge_radius, length, .. } = *parameters;
+        let contact = Contact::new(parameters, length, |_| Ok(edge_radius))?;
+        Ok(Contact { reference_slope: reference_slope(parameters, contact.half_width), ..contact })
     }
 
     /// Initialises an elliptical Hertz contact; a sphere if both semi-axes are equal.
     /// Errors: the error of the first parameter that is not allowed; `OutOfRange` if results are not representable.
     pub fn elliptic(parameters: &EllipticParameters) -> Result<Contact, Error> {
         let EllipticParameters { semi_axis_x, semi_axis_y, normal_force, .. } = *parameters;
-        let mut contact = Contact::open(&parameters.checked()?)?;
-        if normal_force == 0.0 {
-            return Ok(contact);
-        }
-        let composite_modulus = contact.composite_modulus;
-        contact.half_width = semi_axis_x;
-        let shape = parameters.shape()?;
-        contact.stiffness_scale = 1.0 / shape.compliance(Quantity::Shift, semi_axis_x);
-        contact.pressure_scale = normal_force / semi_axis_x / semi_axis_y;
-        let (layer, under_load) =
-            LayerCompliance::relative(&parameters.layer, normal_force, contact.stiffness_scale, 1.0)?;
-        contact.zones = StickZones::new(shape.reference_size, 1.0, layer);
         // The radius of the sphere with this semi-axis.
-        quotient_in_range(&[semi_axis_x, semi_axis_x, semi_axis_x, composite_modulus], &[normal_force])?;
-        let radius = 4.0 / 3.0 * (semi_axis_x * (semi_axis_x * (semi_axis_x * composite_modulus / normal_force)));
-        contact.set_friction(normal_force, under_load, [semi_axis_x, radius, semi_axis_x, composite_modulus])?;
+        let radius = |modulus: f64| {
+            quotient_in_range(&[semi_axis_x, semi_axis_x, semi_axis_x, modulus], &[normal_force])?;
+            Ok(4.0 / 3.0 * (semi_axis_x * (semi_axis_x * (semi_axis_x * modulus / normal_force))))
+        };
+        let mut contact = Contact::new(parameters, semi_axis_y, radius)?;
         // Nothing depends on the other two lengths.
         (contact.sensitivity_scales[2], contact.sensitivity_scales[4]) = (0.0, 0.0);
         Ok(contact)
     }
 
-    /// A contact without tangential forces, of parameters that were checked.
-    fn open(parameters: &Common) -> Result<Contact, Error> {
-        let Common { normal_force, friction_coefficient, .. } = *parameters;
-        let composite_modulus = parameters.composite_modulus()?;
+    /// Initialises a contact, given its length across the tangential force and its edge radius as a function of E*.
+    fn new(
+        parameters: &impl Geometry,
+        length: f64,
+        edge_radius: impl FnOnce(f64) -> Result<f64, Error>,
+    ) -> Result<Contact, Error> {
+        let common = parameters.checked()?;
+        let composite_modulus = common.composite_modulus()?;
+        let Common { normal_force, friction_coefficient, layer, .. } = common;
         // The derivatives of mu N.
         let sensitivity_scales = [friction_coefficient, normal_force, 0.0, 0.0, 0.0, 0.0, 0.0];
-        Ok(Contact { composite_modulus, friction_coefficient, sensitivity_scales, tag: TAG, ..Contact::default() })
+        let mut contact =
+            Contact { composite_modulus, friction_coefficient, sensitivity_scales, tag: TAG, ..Contact::default() };
+        if normal_force == 0.0 {
+            return Ok(contact);
+        }
+        let shape = parameters.shape()?;
+        let (half_width, compliance, scale) = (shape.reference_half_width, shape.full_stick(), shape.stiffness_scale());
+        (contact.half_width, contact.flat_half_width) = (half_width, shape.flat);
+        (contact.stiffness_scale, contact.pressure_scale) = (scale, normal_force / half_width / length);
+        let (layer, under_load) = LayerCompliance::relative(&layer, normal_force, scale, compliance)?;
+        contact.zones = StickZones::new(shape.reference_size, compliance, layer);
+        let edge_radius = edge_radius(composite_modulus)?;
+        contact.set_friction(normal_force, under_load, [half_width, edge_radius, length, composite_modulus])?;
+        Ok(contact)
     }
 
     /// The tangential law, from geometry, stiffness, and the compliance of the layer over that of the parameters; `parameters` are b, R,

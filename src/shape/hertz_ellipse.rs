@@ -131,7 +131,8 @@ pub fn series(_: &Size, shape: &Shape, leg: f64, argument: Quantity) -> [Series;
         })
     };
     let size = shape.size(leg);
-    let [approach, shift, _] = shape.own_shifts(&size, size.load());
+    let [approach, shift] =
+        [Quantity::Approach, Quantity::Shift].map(|quantity| shape.own_sums(shape.of(quantity), &size, size.load())[0]);
     let load = shape.load(leg);
     if argument == Quantity::Load {
         let power = binomial(1.0, 2.0 / 3.0);

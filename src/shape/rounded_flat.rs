@@ -24,7 +24,7 @@ use crate::numerics::guard::{TINY, quotient};
 use crate::numerics::polynomial::{self, PolynomialRows, rows};
 use crate::numerics::total::PanicFreeSlice;
 use crate::parameters::{CENTRE_POINT, Common, Pair, Parameters, RIGID_STRIP, not_negative, positive};
-use crate::shape::series::{ORDER, Reversed, Series, identity};
+use crate::shape::series::{ORDER, Series, add_quotient_term, identity, product_term};
 use crate::shape::size::Size;
 pub(super) use crate::shape::tractions::{pressure, slip};
 use crate::shape::{Geometry, Quantity, Shape};
@@ -170,38 +170,34 @@ pub fn series(_: &Size, shape: &Shape, leg: f64, argument: Quantity) -> [Series;
     let (flat, by_load) = (shape.flat, argument == Quantity::Load);
     // S for the argument N.
     let of = shape.of(if by_load { Quantity::Shift } else { argument });
-    let [mut compliance, mut size, mut load, mut shift] = [[0.0; ORDER]; 4];
-    (size[0], load[0]) = (leg, shape.load(leg));
+    let [mut compliance, mut size, mut load, mut shift, mut angle] = [[0.0; ORDER]; 5];
+    (size[0], load[0], angle[0]) = (leg, shape.load(leg), punch.psi);
     [shift[0], compliance[0]] = shape.own_sums(of, &punch, punch.load());
-    let [mut size_angle, mut half_width_2] = [[0.0; ORDER]; 2];
-    let [mut size_reversed, mut angle, mut load_1, mut size_1, mut angle_1, mut compliance_1] = [Reversed::ZERO; 6];
+    let [mut size_angle, mut half_width_2, mut load_1, mut size_1, mut angle_1, mut compliance_1] = [[0.0; ORDER]; 6];
     let (per_compliance, per_load_scale) = (1.0 / compliance[0], 0.25 / shape.load_scale);
     let (per_size_angle, per_half_width_2) = (1.0 / (leg * punch.psi), 1.0 / (leg * leg + flat * flat));
-    size_reversed.set(0, leg);
-    angle.set(0, punch.psi);
     for k in 0..ORDER {
-        size_angle[k] = angle.product_term(&size, k);
-        half_width_2[k] = size_reversed.product_term(&size, k) + if k == 0 { flat * flat } else { 0.0 };
+        size_angle[k] = product_term(&angle, &size, k);
+        half_width_2[k] = product_term(&size, &size, k) + if k == 0 { flat * flat } else { 0.0 };
+        let first = |value: f64| if k == 0 { value } else { 0.0 };
         let load_growth = if by_load {
-            let growth = if k == 0 { load[0] } else { 0.0 };
-            load_1.set(k, growth);
-            growth
+            load_1[k] = first(load[0]);
+            load_1[k]
         } else {
-            load_1.quotient_term(if k == 0 { shift[0] } else { 0.0 }, &compliance, per_compliance, k)
+            add_quotient_term(&mut load_1, first(shift[0]), &compliance, per_compliance, k)
         };
-        let size_growth = size_1.quotient_term(load_growth * per_load_scale, &size_angle, per_size_angle, k);
-        let angle_growth = angle_1.quotient_term(flat * size_growth, &half_width_2, per_half_width_2, k);
-        let growth = -of[0] * size_1.product_term(&size, k);
-        let compliance_growth = compliance_1.quotient_term(growth, &half_width_2, per_half_width_2, k);
+        let size_growth = add_quotient_term(&mut size_1, load_growth * per_load_scale, &size_angle, per_size_angle, k);
+        let angle_growth = add_quotient_term(&mut angle_1, flat * size_growth, &half_width_2, per_half_width_2, k);
+        let growth = -of[0] * product_term(&size_1, &size, k);
+        let compliance_growth = add_quotient_term(&mut compliance_1, growth, &half_width_2, per_half_width_2, k);
         let per_order = PER_ORDER[k];
         if by_load {
-            shift.set(k + 1, per_order * load_1.product_term(&compliance, k));
+            shift.set(k + 1, per_order * product_term(&load_1, &compliance, k));
         }
         load.set(k + 1, per_order * load_growth);
         size.set(k + 1, per_order * size_growth);
-        compliance.set(k + 1, per_order * compliance_growth);
-        size_reversed.set(k + 1, per_order * size_growth);
         angle.set(k + 1, per_order * angle_growth);
+        compliance.set(k + 1, per_order * compliance_growth);
     }
     if !by_load {
         shift = identity(shift[0]);
@@ -284,13 +280,6 @@ impl Geometry for Parameters {
 /// Smallest Λ for which the laws are inverted: the approach is largest at Λ = 0.
 const SMALLEST_COMPLIANCE: f64 = 1.0 / 16.0;
 
-impl Shape {
-    /// Λ of Eq. 10: that of b.
-    pub fn full_stick(&self) -> f64 {
-        (self.length / self.reference_half_width).ln() + self.of(Quantity::Shift)[1]
-    }
-}
-
 /// Half-width b, and the size in units of it: Eq. 1 in units that keep both the flat and the load at most 1.
 pub(crate) fn size_under_load(parameters: &Parameters, modulus: f64) -> Result<(f64, Size), Error> {
     let Parameters { edge_radius, length, normal_force, .. } = *parameters;
@@ -320,7 +309,7 @@ const ACROSS: f64 = 8.0 / (PI * PI);
 pub(crate) fn reference_slope(parameters: &Parameters, half_width: f64) -> f64 {
     match parameters.displacement_reference {
         CENTRE_POINT => 0.0,
-        _ => ACROSS * (Pair::new(&parameters.material).mean(cerruti_factor) / (parameters.length / half_width)),
+        _ => ACROSS * Pair::new(&parameters.material).mean(cerruti_factor) * (half_width / parameters.length),
     }
 }
 

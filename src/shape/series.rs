@@ -1,6 +1,5 @@
 //! N, U and S as Taylor series of one of them about a size, for the tables of elements.
 
-use crate::numerics::lanes::Lanes;
 use crate::numerics::total::PanicFreeSlice;
 use crate::shape::{Quantity, Shape};
 
@@ -17,36 +16,22 @@ pub(crate) fn identity(x: f64) -> Series {
     series
 }
 
-/// A power series whose coefficients are stored from the last to the first, with zeros behind, so that the sums over k of products of
-/// coefficients i and k - i run through contiguous memory.
-pub(crate) struct Reversed([f64; 2 * ORDER]);
+/// Term k of the product of two series.
+pub(crate) fn product_term(one: &Series, other: &Series, k: usize) -> f64 {
+    one.iter().zip(other.part(..=k).iter().rev()).map(|(one, other)| one * other).sum()
+}
 
-impl Reversed {
-    pub const ZERO: Reversed = Reversed([0.0; 2 * ORDER]);
-
-    /// Sets the coefficient k.
-    pub fn set(&mut self, k: usize, value: f64) {
-        self.0.set((ORDER - 1).wrapping_sub(k), value);
-    }
-
-    /// Term k of the product with another series.
-    pub fn product_term(&self, other: &Series, k: usize) -> f64 {
-        let reversed =
-            self.0.get((ORDER - 1).wrapping_sub(k)..).and_then(<[f64]>::first_chunk).unwrap_or(&[0.0; ORDER]);
-        let mut sums = Lanes::ZERO;
-        for (one, two) in other.blocks().iter().zip(reversed.blocks()) {
-            sums += Lanes(*one) * Lanes(*two);
-        }
-        sums.total()
-    }
-
-    /// Term k of this series as a quotient, from the terms before it, given term k of the numerator and the reciprocal of term 0 of the
-    /// denominator.
-    pub fn quotient_term(&mut self, numerator: f64, denominator: &Series, reciprocal: f64, k: usize) -> f64 {
-        let term = (numerator - self.product_term(denominator, k)) * reciprocal;
-        self.set(k, term);
-        term
-    }
+/// Adds term k to a series that is a quotient, and returns it, given term k of the numerator and the reciprocal of term 0 of the denominator.
+pub(crate) fn add_quotient_term(
+    quotient: &mut Series,
+    numerator: f64,
+    denominator: &Series,
+    reciprocal: f64,
+    k: usize,
+) -> f64 {
+    let term = (numerator - product_term(quotient, denominator, k)) * reciprocal;
+    quotient.set(k, term);
+    term
 }
 
 impl Shape {
@@ -79,12 +64,12 @@ impl Shape {
 fn inverse_powers(y: &Series) -> [Series; ORDER] {
     let mut powers = [[0.0; ORDER]; ORDER];
     powers[0][0] = 1.0;
-    let (mut inverse, per_slope) = (Reversed::ZERO, 1.0 / y[1]);
+    let (mut inverse, per_slope) = ([0.0; ORDER], 1.0 / y[1]);
     for order in 1..ORDER {
         // Orders of ν², ν³, ... need lower orders of ν only.
         let mut sum = if order == 1 { y[0] } else { 0.0 };
         for (power, coefficient) in y.iter().enumerate().take(order + 1).skip(2) {
-            let product = inverse.product_term(&powers.or_zero(power - 1), order);
+            let product = product_term(&inverse, &powers.or_zero(power - 1), order);
             powers.as_flattened_mut().set(ORDER * power + order, product);
             sum -= coefficient * product;
         }
