@@ -3,7 +3,7 @@
 //! Operators act lane by lane, in the order in which they are written: a lane has the bits of the same formula for one number.
 //! Nothing is fused, and the compiler sees whole vectors, whatever memory they are stored to.
 
-use core::ops::{Add, AddAssign, Deref, DerefMut, Div, Mul, Neg, Sub, SubAssign};
+use core::ops::{Add, AddAssign, Deref, DerefMut, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
 /// L numbers.
 #[repr(transparent)]
@@ -73,7 +73,7 @@ impl<const L: usize> DerefMut for Lanes<L> {
 }
 
 macro_rules! operator {
-    ($($trait:ident $name:ident $operator:tt;)*) => { $(
+    ($($trait:ident $name:ident, $in_place:ident $name_in_place:ident $operator:tt;)*) => { $(
         impl<const L: usize> $trait for Lanes<L> {
             type Output = Self;
             fn $name(self, other: Self) -> Self {
@@ -96,15 +96,19 @@ macro_rules! operator {
                 Lanes([self; L]).$name(other)
             }
         }
+        impl<const L: usize> $in_place for Lanes<L> {
+            #[inline(always)]
+            fn $name_in_place(&mut self, other: Self) {
+                *self = (*self).$name(other);
+            }
+        }
     )* };
 }
-operator! { Add add +=; Sub sub -=; Mul mul *=; Div div /=; }
-
-impl<const L: usize> AddAssign for Lanes<L> {
-    #[inline(always)]
-    fn add_assign(&mut self, other: Self) {
-        *self = *self + other;
-    }
+operator! {
+    Add add, AddAssign add_assign +=;
+    Sub sub, SubAssign sub_assign -=;
+    Mul mul, MulAssign mul_assign *=;
+    Div div, DivAssign div_assign /=;
 }
 
 impl<const L: usize> Neg for Lanes<L> {
@@ -112,12 +116,5 @@ impl<const L: usize> Neg for Lanes<L> {
     #[inline(always)]
     fn neg(self) -> Self {
         Self::ZERO - self
-    }
-}
-
-impl<const L: usize> SubAssign for Lanes<L> {
-    #[inline(always)]
-    fn sub_assign(&mut self, other: Self) {
-        *self = *self - other;
     }
 }
