@@ -1,5 +1,5 @@
-//! The friction law under a constant normal force: monotonic curve, hysteresis by Masing's rule with return-point memory, and cycles
-//! of prescribed amplitude.
+//! The friction law under a constant normal force: monotonic curve, hysteresis by Masing's rule with return-point memory, and
+//! cycles of prescribed amplitude.
 
 pub(crate) mod complex_stiffness;
 pub(crate) mod contact;

@@ -1,8 +1,8 @@
 //! A face with an uneven pressure, divided along its length into parts: each is a line contact with its own normal force.
 //!
-//! A part of length L_i = s L returns s times the force of a contact of length L that is loaded everywhere as the part is. That is
-//! the force of a contact of length L with Young's moduli times s, and with a layer whose stiffness under equal load per length is
-//! s times that of the whole: compliances over s, N_c and N_r times s. A part without load does not count in L. (Parts of a line
+//! A part of length L_i = s L has the force of a contact of length L under the same load per length, times s. This is the force of
+//! a contact of length L whose Young's moduli are multiplied by s and whose layer is s times as stiff under the same load per
+//! length: its compliances are divided by s, N_c and N_r multiplied by s. A part without load does not count in L. (Parts of a line
 //! contact in `docs/derivation.md`)
 
 use crate::error::{Error, ensure};
@@ -10,10 +10,12 @@ use crate::numerics::fp_class::in_0_to;
 use crate::parameters::Parameters;
 use crate::shape::Geometry;
 
-/// Bounds of areas, pressures and loads: shares, and what is multiplied with them, are representable.
+/// Bounds of areas, pressures and loads, for which the shares of the parts and their products with the parameters are
+/// representable.
 const LEAST: f64 = 1e-50;
 const LARGEST: f64 = 1e50;
-/// Larger compliances are those of no contact, and beyond it the stiffness of a layer is constant under any load.
+/// Compliances and loads of a layer are limited to this value: no contact has a larger compliance, and a layer with a larger N_c
+/// has a constant stiffness under any load.
 const LARGEST_OF_LAYER: f64 = 1e160;
 
 /// Parameters of the parts of a face, with the given number of pairs of nodes each, and weights of the pairs: their share in the

@@ -29,7 +29,7 @@ pub struct Requested {
 }
 
 /// Result of a step of a law.
-pub type StepOf<L> = StepResult<<L as Law>::Vector, <L as Law>::Tangent>;
+pub type LawStep<L> = StepResult<<L as Law>::Vector, <L as Law>::Tangent>;
 
 /// A law that advances the state of a contact, or of an element with a number of directions.
 ///
@@ -106,9 +106,10 @@ pub trait Law: Sized {
     fn in_copy(item: &Self::Item, state: &[f64], steps: impl FnOnce(&mut [f64]));
 
     /// A step with checked arguments whose new state is discarded.
-    fn trial(item: &Self::Item, old: &[f64], displacement: Self::Vector, requested: Requested) -> StepOf<Self>;
+    fn trial(item: &Self::Item, old: &[f64], displacement: Self::Vector, requested: Requested) -> LawStep<Self>;
     /// A step in place with checked arguments.
-    fn advance(item: &Self::Item, state: &mut [f64], displacement: Self::Vector, requested: Requested) -> StepOf<Self>;
+    fn advance(item: &Self::Item, state: &mut [f64], displacement: Self::Vector, requested: Requested)
+    -> LawStep<Self>;
 
     /// Checks the coefficients of a motion.
     /// Errors: those of [`Law::harmonic_force`].
@@ -124,7 +125,7 @@ pub trait Law: Sized {
 
     /// A step in place.
     /// Errors: `StateTooShort`, `BadState`, and those of [`Law::check_step`].
-    fn step(item: &Self::Item, state: &mut [f64], displacement: Self::Vector) -> Result<StepOf<Self>, Error> {
+    fn step(item: &Self::Item, state: &mut [f64], displacement: Self::Vector) -> Result<LawStep<Self>, Error> {
         Self::check_header(state)?;
         Self::check_step(item, &displacement)?;
         Ok(Self::advance(item, state, displacement, Requested { tangent: true, energy: true }))

@@ -30,8 +30,8 @@ const SHORT: &CStr =
 const SMALL_RADIUS: &CStr =
     c"normal_force is implausible: the semi-axes exceed a quarter of the radii, where bodies are no half-spaces; check the units";
 
-/// Largest b - a over the edge radius. There an arc of a circle is 1.6 % higher and 3.3 % steeper than its parabola, and the error of a
-/// half-plane is of the order of the square of the slope.
+/// Largest plausible ratio of b - a to the edge radius. At this ratio an arc of a circle is 1.6 % higher and 3.3 % steeper than its
+/// parabola, and the error of a half-plane is of the order of the square of the slope.
 const EDGE: f64 = 0.25;
 
 /// The warning if a valid number is outside the range. Invalid numbers have errors.
@@ -41,8 +41,9 @@ fn check(value: f64, unit: f64, (range, text): &Plausible) -> Option<&'static CS
     is_outside.then_some(text)
 }
 
-/// Warnings that apply, first those of single values. The unit of length is that of which `metre` are a metre, 1 (SI) or 1000 (mm, N,
-/// MPa); if None, it follows from Young's moduli. An implausible dimension or modulus suppresses the warnings of relations.
+/// Warnings that apply: first for single values, then for relations between them. `metre` is the number of units of length in a
+/// metre, 1 (SI) or 1000 (mm, N, MPa); if None, it follows from Young's moduli. An implausible dimension or modulus suppresses the
+/// warnings for relations.
 fn warnings<P, const K: usize, const M: usize>(
     parameters: &P,
     dimensions: [(f64, &Plausible); K],
@@ -67,7 +68,7 @@ impl Parameters {
         warnings(self, dimensions, &self.material, self.friction_coefficient, Parameters::related, metre)
     }
 
-    /// Warnings of sizes relative to each other; none if the size of the contact is undefined.
+    /// Warnings for relations between sizes; none if the size of the contact is undefined.
     fn related(&self) -> [Option<&'static CStr>; 3] {
         let size = || {
             Parameters { displacement_reference: CENTRE_POINT, ..*self }.checked().ok()?;

@@ -13,14 +13,16 @@
 //! The monotonic curve, hysteresis and energies follow from N and S alone (Jäger 1998; Ciavarella 1998), without the geometry.
 //! Under a constant load only the sizes below the present one are involved: its stick zones.
 //!
-//! With the load g of a size in units of the shape, and β and γ the means of the compliance Λ beyond that of the size and of its
-//! product with the load, all shapes have the same sums,
+//! The three sums have the same form for all shapes. The load of a size is g, in a unit of the shape. The compliance of a punch of
+//! this size is Λ; the smaller punches inside it are more compliant. The mean of their compliances over the load exceeds Λ by β,
+//! and the mean weighted by their loads exceeds it by γ:
 //!
 //! ```text
-//! N ~ g,     U, S ~ N (Λ + β),     M ~ N² (Λ + γ)/2,
+//! N ~ g,     U, S ~ N (Λ + β),     M ~ N² (Λ + γ)/2
 //! ```
 //!
-//! to which a layer in series adds its own. Λ is a kernel, that of a line or of a point, and a constant of the direction.
+//! A layer in series adds its own terms. Λ is the kernel of a line or of a point contact, plus a constant that depends on the
+//! direction.
 
 mod hertz_ellipse;
 pub(crate) mod kernel;
@@ -65,29 +67,31 @@ macro_rules! of_shapes {
 }
 
 of_shapes! {
-    /// ψ, from a and leg; finite at leg = 0.
+    /// The angle ψ in dg = 4 leg ψ d leg, from a and leg; finite at leg = 0.
     angle() -> f64;
-    /// d ln ψ/d ln leg and its derivative with respect to ln leg.
+    /// The rate d ln ψ/d ln leg, and the derivative of this rate with respect to ln leg.
     rates() -> [f64; 2];
-    /// g.
+    /// The load g.
     load() -> f64;
-    /// β, given g.
+    /// The mean β of the compliance increase, given g.
     beta(load: f64) -> f64;
-    /// γ, given g.
+    /// The mean γ of the compliance increase weighted by the load, given g.
     gamma(load: f64) -> f64;
     /// The size of the same flat that carries a load: the inverse of g.
     at_load(load: f64) -> Size;
-    /// leg at a shift, given the shift over Λ of a size close to it; exact for a power law and its size leg = 1.
+    /// An estimate of the leg of the size with a certain shift, given that shift over the compliance Λ of a size close to it. Exact
+    /// for a power law if Λ is that of the size leg = 1.
     near_shift(load: f64) -> f64;
-    /// N, U and S without a layer about a size with leg > 0, as functions of one of them.
+    /// Taylor series of N, U and S without a layer about a size with leg > 0, as functions of one of the three.
     series(shape: &Shape, leg: f64, argument: Quantity) -> [Series; 3];
-    /// Pressure of the sizes with leg between two values, given also the difference of their squares; over dg/(4π).
+    /// Pressure that the sizes between two legs add, in units of g/(4π) over an area; `legs` are both legs and the difference of
+    /// their squares.
     pressure(legs: [f64; 3], point: &SurfacePoint) -> f64;
-    /// Slip beyond this stick zone, over dg/4; NaN without a closed form.
+    /// Slip at a point outside this stick zone, in units of g/4; NaN if the shape has no closed form.
     slip(point: &SurfacePoint) -> f64;
 }
 
-/// A complementary pair of amounts, `consumed + remaining`. Neither is computed from the other if it is the smaller.
+/// An amount divided into two parts, `consumed + remaining`. The smaller part is never computed as a difference of the other two.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Complement {
     pub consumed: f64,
@@ -101,7 +105,7 @@ impl Complement {
     }
 }
 
-/// What grows with the size.
+/// A quantity that grows with the size.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Quantity {
     /// Normal force N.
@@ -119,7 +123,7 @@ impl Quantity {
 
 /// Geometry, material and load from which a shape follows.
 pub(crate) trait Geometry {
-    /// Checks the ranges of all parameters; those that all shapes have.
+    /// Checks the ranges of all parameters, and returns the parameters that all shapes have.
     /// Errors: the error of the first parameter, in the order of the fields, that is NaN, infinite or out of range.
     fn checked(&self) -> Result<Common, Error>;
 
@@ -141,13 +145,14 @@ pub(crate) trait Geometry {
 pub(crate) struct Shape {
     /// Half-width a of the flat \[m\]; 0 for an ellipse.
     pub flat: f64,
-    /// The unit of lengths of its sizes \[m\]: 1 m, or the semi-axis x under the normal force of the parameters.
+    /// The unit of the lengths in a [`Size`] of this shape \[m\]: 1 m, or the semi-axis x under the normal force of the parameters.
     unit: f64,
-    /// The half-width in that unit at which the kernel is that of 1: 2L, or 1.
+    /// The half-width, in this unit, at which the kernel has its value at 1: 2L, or 1.
     length: f64,
-    /// N/g.
+    /// Normal force over the load of a size: N/g.
     load_scale: f64,
-    /// Scale \[m/N\] and offset of dU/dN, and of dS/dN along x and along y: `scale (kernel + offset)`.
+    /// Coefficients of the compliances dU/dN, dS/dN along x and dS/dN along y, each `scale (kernel + offset)` with the scale in
+    /// \[m/N\].
     compliances: [[f64; 2]; 3],
     /// Pressure over the integrals of the tractions.
     pressure_scale: f64,
@@ -155,7 +160,7 @@ pub(crate) struct Shape {
     pub largest: f64,
     /// The half-width under the normal force of the parameters \[m\].
     pub reference_half_width: f64,
-    /// The size under this force, with lengths over its half-width.
+    /// The size under the normal force of the parameters, with lengths over its half-width.
     pub reference_size: Size,
     /// E* \[Pa\].
     pub composite_modulus: f64,
@@ -166,7 +171,7 @@ pub(crate) struct Shape {
 pub(crate) const LARGEST: f64 = f64::from_bits((1023 + 498) << 52);
 
 impl Shape {
-    /// A size of this flat, of which only the flat is used.
+    /// A size that stands for the shape where only its flat is used.
     fn any_size(&self) -> Size {
         Size { flat: self.flat, ..self.reference_size }
     }
@@ -185,8 +190,8 @@ impl Shape {
         self.load_scale * self.size(leg).load()
     }
 
-    /// Scale and offset of K_n or K_t.
-    fn of(&self, quantity: Quantity) -> [f64; 2] {
+    /// Scale and offset of the compliance K_n or K_t.
+    fn compliance_coefficients(&self, quantity: Quantity) -> [f64; 2] {
         self.compliances[usize::from(quantity == Quantity::Shift)]
     }
 
@@ -198,13 +203,13 @@ impl Shape {
 
     /// Λ of the size under the normal force of the parameters, without the layer (Eq. 10; 1 for an ellipse).
     pub fn full_stick(&self) -> f64 {
-        let [_, offset] = self.of(Quantity::Shift);
+        let [_, offset] = self.compliance_coefficients(Quantity::Shift);
         self.own_compliance([1.0, offset], self.reference_half_width / self.unit)
     }
 
     /// The stiffness along x for Λ = 1 \[N/m\].
     pub fn stiffness_scale(&self) -> f64 {
-        1.0 / self.of(Quantity::Shift)[0]
+        1.0 / self.compliance_coefficients(Quantity::Shift)[0]
     }
 
     /// The compliance of one direction (0: normal, 1: x, 2: y) as a multiple of that of another one and a constant \[m/N\].
@@ -213,10 +218,11 @@ impl Shape {
         [scale / of_other, scale * (offset - offset_of_other)]
     }
 
-    /// U or S without the layer \[m\], and its derivative by N; given g.
-    fn own_sums(&self, of: [f64; 2], size: &Size, load: f64) -> [f64; 2] {
-        let compliance = self.own_compliance(of, size.half_width);
-        [self.load_scale * (load * (compliance + of[0] * size.beta(load))), compliance]
+    /// U or S without the layer \[m\] and its derivative with respect to N, given the coefficients of the compliance and the load
+    /// g.
+    fn own_sums(&self, coefficients: [f64; 2], size: &Size, load: f64) -> [f64; 2] {
+        let compliance = self.own_compliance(coefficients, size.half_width);
+        [self.load_scale * (load * (compliance + coefficients[0] * size.beta(load))), compliance]
     }
 
     /// N, U or S \[N, m\].
@@ -224,12 +230,12 @@ impl Shape {
         self.value_and_compliance(quantity, leg)[0]
     }
 
-    /// The derivative of N, U or S by N: 1, K_n, K_t \[m/N\].
+    /// The derivative of N, U or S with respect to N: 1, K_n or K_t \[m/N\].
     pub fn compliance(&self, quantity: Quantity, leg: f64) -> f64 {
         self.value_and_compliance(quantity, leg)[1]
     }
 
-    /// N, U or S and its derivative by N.
+    /// N, U or S, and its derivative with respect to N.
     pub fn value_and_compliance(&self, quantity: Quantity, leg: f64) -> [f64; 2] {
         self.sums(quantity, &self.size(leg))
     }
@@ -239,7 +245,7 @@ impl Shape {
         if quantity == Quantity::Load {
             return [self.load_scale * load, 1.0];
         }
-        let [mut value, mut compliance] = self.own_sums(self.of(quantity), size, load);
+        let [mut value, mut compliance] = self.own_sums(self.compliance_coefficients(quantity), size, load);
         if unloaded > 0.0 {
             value += unloaded * self.layer.extent(self.load_scale * load);
             compliance += unloaded * self.layer.softness(self.load_scale * load);
@@ -247,11 +253,11 @@ impl Shape {
         [value, compliance]
     }
 
-    /// d²N/dS² \[N/m²\] at a size > 0: the decrease of the compliance with the load, over the cube of the compliance. A layer has its
-    /// compliance over N + N_c as decrease.
+    /// d²N/dS² \[N/m²\] at a size > 0: the decrease of the compliance with the load, over the cube of the compliance. The
+    /// compliance of a layer decreases by itself over N + N_c.
     pub fn load_curvature(&self, leg: f64) -> f64 {
         let size = self.size(leg);
-        let shift = self.of(Quantity::Shift);
+        let shift = self.compliance_coefficients(Quantity::Shift);
         let (own, load) = (self.own_compliance(shift, size.half_width), self.load_scale * size.load());
         let [decrease, _] = size.decrease();
         let layer = self.layer.compliance(load);
@@ -264,7 +270,7 @@ impl Shape {
     pub fn potential(&self, leg: f64) -> f64 {
         let size = self.size(leg);
         let load = size.load();
-        let shift = self.of(Quantity::Shift);
+        let shift = self.compliance_coefficients(Quantity::Shift);
         let mean = self.own_compliance(shift, size.half_width) + shift[0] * size.gamma(load);
         let load = self.load_scale * load;
         // The square of a small load would underflow.
@@ -272,17 +278,18 @@ impl Shape {
         if self.layer.tangential > 0.0 { own + self.layer.potential(load) } else { own }
     }
 
-    /// N, and S in both directions.
+    /// The normal force N, and the shifts S along x and along y.
     pub fn load_and_shifts(&self, leg: f64) -> [f64; 3] {
         let size = self.size(leg);
         let load = size.load();
-        let ([x, _], [ratio, per_load]) = (self.own_sums(self.of(Quantity::Shift), &size, load), self.per_other(2, 1));
+        let ([x, _], [ratio, per_load]) =
+            (self.own_sums(self.compliance_coefficients(Quantity::Shift), &size, load), self.per_other(2, 1));
         let load = self.load_scale * load;
         let layer = self.layer.shift(load);
         [load, x + layer, ratio * x + per_load * load + layer]
     }
 
-    /// K_t(a) in a direction, the compliance of the flat: a load of 0. Not used without a flat.
+    /// The compliance K_t(a) of the flat in a direction, the limit for a load of 0. Not used without a flat.
     pub fn compliance_of_flat(&self, axis: usize) -> f64 {
         self.own_compliance(self.compliances[axis + 1], self.flat) + self.layer.compliance(0.0)
     }
@@ -292,7 +299,7 @@ impl Shape {
         self.load_scale
     }
 
-    /// The pressure that a size adds, times sqrt(s² - x²)/s and in any unit: dp/d(s²).
+    /// The weight of a size in the pressure, dp/d(s²) sqrt(s² - x²)/s, in an arbitrary unit.
     pub fn pressure_weight(&self, leg: f64) -> f64 {
         let size = self.size(leg);
         quotient(size.psi, size.kernel().reach(size.half_width).0)
@@ -316,13 +323,14 @@ impl Shape {
         if quantity == Quantity::Load || value <= 0.0 {
             return self.at_load(value.max(0.0));
         }
-        let (of, half_width, size) = (self.of(quantity), self.reference_half_width, self.any_size());
+        let (coefficients, size) = (self.compliance_coefficients(quantity), self.any_size());
         let near = |compliance: f64| self.unit * size.near_shift(value / (self.load_scale * compliance));
         let unloaded = self.layer.unloaded(quantity);
         if size.is_power_law() && unloaded <= 0.0 {
-            return near(of[0]);
+            return near(coefficients[0]);
         }
-        let mut start = near(self.own_compliance(of, half_width / self.unit).max(of[0]));
+        let half_width = self.reference_half_width / self.unit;
+        let mut start = near(self.own_compliance(coefficients, half_width).max(coefficients[0]));
         if unloaded > 0.0 {
             // A soft layer stiffens exponentially: alone it may carry a load that no size has.
             let of_layer = self.layer.load_of_extent(value / unloaded);

@@ -10,7 +10,7 @@ use common::{Random, advance, as_text, harmonic, outputs, seed, unloaded};
 use microslip::constant_load::harmonic_force::Rule;
 use microslip::constant_load::{ConstantLoad, Law};
 use microslip::element::{Directions, Element, NormalInput};
-use microslip::law::{StepOf, StepResult};
+use microslip::law::{LawStep, StepResult};
 use microslip::one_direction::OneDirection;
 use microslip::one_direction::harmonic_force as line;
 use microslip::one_direction::tractions::tractions;
@@ -561,7 +561,7 @@ impl Restarts {
         mut state: Vec<f64>,
         (first, later): (&[L::Vector], &[L::Vector]),
         number_of_digits: &[usize],
-        change: impl Fn(&StepOf<L>, &StepOf<L>) -> f64,
+        change: impl Fn(&LawStep<L>, &LawStep<L>) -> f64,
     ) {
         for to in first {
             L::step(item, &mut state, *to).unwrap();

@@ -5,7 +5,7 @@ mod common;
 use common::Random;
 use common::two_directions::*;
 use microslip::element::{Directions, Element, NormalInput};
-use microslip::law::StepOf;
+use microslip::law::LawStep;
 use microslip::parameters::{EllipticParameters, Layer, Material, Parameters};
 use microslip::two_directions::TwoDirections;
 use std::f64::consts::TAU;
@@ -71,7 +71,7 @@ fn long_slides_carry_the_friction_force_and_dissipate_their_work() {
             let to = [from[0] + length * cos, from[1] + length * sin, load];
             let (mut fine, mut short) = (contact.clone(), contact.clone());
             let step = contact.to(to);
-            let missing = |step: &StepOf<TwoDirections>| {
+            let missing = |step: &LawStep<TwoDirections>| {
                 1.0 - step.force[0].hypot(step.force[1]) / (element.friction_coefficient * load)
             };
             let error = missing(&step).abs();

@@ -6,7 +6,7 @@ mod common;
 use common::Random;
 use common::two_directions::*;
 use microslip::element::{Directions, Element, NormalInput};
-use microslip::law::StepOf;
+use microslip::law::LawStep;
 use microslip::parameters::{EllipticParameters, Layer, Material, Parameters, RIGID_STRIP};
 use microslip::two_directions::TwoDirections;
 use std::array::from_fn;
@@ -86,7 +86,7 @@ fn history(element: &Element, steps: usize, random: &mut Random) -> Vec<[f64; 3]
 }
 
 /// The largest difference of tangential forces \[N\].
-fn apart(one: &StepOf<TwoDirections>, two: &StepOf<TwoDirections>) -> f64 {
+fn apart(one: &LawStep<TwoDirections>, two: &LawStep<TwoDirections>) -> f64 {
     (one.force[0] - two.force[0]).hypot(one.force[1] - two.force[1])
 }
 
@@ -111,7 +111,7 @@ fn a_sphere_has_no_preferred_direction() {
 }
 
 /// A history of an element, displacements and normal components multiplied by factors.
-fn run(element: &Element, history: &[[f64; 3]], factors: [f64; 3]) -> Vec<StepOf<TwoDirections>> {
+fn run(element: &Element, history: &[[f64; 3]], factors: [f64; 3]) -> Vec<LawStep<TwoDirections>> {
     let mut contact = Contact::new(element);
     history.iter().map(|to| contact.to([0, 1, 2].map(|i| to[i] * factors[i]))).collect()
 }

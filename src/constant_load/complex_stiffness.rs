@@ -14,11 +14,16 @@
 //! K' = (8/π) F/x_0²,     F = ∫ sqrt(x (ρ-ρ_0)) k dρ,     dF/dx_0 = ½ ∫ sqrt(x/(ρ-ρ_0)) k dρ     from max(ρ_0, 0) to 1.
 //! ```
 //!
-//! The tangent stiffness k is singular at ρ = 0, like a power of `y = ρ^(1/3)`, the size of a stick zone under a flat, or a
-//! logarithm; the root at ρ = ρ_0, on either side. The distance of that is the scale of `y = y_0 + scale sinh²(z/2)`, which moves
-//! all of these singularities to |Im z| >= π/4 and makes the root at y_0 smooth; `sinh(z/8) = (1 - t²) sinh(z_end/8)` does the same
-//! for that at x = 0. Two doublings of the angle give `sinh²(z/2)` as a polynomial. The integrand is even in t. For Λ near 0, k is nearly
-//! singular at x = 0, too: t is a hyperbolic sine then. Gauss's rule for even functions converges for all amplitudes.
+//! The integrand has three singularities. The tangent stiffness k has one at ρ = 0: a power of `y = ρ^(1/3)`, the size of a stick
+//! zone under a flat, or a logarithm. The roots have one at ρ = ρ_0, on either side of 0, and one at x = 0. Two substitutions
+//! remove them:
+//!
+//! - `y = y_0 + scale sinh²(z/2)`, with the distance between the first two as the scale, moves both to |Im z| >= π/4 and makes the
+//!   root at y_0 smooth. Two doublings of the angle give `sinh²(z/2)` as a polynomial of `sinh²(z/8)`.
+//! - `sinh(z/8) = (1 - t²) sinh(z_end/8)` makes the root at x = 0 smooth, and the integrand even in t.
+//!
+//! For Λ near 0, k is nearly singular at x = 0 as well; then t is a hyperbolic sine. Gauss's rule for even functions converges for
+//! all amplitudes.
 
 use crate::constant_load::contact::{BLOCKS_IN_SLIP, Contact};
 use crate::error::{Error, ensure};
@@ -44,19 +49,21 @@ pub struct ComplexStiffness {
     pub dissipated: f64,
 }
 
-/// Gauss's rules for `ρ_0` from 1/50, and from 0; from there to -0.05, beyond which the contact has weights; and for all amplitudes of a
-/// curve without weights, which has a knee or is nearly singular. The error of F is 5e-15, that of dF/dx_0 5e-15 before slip, 1e-13 in
-/// slip, and 1e-12 without weights.
+/// Gauss's rules for `ρ_0 >= 1/50`, for 0 to 1/50, and for -0.05 to 0; below -0.05 the contact has weights. The last rule is for
+/// all amplitudes of a curve without weights, which has a knee or is nearly singular. The error of F is 5e-15; the error of dF/dx_0
+/// is 5e-15 before slip, 1e-13 in slip, and 1e-12 without weights.
 static RULE_BEFORE_SLIP: [[[f64; 4]; 2]; 6] = gauss_even();
 static RULE_NEAR_SLIP: [[[f64; 4]; 2]; 9] = gauss_even();
 static RULE_AFTER_SLIP: [[[f64; 4]; 2]; 10] = gauss_even();
 static RULE_WITHOUT_WEIGHTS: [[[f64; 4]; 2]; 23] = gauss_even();
+/// The weights of the contact apply to smaller `ρ_0`.
 const IN_SLIP: f64 = -0.05;
 
-/// Smallest scale of the rule: the cube root of the rounding of x_0.
+/// Smallest scale of the substitution: the cube root of the rounding of x_0.
 const SMALLEST_SCALE: f64 = 1e-5;
 
-/// In gross slip, with `y = root²` and `root = 1 - t²`: blocks of ρ, x, and the weights of an integral over ρ.
+/// The rule in gross slip, with `y = root²` and `root = 1 - t²`: for each block of nodes ρ, x, and the weights of an integral over
+/// ρ.
 static RULE_IN_SLIP: [[[f64; 4]; 3]; BLOCKS_IN_SLIP] = {
     let rule = gauss_even::<BLOCKS_IN_SLIP>();
     let (mut blocks, mut i) = ([[[0.0; 4]; 3]; _], 0);
@@ -81,7 +88,7 @@ fn two_doublings<const L: usize>(mut square: Lanes<L>) -> (Lanes<L>, Lanes<L>) {
     (square, rate)
 }
 
-/// F and dF/dx_0 from the terms of F and of 2 dF/dx_0 at blocks of nodes.
+/// F and dF/dx_0 as sums over blocks of nodes, given a function that returns the terms of F and of 2 dF/dx_0 at a block.
 fn sum<B>(blocks: impl Iterator<Item = B>, at: impl Fn(B) -> [Lanes<4>; 2]) -> [f64; 2] {
     let mut sums = [Lanes::ZERO; 2];
     for block in blocks {
@@ -135,7 +142,7 @@ impl Contact {
         for _ in 0..2 {
             end /= 2.0 + 2.0 * (1.0 + end).sqrt();
         }
-        // x is its product with t² at first.
+        // The value of t at which x is the distance to the point of zero compliance: x is proportional to t² near 0.
         let bend = (self.relative_distance_of_zero_compliance()
             / (6.0 * scale * end * two_doublings(Lanes([end])).1.0[0]))
             .sqrt();
@@ -152,7 +159,7 @@ impl Contact {
             let (square, rate) = two_doublings(end * (fraction * fraction));
             let step = scale * square;
             let y = y_0 + step;
-            // ρ less its smallest value.
+            // The difference between ρ and its smallest value.
             let rise = step * (y * y + y * y_0 + y_0 * y_0);
             let (rest, x, rho) = (rise + excess, (top - rise).max(0.0), below + rise);
             let weights = weights * ((x * rest).sqrt() * (12.0 * y * y) * (scale * end * rate * fraction * t));
@@ -190,7 +197,7 @@ pub(crate) fn check_amplitude(amplitude: f64) -> Result<(), Error> {
 }
 
 impl Contact {
-    /// K' and K'', then their derivatives, at a checked amplitude \[m\], if requested.
+    /// K' and K'', then the derivatives of both, at a checked amplitude \[m\]; those of K' and those of K'' only if requested.
     pub(crate) fn stiffness_of_cycle(&self, amplitude: f64, [has_real, has_imaginary]: [bool; 2]) -> [f64; 4] {
         // K' and K'' are linear to far below rounding, and would underflow in the general formulas.
         if self.is_frictionless() || amplitude <= 1e-30 * self.displacement_scale {
@@ -203,7 +210,7 @@ impl Contact {
         }
         if has_imaginary {
             let (energy, slope) = self.energy_of_cycle(amplitude);
-            // In this order for amplitudes whose square overflows. One division: the compiler would pair others with a product, and divide by what is beside its factors.
+            // Factor by factor, because the square of an amplitude may overflow. One division only (see `numerics/guard`).
             let per = 1.0 / not_zero;
             let imaginary = energy * per * per / PI;
             (values[1], values[3]) = (imaginary, (slope * per / PI - 2.0 * imaginary) * per);
@@ -222,7 +229,7 @@ impl Contact {
         let per_slip = self.per_slip_displacement;
         let x_0 = amplitude * per_slip;
         let [integral, rate] = self.real_stiffness_integrals(x_0, (self.slip_displacement - amplitude) * per_slip);
-        // As above.
+        // Factor by factor, and one division only: as for K''.
         let per = 1.0 / x_0;
         let [real, slope] =
             [integral, rate - 2.0 * integral * per].map(|value| 8.0 / PI * initial * (value * per * per));

@@ -1,5 +1,5 @@
-//! A contact under a constant normal force: initialised once, then read-only. It contains the stick zones of its shape, and the scales
-//! that convert their nondimensional quantities into forces and displacements.
+//! A contact under a constant normal force: initialised once, then read-only. It contains the stick zones of its shape, and the
+//! scales that convert their nondimensional quantities into forces and displacements.
 
 use crate::constant_load::interpolant::{ForceInterpolant, INNER_FRACTION, KNEE_FRACTION};
 use crate::error::{Error, ensure};
@@ -11,7 +11,7 @@ use crate::shape::stick_zone::StickZones;
 use crate::shape::{Complement, Geometry, LayerCompliance};
 use crate::tag::LAYOUT;
 
-/// Blocks of four nodes of the rule of K' in gross slip.
+/// Number of blocks of four nodes in the quadrature rule of K' in gross slip.
 pub(crate) const BLOCKS_IN_SLIP: usize = 14;
 
 /// An initialised contact: plain data of fixed size that may be copied, stored and sent.
@@ -39,12 +39,12 @@ pub struct Contact {
     pub(crate) per_displacement_scale: f64,
     /// Stiffness for a compliance of 1 \[N/m\].
     pub(crate) stiffness_scale: f64,
-    /// Pressure for one of 1 \[Pa\].
+    /// Pressure for a nondimensional pressure of 1 \[Pa\].
     pub(crate) pressure_scale: f64,
     pub(crate) friction_coefficient: f64,
     /// a \[m\].
     pub(crate) flat_half_width: f64,
-    /// The rounding error of `slip_force`: mu N less its rounded value.
+    /// The rounding error of `slip_force`: the exact mu N less the rounded value.
     pub(crate) slip_force_rounding: f64,
     /// Argument of the first polynomial of the interpolant over the displacement, and of the others over the remaining displacement
     /// before gross slip \[1/m\].
@@ -56,11 +56,11 @@ pub struct Contact {
     /// Weights of K' in gross slip; 0 if there are none.
     pub(crate) weights_in_slip: [[f64; 4]; BLOCKS_IN_SLIP],
     pub(crate) zones: StickZones,
-    /// mu N over each parameter; over b instead of a.
+    /// Scales of the derivatives with respect to the parameters: mu N over each parameter, but over b instead of a.
     pub(crate) sensitivity_scales: Sensitivity,
     /// dχ/d(ln b): 0 unless the displacement reference depends on b/L.
     pub(crate) reference_slope: f64,
-    /// Makes the sum of all words 0, in a contact that was written by the C interface.
+    /// The C interface sets this word such that the sum of all words of a contact is 0.
     pub(crate) checksum: u64,
 }
 
@@ -121,10 +121,10 @@ impl Contact {
         Ok(contact)
     }
 
-    /// The tangential law, from geometry, stiffness, and the compliance of the layer over that of the parameters; `parameters` are b, R,
-    /// L and E*.
+    /// Adds the tangential law to a contact that has its geometry and stiffness. `under_load` is the compliance of the layer under
+    /// N over its compliance under the reference load; `parameters` are b, R, L and E*.
     fn set_friction(&mut self, normal_force: f64, under_load: f64, parameters: [f64; 4]) -> Result<(), Error> {
-        // For a friction force of 1, by the compliance under the reference load.
+        // The derivative with respect to the compliance under the reference load, for a friction force of 1.
         let by_compliance = under_load * self.stiffness_scale;
         self.sensitivity_scales[PARAMETERS - 1] = by_compliance;
         if self.friction_coefficient == 0.0 {

@@ -46,7 +46,8 @@ impl Contact {
         check_force(force, self.slip_force)
     }
 
-    /// The point of the monotonic curve at a tangential displacement \[m\]; beyond `slip_displacement` the contact is in gross slip.
+    /// The point of the monotonic curve at a tangential displacement \[m\]; the contact is in gross slip beyond
+    /// `slip_displacement`.
     /// Errors: `BadDisplacement` if the displacement is not finite, or beyond 1e150.
     pub fn curve_at_displacement(&self, displacement: f64) -> Result<CurvePoint<'_>, Error> {
         check_displacement(displacement)?;
@@ -104,7 +105,7 @@ impl CurvePoint<'_> {
         self.force_and_stiffness().0
     }
 
-    /// Tangential displacement \[m\]; in gross slip that at its onset.
+    /// Tangential displacement \[m\]; in gross slip the displacement at its onset.
     pub fn displacement(&self) -> f64 {
         self.sign
             * match self.known_by {
@@ -138,8 +139,8 @@ impl CurvePoint<'_> {
         self.stick_zone().map_or(f64::INFINITY, |zone| self.contact.zones.compliance(&zone) / unit)
     }
 
-    /// Half-width c of the stick zone \[m\]. At the onset of gross slip, a force of mu N or a displacement of `slip_displacement`, it
-    /// is the half-width a of the flat (0 for a cylinder and an ellipse); beyond that displacement it is 0.
+    /// Half-width c of the stick zone \[m\]. At the onset of gross slip (a force of mu N or a displacement of `slip_displacement`)
+    /// it is the half-width a of the flat, 0 for a cylinder and an ellipse. Beyond that displacement it is 0.
     pub fn stick_half_width(&self) -> f64 {
         self.stick_zone().map_or(0.0, |zone| self.contact.half_width * self.contact.zones.size(&zone))
     }

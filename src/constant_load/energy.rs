@@ -1,7 +1,8 @@
 //! Dissipated energy: of a cycle of prescribed amplitude (Eq. 13-16), and along a load history, by Masing's rule.
 //!
-//! One initial loading dissipates a quarter of the energy of its cycle, a branch twice that of its half range. Segments that
-//! follow each other on one branch are one segment, and only its ends are evaluated.
+//! Initial loading up to a displacement dissipates a quarter of the energy of the cycle of this amplitude. A branch dissipates half
+//! the energy of the cycle whose amplitude is its half range. Consecutive segments of one branch are joined, and only the ends are
+//! evaluated.
 
 use crate::constant_load::contact::Contact;
 use crate::constant_load::memory::StepSegment;
@@ -25,8 +26,8 @@ impl Contact {
         self.check_force(force_amplitude)
     }
 
-    /// Energy \[J\] dissipated per cycle with a displacement amplitude up to that of gross slip, and its derivative with respect to the
-    /// amplitude \[N\].
+    /// Energy \[J\] dissipated per cycle of a displacement amplitude up to the onset of gross slip, and its derivative with respect
+    /// to the amplitude \[N\].
     pub(crate) fn cycle_energy(&self, amplitude: Complement) -> (f64, f64) {
         let zones = &self.zones;
         let (load, increase) = self.load_of_energy(amplitude);
@@ -57,7 +58,7 @@ impl<'a> Dissipation<'a> {
         }
     }
 
-    /// Energy of a cycle of that displacement amplitude, up to gross slip.
+    /// Energy of a cycle between ± a displacement, at most that of gross slip.
     #[inline(never)]
     fn cycle_energy(&self, amplitude: f64) -> f64 {
         if amplitude <= 0.0 {

@@ -71,10 +71,10 @@ pub fn check_count(sliders: usize) -> Result<(), Error> {
 /// n parallel spring-sliders with the contact's monotonic curve; `emit` is called for each. Returns the maximum error of the
 /// force over mu N.
 ///
-/// The monotonic curve of the sliders is a polygon from 0 to mu N. Its maximum error is smallest if every side is below the curve of the
-/// contact by as much as every corner is above it (equioscillation). For a given error the sides are constructed one after the
-/// other: a tangent to the curve lowered by the error, up to the curve raised by it. The error for which n sides just reach mu N is
-/// found by bisection.
+/// The monotonic curve of the sliders is a polygon from 0 to mu N. Its maximum error is smallest if every side is as far below the
+/// curve of the contact as every corner is above it (equioscillation). For a given error the sides are constructed one after the
+/// other: each is tangent to the curve lowered by the error and ends on the curve raised by the error. The error for which n sides
+/// just reach mu N is found by bisection.
 /// Errors: that of [`check_count`].
 pub fn iwan(contact: &Contact, sliders: usize, mut emit: impl FnMut(SpringSlider)) -> Result<f64, Error> {
     check_count(sliders)?;
@@ -87,7 +87,7 @@ pub fn iwan(contact: &Contact, sliders: usize, mut emit: impl FnMut(SpringSlider
     while high > low * (1.0 + 1e-6) {
         let error = (low * high).sqrt();
         let before_slip = |corner: Corner, _| Some(side(zones, &corner, error).1).filter(|next| next.force < 1.0);
-        // Whether that many sides reach mu N.
+        // Whether the given number of sides reaches mu N.
         if (0..sliders).try_fold(Corner::default(), before_slip).is_none() {
             high = error;
         } else {
@@ -148,8 +148,8 @@ fn side(zones: &StickZones, from: &Corner, error: f64) -> (f64, Corner) {
     (slope, Corner { shift, force: 1.0, on_curve: 1.0 })
 }
 
-/// The root between `low`, at which the function is <= 0, and `high`, at which it is >= 0: regula falsi; if an end is kept twice in a
-/// row, its value is halved (Illinois method).
+/// The root between `low`, at which the function is <= 0, and `high`, at which it is >= 0, by regula falsi. If an end is kept twice
+/// in a row, its value is halved (Illinois method).
 fn root(function: impl Fn(f64) -> f64, low: f64, high: f64) -> f64 {
     let (mut low, mut high) = ((low, function(low)), (high, function(high)));
     let mut last = None;

@@ -1,7 +1,7 @@
 //! Evaluation of the monotonic curve at a displacement: force and tangent stiffness, from the interpolant if possible.
 //!
-//! If there is no interpolant, next to gross slip, for Λ near 0, or with a layer
-//! that bends the curve strongly, the stick zone is found by iteration.
+//! The stick zone is found by iteration next to gross slip, and everywhere if the interpolant has not converged: for Λ near 0, or
+//! with a layer that bends the curve strongly.
 
 use crate::constant_load::contact::Contact;
 use crate::constant_load::interpolant::{INNER, PIECES, piece_in_integral, piece_of, root_of};
@@ -30,13 +30,14 @@ impl Contact {
         Response { force, stiffness }
     }
 
-    /// The load at a displacement up to that of gross slip, with an accurate complement, and λ.
+    /// The load τ at a displacement up to that of gross slip, with 1 - τ accurate to rounding, and the compliance increase λ.
     pub(crate) fn load_at(&self, displacement: Complement) -> (Complement, f64) {
         let [force, remaining, stiffness] = self.at_one(displacement);
         self.load_of(Complement { consumed: force / self.slip_force.max(f64::MIN_POSITIVE), remaining }, stiffness)
     }
 
-    /// The same, for energies: next to gross slip by the polynomials of the integrals, because 1 - τ is a small part of the energy there.
+    /// The load and λ for the energy of a cycle. Next to gross slip the polynomials for integrals are accurate enough for both,
+    /// because the energy hardly depends on 1 - τ there.
     pub(crate) fn load_of_energy(&self, displacement: Complement) -> (Complement, f64) {
         let roots = self.roots(Lanes([displacement.remaining]));
         let piece = piece_in_integral(roots[0]);
@@ -59,13 +60,14 @@ impl Contact {
         self.on_piece::<1, true>(piece_of(roots[0]), roots, Lanes([consumed]), Lanes([remaining])).map(|value| value[0])
     }
 
-    /// √ρ at remaining displacements.
+    /// The roots √ρ, arguments of the interpolant, at remaining displacements.
     #[inline(always)]
     pub(crate) fn roots<const L: usize>(&self, remaining: Lanes<L>) -> Lanes<L> {
         (remaining * self.outer_scale).map(root_of)
     }
 
-    /// Tangent stiffnesses over the initial one, for integrals, at four x and remaining ρ = 1 - x over the displacement of gross slip.
+    /// Tangent stiffnesses over the initial stiffness, accurate enough for integrals, at four displacements x over that of gross
+    /// slip and at their complements ρ = 1 - x.
     pub(crate) fn relative_stiffnesses(&self, x: Lanes<4>, rho: Lanes<4>) -> Lanes<4> {
         let (displacement, remaining) = (x * self.slip_displacement, rho * self.slip_displacement);
         let roots = self.roots(remaining);
@@ -73,7 +75,8 @@ impl Contact {
         let mut stiffnesses = Lanes::ZERO;
         for k in 0..4 {
             let piece = pieces[k];
-            // All four are evaluated on a polynomial for those that are on it: in most cases all.
+            // Each polynomial is evaluated at all four, and the values at those on its piece are taken: in most cases at all of
+            // them.
             if k > 0 && pieces[..k].contains(&piece) {
                 continue;
             }
@@ -89,13 +92,13 @@ impl Contact {
         stiffnesses * (1.0 / self.initial_stiffness)
     }
 
-    /// Stiffness for a derivative by ρ of 1.
+    /// Stiffness for a derivative of 1 - τ with respect to ρ of 1.
     fn outer_stiffness(&self) -> f64 {
         self.slip_force * self.outer_scale
     }
 
-    /// Force, 1 - τ and, if requested, stiffness at displacements up to that of gross slip, all on one piece of the curve of a
-    /// contact with friction; any value on others.
+    /// Force, 1 - τ and, if requested, stiffness at displacements on one piece of the curve, up to gross slip, of a contact with
+    /// friction. At displacements on other pieces the results have no meaning.
     #[inline(always)]
     pub(crate) fn on_piece<const L: usize, const STIFFNESS: bool>(
         &self,

@@ -1,19 +1,19 @@
 //! Harmonic force of a periodic displacement in steady state: Fourier coefficients, exact Jacobian and dissipated energy.
 //!
-//! The displacement is `c0 + Σ (a_k cos kt + b_k sin kt)`. The steady state is that of the second of two periods from the initial
-//! (unloaded) state. It is entered at the displacement of largest magnitude, at which no reversal is on the stack whatever the history:
-//! one period is integrated from that instant. If only odd harmonics are present, displacement and force change their sign after half
-//! a period (half-wave symmetry), and half a period is enough.
+//! The displacement is `c0 + Σ (a_k cos kt + b_k sin kt)`. From the initial (unloaded) state, the second period is the steady
+//! state. At the displacement of largest magnitude no reversal is on the stack, whatever the history: one period is integrated from
+//! that instant. If only odd harmonics are present, displacement and force change their signs after half a period (half-wave
+//! symmetry), and half a period is enough.
 //!
-//! There are two quadrature rules. `uniform_sampling` advances the law from sample to sample; `event_driven` locates the instants at
-//! which the force is not smooth, by `motion`, and integrates between them, by `segments`. With φ the row 1, cos t, sin t, cos 2t, ...
-//! at an instant, the force on a branch that leaves reversal r has the derivative
+//! There are two quadrature rules. `uniform_sampling` advances the steady state from sample to sample. `event_driven` finds the
+//! instants at which the force is not smooth (`motion`) and integrates between them (`segments`). Let φ be the row 1, cos t, sin t,
+//! cos 2t, ... at an instant. Then the force on a branch that leaves reversal r has the derivative
 //!
 //! ```text
 //! dT = k (φ - φ_r) + dT_r
 //! ```
 //!
-//! by the coefficients of the displacement, with k the tangent stiffness; `dT_r` is stored when the reversal is passed.
+//! with respect to the coefficients of the displacement, with the tangent stiffness k; `dT_r` is stored when the motion reverses.
 
 mod event_driven;
 mod motion;
@@ -168,12 +168,12 @@ pub fn harmonic_force(
     Ok(())
 }
 
-/// Derivatives of the harmonic force with respect to the parameters of [`Sensitivity`](crate::Sensitivity) at fixed coefficients of the
-/// displacement, by the rule of the workspace: derivative of force i by parameter j at `i + (2H + 1) j`.
+/// Derivatives of the harmonic force with respect to the parameters of [`Sensitivity`](crate::Sensitivity) at fixed coefficients of
+/// the displacement, by the rule of the workspace: the derivative of force i with respect to parameter j is at `i + (2H + 1) j`.
 ///
-/// With uniform sampling they are the exact derivatives of the discrete force; event-driven, the rule applied to the exact derivatives
-/// of the integrals. Without friction or without normal force they are one-sided. The displacement is one that [`harmonic_force`]
-/// accepts.
+/// Uniform sampling gives the exact derivatives of the discrete force. The event-driven rule is applied to the exact derivatives of
+/// the integrands. Without friction or without normal force the derivatives are one-sided. The displacement must be one that
+/// [`harmonic_force`] accepts.
 pub(crate) fn harmonic_sensitivity(
     contact: &Contact,
     workspace: &mut Workspace,

@@ -33,9 +33,10 @@ impl HysteresisLoop<'_> {
     /// Force \[N\] at that instant.
     pub fn force(&self, i: usize, n: usize) -> f64 {
         let (sign, phase) = half_cycle(i, n);
-        // The distance from a reversal is amplitude (1 - cos t) = 2 amplitude sin²(t/2); the monotonic curve is evaluated at half of it.
+        // The distance from a reversal is amplitude (1 - cos t) = 2 amplitude sin²(t/2). The monotonic curve is evaluated at half
+        // of it.
         let sine = (PI * phase).sin();
-        // In gross slip the branch reaches -mu N before its end, exactly: both forces are mu N.
+        // In gross slip both forces are mu N, so that the branch reaches -mu N exactly.
         sign * (self.top - 2.0 * self.contact.response(self.amplitude * sine * sine).force)
     }
 }

@@ -3,14 +3,14 @@
 //!
 //! With the shift x and its value x_s at gross slip:
 //!
-//! - `x <= 2/5 x_s`: one polynomial in x for the secant stiffness
-//!   (11/20 x_s with a layer that bends the curve too strongly for this, and correspondingly below);
+//! - `x <= 2/5 x_s`: one polynomial in x for the secant stiffness. If a layer bends the curve too strongly for this, the fraction
+//!   is 11/20 instead of 2/5, here and below;
 //! - beyond: polynomials in sqrt(ρ), `ρ = (x_s - x)/(3/5 x_s)`, one per dyadic interval 2⁻ʲ⁻¹ < √ρ <= 2⁻ʲ, j = 0 to 4. The curve is
 //!   singular at ρ = 0 (any power of ρ^(1/3), or a logarithm), which lies three half-lengths from every interval, so that all
 //!   converge at the same rate;
-//! - the last 1/1707 of x_s: no interpolant; the closed form is inverted by Halley's method. For integrals, to which this range
-//!   adds little, polynomials in `z = (1024 ρ)^(1/8)` for (1-τ)/ρ, with an error of 1e-13 in the worst case, a flat of b/100. On a
-//!   dyadic interval of z, ρ falls by 256: six of them reach 2e-18 x_s.
+//! - the last 1/1707 of x_s: no interpolant; the closed form is inverted by iteration. For integrals, to which this range adds
+//!   little, there are polynomials in `z = (1024 ρ)^(1/8)` for (1-τ)/ρ, with an error of 1e-13 in the worst case, a flat of b/100.
+//!   On a dyadic interval of z, ρ falls by a factor of 256: six intervals reach down to 2e-18 x_s.
 //!
 //! The decrease of the tangent stiffness is interpolated and the force obtained by integration, so that the rounding errors of both
 //! scale with the curvature of the curve and not with the stiffness.
@@ -27,10 +27,11 @@ pub(crate) const INNER_FRACTION: f64 = 0.4;
 /// The fraction of the first polynomial if a layer bends the curve strongly: with 0.5 fewer curves converge.
 pub(crate) const KNEE_FRACTION: f64 = 0.55;
 
-/// Number of dyadic intervals of √ρ and of its fourth root.
+/// Number of dyadic intervals of √ρ.
 pub(crate) const PIECES: u64 = 5;
+/// Number of dyadic intervals of z.
 const LAST_PIECES: usize = 6;
-/// The smallest ρ of the first ones.
+/// The smallest ρ of the dyadic intervals of √ρ.
 const END_OF_PIECES: f64 = 1.0 / (1 << (2 * PIECES)) as f64;
 
 /// `(n+1) 8/π ∫ t^(n+1/2) (1-t)^(1/2) dt`: K' of the power n of the secant stiffness.
@@ -50,10 +51,10 @@ static CYCLE_WEIGHTS: Polynomial = {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct ForceInterpolant {
-    /// Λ τ/x over y = x/(2/5 x_s), or of the other fraction: the secant stiffness over the initial one. Then 1 - τ over 2ʲ⁺² √ρ - 3, from
-    /// -1 to 1.
+    /// First the secant stiffness over the initial stiffness, Λ τ/x, as a function of y = x/(2/5 x_s), or with the other fraction.
+    /// Then 1 - τ on the dyadic intervals, as functions of 2ʲ⁺² √ρ - 3, which goes from -1 to 1.
     pieces: [Polynomial; 1 + PIECES as usize],
-    /// (1 - τ)/ρ over 2ʲ⁺² z - 3.
+    /// (1 - τ)/ρ on the dyadic intervals of z, as functions of 2ʲ⁺² z - 3.
     last: [Polynomial; LAST_PIECES],
     /// 1 if all polynomials are accurate to rounding; 0 if the curvature is too strong, for Λ near 0 or with a layer.
     converged: u64,
@@ -103,8 +104,8 @@ impl ForceInterpolant {
         self.converged != 0
     }
 
-    /// K' over the initial stiffness and its derivative with respect to y, for cycles up to y = 1: `8/π ∫ sqrt(t (1-t)) tⁿ dt` of each
-    /// power of the tangent stiffness.
+    /// K' over the initial stiffness and its derivative with respect to y, for cycles up to y = 1: each power of the tangent
+    /// stiffness contributes `8/π ∫ sqrt(t (1-t)) tⁿ dt`.
     pub fn cycle_stiffness(&self, y: f64) -> Option<(f64, f64)> {
         let mut powers = self.pieces[0];
         for (row, weights) in powers.iter_mut().zip(&CYCLE_WEIGHTS) {
@@ -113,12 +114,13 @@ impl ForceInterpolant {
         self.is_converged().then_some(value_and_slope(&powers, y))
     }
 
-    /// The secant stiffness over the initial one at places y = x/(2/5 x_s), at most 1, if converged.
+    /// The polynomial of the secant stiffness over the initial stiffness for y up to 1, if converged.
     pub fn secant(&self) -> &Polynomial {
         &self.pieces[0]
     }
 
-    /// 1 - τ and, if requested, its derivative with respect to ρ at roots √ρ of a piece, if converged; any value at other roots.
+    /// 1 - τ and, if requested, its derivative with respect to ρ at roots √ρ on one piece, if converged. At other roots the results
+    /// have no meaning.
     #[inline(always)]
     pub fn complements_and_slopes<const L: usize, const SLOPES: bool>(
         &self,
@@ -130,8 +132,8 @@ impl ForceInterpolant {
         (remaining, if SLOPES { power * slope / root } else { slope })
     }
 
-    /// (1 - τ)/ρ, and the derivatives of 1 - τ with respect to ρ, at roots √ρ of a piece of [`piece_in_integral`] beyond those of the force, if
-    /// converged; any values elsewhere.
+    /// (1 - τ)/ρ, and the derivatives of 1 - τ with respect to ρ, at roots √ρ on one piece for integrals, a result of
+    /// [`piece_in_integral`] above `PIECES`, if converged. At other roots the results have no meaning.
     #[inline(never)]
     pub fn last_values_and_slopes<const L: usize>(&self, piece: u64, roots: Lanes<L>) -> [Lanes<L>; 2] {
         let j = (piece - 1 - PIECES) / 4;
@@ -144,20 +146,21 @@ impl ForceInterpolant {
     }
 }
 
-/// The root of ρ, at least a positive one.
+/// The root √ρ, positive also for ρ = 0.
 pub(crate) fn root_of(rho: f64) -> f64 {
     rho.max(TINY).sqrt()
 }
 
-/// The piece of the first polynomial; those of the dyadic intervals of √ρ follow, up to number `PIECES`.
+/// The number of the piece of the first polynomial. The pieces of the dyadic intervals of √ρ have the numbers 1 to `PIECES`.
 pub(crate) const INNER: u64 = 0;
 
-/// The piece of a root √ρ, by its exponent: on each of them it falls by 2.
+/// The piece of a root √ρ, from its binary exponent: √ρ falls by a factor of 2 on each piece.
 pub(crate) fn piece_of(root: f64) -> u64 {
     1023u64.wrapping_sub(root.to_bits() >> 52)
 }
 
-/// The piece of a root √ρ in an integral: beyond the pieces of the force it is the first of four on which ρ falls by 256, at most the last one.
+/// The piece of a root √ρ in an integral. Above `PIECES`, four numbers belong to one piece, on which ρ falls by a factor of 256; it
+/// has the first of them. The last piece has all smaller roots.
 pub(crate) fn piece_in_integral(root: f64) -> u64 {
     let piece = piece_of(root);
     if piece > PIECES { PIECES + 1 + ((piece - 1 - PIECES).min(4 * LAST_PIECES as u64 - 1) & !3) } else { piece }
@@ -168,7 +171,7 @@ pub(crate) fn power_of_2(j: u64) -> f64 {
     f64::from_bits((1023 + j) << 52)
 }
 
-/// (1 - τ)/ρ beyond the dyadic intervals of √ρ.
+/// The polynomials of (1 - τ)/ρ beyond the dyadic intervals of √ρ.
 fn last_pieces(
     compliance: f64,
     remaining: f64,
@@ -190,8 +193,9 @@ fn last_pieces(
     last
 }
 
-/// 1 - τ over a dyadic interval, and whether it has converged: the integral of `unit (3+z)/(Λ + λ)`, with a constant that fits the
-/// values of 1 - τ. The compliance at the first point gives a parabola; the difference from it is interpolated.
+/// The polynomial of 1 - τ on a dyadic interval, and whether it has converged. It is the integral of `unit (3+z)/(Λ + λ)`, with the
+/// constant that fits the values of 1 - τ. The compliance at the first point gives a parabola, and the difference from it is
+/// interpolated.
 #[inline(never)]
 fn interpolate(compliance: f64, unit: f64, at: &mut dyn FnMut(f64) -> LoadPoint, tolerance: f64) -> (Polynomial, bool) {
     let (mut sum, mut first) = (0.0, None);

@@ -1,6 +1,6 @@
 //! Masing's rule (Eq. 11, 12): force, tangent stiffness and dissipated energy along any history of displacements.
 //!
-//! A branch that leaves a reversal is the monotonic curve twice as large, `|δ-δ_r| = 2 δ_m(|T-T_r|/2)`, measured from its reversal.
+//! A branch that leaves a reversal is the monotonic curve scaled by 2 and measured from its reversal: `|δ-δ_r| = 2 δ_m(|T-T_r|/2)`.
 
 use crate::constant_load::ConstantLoad;
 use crate::constant_load::contact::Contact;
@@ -11,7 +11,7 @@ use crate::constant_load::interpolant::piece_of;
 use crate::constant_load::memory::{Branch, InitialCurve, Memory, Merge, Point, Transition, force_error, push, within};
 use crate::constant_load::state::{self, HEADER, PER_REVERSAL};
 use crate::error::Error;
-use crate::law::{Law, Requested, StepOf, StepResult};
+use crate::law::{Law, LawStep, Requested, StepResult};
 use crate::limits::{check_coefficients, check_displacement};
 use crate::numerics::fp_class::is_finite;
 use crate::numerics::lanes::Lanes;
@@ -30,8 +30,8 @@ impl Branch {
         Response { force: within(contact.slip_force, force), stiffness }
     }
 
-    /// Forces, and stiffnesses if requested, at `count` displacements in the order of the branch, which is not gross slip. Blocks of four
-    /// are read and written from any of them on; the first two arrays are scratch memory.
+    /// Forces, and stiffnesses if requested, at `count` displacements in the order of the branch, which is not gross slip. Blocks
+    /// of four values are read and written, beyond `count` too; the first two arrays are scratch memory.
     #[inline(never)]
     pub fn along<const STIFFNESS: bool>(
         &self,
@@ -42,7 +42,7 @@ impl Branch {
         [forces, stiffnesses]: [&mut [f64]; 2],
     ) {
         let (slip, limit, factor) = (contact.slip_displacement, contact.slip_force, self.direction * self.scale);
-        // What is behind the last one, gross slip perhaps, is replaced by it.
+        // Displacements behind the last one may be in gross slip: they are replaced by it.
         let last = self.distance(slip, displacement.or_zero(count.saturating_sub(1)));
         let blocks = distances.blocks_mut().iter_mut().zip(roots.blocks_mut()).zip(displacement.blocks::<4>());
         for ((distances, roots), x) in blocks.take(count.div_ceil(4) + 1) {
@@ -63,7 +63,7 @@ impl Branch {
             if STIFFNESS {
                 *stiffness = *slopes;
             }
-            // Seldom fewer than all. What is behind the last one may be on any piece.
+            // In most cases all four are on one piece. Those behind the last one may be on any piece.
             let same = [second, third].into_iter().take_while(|other| *other == piece).count();
             next += if fourth == piece && next + 4 <= count { 4 } else { 1 + same };
         }
@@ -73,8 +73,8 @@ impl Branch {
 /// Relative change of a displacement by decimal text of 15 digits, at most.
 const TEXT: f64 = 1e-14;
 
-/// The transition of a step, its response, and the energy that it dissipates if requested; state and displacement \[m\] are checked.
-fn step(contact: &Contact, state: &[f64], displacement: f64, has_energy: bool) -> (Transition, StepOf<ConstantLoad>) {
+/// The transition and the result of a step, with the energy if requested; state and displacement \[m\] are checked.
+fn step(contact: &Contact, state: &[f64], displacement: f64, has_energy: bool) -> (Transition, LawStep<ConstantLoad>) {
     let memory = state::memory(state);
     let mut energy = has_energy.then(|| Dissipation::new(contact));
     let mut transition = memory.locate(contact, displacement, |segment| {
@@ -142,8 +142,8 @@ impl Law for ConstantLoad {
         {
             return Err(Error::BadState);
         }
-        // Each lies between the two before it; the oldest and its mirror point enclose all others. If rounding has moved one onto the
-        // one before it, the direction of the branch between them is lost.
+        // Each reversal lies between the two before it; the oldest and its mirror point enclose all others. If rounding has moved a
+        // reversal onto the one before it, the direction of the branch between them is lost.
         if let Some(([oldest, ..], later)) = reversals.split_first() {
             let (mut before, mut last) = (2.0 * offset - oldest, *oldest);
             for displacement in later.iter().map(|[displacement, ..]| *displacement).chain([now.displacement]) {
@@ -170,11 +170,11 @@ impl Law for ConstantLoad {
         steps(copy);
     }
 
-    fn trial(contact: &Contact, state: &[f64], displacement: f64, requested: Requested) -> StepOf<ConstantLoad> {
+    fn trial(contact: &Contact, state: &[f64], displacement: f64, requested: Requested) -> LawStep<ConstantLoad> {
         step(contact, state, displacement, requested.energy).1
     }
 
-    fn advance(contact: &Contact, state: &mut [f64], displacement: f64, requested: Requested) -> StepOf<ConstantLoad> {
+    fn advance(contact: &Contact, state: &mut [f64], displacement: f64, requested: Requested) -> LawStep<ConstantLoad> {
         let memory = state::memory(state);
         let Memory { initial, now, .. } = memory;
         // Most steps only move the present point along its branch: without energy they need neither the stack nor the header.

@@ -60,7 +60,7 @@ pub(crate) struct Branch {
     pub start: Point,
     /// +1 or -1.
     pub direction: f64,
-    /// Displacement at which it ends: at the reversal before its own, at a mirror point, or at the onset of gross slip.
+    /// Displacement at which it ends: of the reversal before its own, of a mirror point, or at the onset of gross slip.
     pub end: f64,
     /// Masing scale: 2 after a reversal, 1 on the initial loading curve.
     pub scale: f64,
@@ -166,8 +166,8 @@ impl Memory<'_> {
         }
     }
 
-    /// The branch of the present point, if a displacement lies on it ahead of that point and before its end, without gross slip;
-    /// `None` without friction. What [`Memory::locate`] finds then.
+    /// The branch of the present point, if a displacement lies on it ahead of that point and before its end, without gross slip.
+    /// The result is that of [`Memory::locate`], without its other cases; `None` in these, and without friction.
     pub fn branch_ahead(&self, contact: &Contact, target: f64) -> Option<Branch> {
         let is_gross_slip = self.reversals.is_empty() && self.initial.slip_direction != 0.0;
         if is_gross_slip || contact.is_frictionless() {
@@ -179,8 +179,8 @@ impl Memory<'_> {
         (heading * advance > 0.0 && (branch.end - target) * advance > 0.0).then_some(branch)
     }
 
-    /// Locates the branch on which a displacement lies, closing loops on the way; `on_segment` is called for each segment.
-    /// A step of zero continues the present branch. Without friction there is nothing to remember.
+    /// Locates the branch on which a displacement lies, closing loops on the way; `on_segment` is called for each segment. A step
+    /// of zero continues the present branch. Without friction the result is the initial loading curve, and there are no segments.
     pub fn locate(&self, contact: &Contact, target: f64, mut on_segment: impl FnMut(StepSegment)) -> Transition {
         let from = self.now.displacement;
         let heading = self.heading();
@@ -243,8 +243,8 @@ pub(crate) fn within(limit: f64, force: f64) -> f64 {
     if force < -limit { -limit } else { force }
 }
 
-/// Pushes a reversal on a stack of `depth`, whose length is its capacity, 2 at least. A full stack is merged first. Returns the depth
-/// after it, and by how much the merge has shifted the force.
+/// Pushes a reversal on a stack of the given depth. The length of the stack is its capacity, at least 2; two reversals of a full
+/// stack are merged first. Returns the new depth, and by how much the merge has shifted the force.
 pub(crate) fn push(
     contact: &Contact,
     offset: f64,
@@ -272,10 +272,10 @@ pub(crate) fn push(
 /// [F(B) - F(C)] - [F(A) - F(A - B + C)]  >= 0,
 /// ```
 ///
-/// by which all forces from 4 on are shifted. Under any later motion each of them can only shrink, until the loop of reversal 1 is
-/// closed. So this sum, with the errors of the branches that leave 1 and 3, bounds the error of the branch that leaves 1 from now on.
-/// The branch that leaves 2 is gone with its error. The mirror point of the oldest reversal serves as the one before it: both describe
-/// the same memory.
+/// by which all forces from 4 on are shifted. Under any later motion each of these slider forces can only shrink, until the loop of
+/// reversal 1 is closed. So this sum, plus the errors of the branches that leave 1 and 3, bounds the error of the branch that
+/// leaves 1 from now on. The branch that leaves 2 is gone with its error. The oldest reversal has no neighbour before it; its
+/// mirror point takes that place, because both describe the same memory.
 pub(crate) struct Merge {
     /// Index of the first reversal of the pair.
     pair: usize,
@@ -295,12 +295,12 @@ fn mirror(offset: f64, [displacement, force, _]: Reversal) -> Reversal {
 }
 
 impl Merge {
-    /// The pair after whose removal the bound on the error is smallest, if a reversal at `newest` is to be stored next.
+    /// The pair whose removal gives the smallest bound on the error of the force, if a reversal at `newest` is stored next.
     #[cold]
     #[inline(never)]
     pub fn new(contact: &Contact, offset: f64, reversals: &[Reversal], newest: f64) -> Merge {
         let range = |[from, ..]: Reversal, [to, ..]: Reversal| (to - from).abs();
-        // A few roundings of forces of up to mu N, and of the mirror point.
+        // The rounding errors of some forces of up to mu N, and of the mirror point.
         let mirrored = contact.initial_stiffness * (offset.abs() + reversals.first().map_or(0.0, |[d, ..]| d.abs()));
         let rounding = 16.0 * f64::EPSILON * (contact.slip_force + mirrored);
         let at = |i: usize| reversals.get(i).copied().unwrap_or([newest, 0.0, 0.0]);
@@ -313,7 +313,8 @@ impl Merge {
             let [inner, outer] =
                 [(b, c), (a, (a - (b - c)).max(0.0))].map(|(long, short)| branch_force_between(contact, short, long));
             let change = if inner > outer { inner - outer } else { 0.0 };
-            // The branch that leaves `one` has the other direction, and its error ends.
+            // Errors of the direction of the branch before the pair, and of the other one, to which the branch that leaves `one`
+            // belongs.
             let (same, other) = (sums[(pair + 1) % 2] + change + rounding, sums[pair % 2] - one[2]);
             if same < least && other < least {
                 let shift = if one[0] < before[0] { -change } else { change };

@@ -7,16 +7,16 @@
 //! 2πR u/μ = ∫ Λ(c) dg, g from g_c to g_b,   T = μN τ,   g_b = 4RN/(LE*),   Λ(c) = ln(2L/c) + χ,   dc/da = sin ψ/ψ at constant g.
 //! ```
 //!
-//! The differential of both, divided by μN, with Λ_c = Λ + λ, `χ' = dχ/d(ln b)`, `β = d(ln b)/d(ln g_b)` and the moments of the
-//! curvature h'' from 0 to τ:
+//! The differential of both, divided by μN, with Λ_c = Λ + λ, `χ' = dχ/d(ln b)`, `b' = d(ln b)/d(ln g_b)` and the moments of the
+//! curvature h'' from 0 to τ, is
 //!
 //! ```text
-//! N dT/dN   = [λ - β τ χ'] / Λ_c
+//! N dT/dN   = [λ - b' τ χ'] / Λ_c
 //! μ dT/dμ   = [∫ t h'' dt] / Λ_c
 //! b dT/da   = [∫ (4 b c sin ψ/g_b) h'' dt - τ χ' sin ψ_b/ψ_b] / Λ_c
-//! R dT/dR   = [∫ (1-t) h'' dt - β τ χ'] / Λ_c
-//! L dT/dL   = [τ (Λ - 1 + χ' (1 + β)) - (1-τ) λ] / Λ_c
-//! E* dT/dE* = [τ Λ - (1-τ) λ + β τ χ'] / Λ_c
+//! R dT/dR   = [∫ (1-t) h'' dt - b' τ χ'] / Λ_c
+//! L dT/dL   = [τ (Λ - 1 + χ' (1 + b')) - (1-τ) λ] / Λ_c
+//! E* dT/dE* = [τ Λ - (1-τ) λ + b' τ χ'] / Λ_c
 //! ```
 //!
 //! No term is a difference of larger ones, so small displacements keep their accuracy. χ' is 0 for `MSLIP_CENTRE_POINT`. For an
@@ -30,8 +30,8 @@ use crate::limits::check_displacement;
 use crate::parameters::{PARAMETERS, Sensitivity, times};
 
 impl Contact {
-    /// Derivatives of the force of the monotonic curve at a fixed displacement \[m\]; beyond `slip_displacement` those of mu N. Without
-    /// friction or without normal force they are one-sided: those of mu N.
+    /// Derivatives of the force of the monotonic curve at a fixed displacement \[m\]; beyond `slip_displacement` those of mu N.
+    /// Without friction or without normal force they are one-sided: those of mu N.
     /// Errors: `BadDisplacement` if the displacement is not finite, or beyond 1e150.
     pub fn monotonic_sensitivity(&self, displacement: f64) -> Result<Sensitivity, Error> {
         check_displacement(displacement)?;
@@ -44,7 +44,7 @@ impl Contact {
         [by_normal_force, by_friction, 0.0, 0.0, 0.0, 0.0, 0.0]
     }
 
-    /// The derivatives at a displacement >= 0.
+    /// The derivatives of the force at a displacement >= 0.
     #[inline(never)]
     pub(crate) fn sensitivity(&self, displacement: f64) -> Sensitivity {
         if displacement > self.slip_displacement {
@@ -54,13 +54,13 @@ impl Contact {
         core::array::from_fn(|parameter| shares[parameter] * self.sensitivity_scales[parameter])
     }
 
-    /// The derivatives over the scales. Those of a contact with a layer are, at the same force, those of the contact alone over the
-    /// compliance of both, but for the displacement of the layer.
+    /// The derivatives over the scales. A layer adds its compliance to the denominator of the derivatives of the contact at the
+    /// same force, and its displacement adds terms of its own.
     fn shares(&self, displacement: f64) -> Sensitivity {
         let (zones, layer) = (&self.zones, &self.zones.layer);
         let (load, increase) = self.load_at(self.before_slip(displacement));
         let moments = zones.moments(load, increase);
-        let (tau, full_stick) = (load.consumed, zones.contact.compliance);
+        let (tau, full_stick) = (load.consumed, zones.small_load_without_layer.compliance);
         let [by_load, by_flat] = zones.size_slopes();
         let slope = self.reference_slope;
         let reference = slope * by_load * tau;

@@ -1,4 +1,4 @@
-//! Interpolation at Chebyshev points, of values or of values and slopes. For a smooth function the trailing coefficients estimate the error.
+//! Interpolation of values and slopes at Chebyshev points. For a smooth function the trailing coefficients estimate the error.
 
 use super::const_math::{cosine, tabulate};
 use crate::numerics::polynomial::PolynomialRows;
@@ -29,7 +29,7 @@ const fn powers_in<const N: usize>(shift: f64, scale: f64) -> [[f64; N]; N] {
     table
 }
 
-/// The same for the last M of them, divided by their leading coefficients.
+/// Coefficients of the powers of z in the last M of the polynomials T_n(shift + scale z), n < N, each over its leading coefficient.
 pub(crate) const fn monic_powers<const N: usize, const M: usize>(shift: f64, scale: f64) -> [[f64; N]; M] {
     let powers = powers_in::<N>(shift, scale);
     tabulate!(M, |m| tabulate!(N, |k| powers[N - M + m][k] / powers[N - M + m][N - M + m]))
@@ -40,7 +40,7 @@ static AROUND_MIDDLE: [[f64; 32]; 32] = powers_in(0.0, 1.0);
 /// Expansion about the lower end, in powers of y = (1+z)/2 from 0 to 1.
 static FROM_END: [[f64; 24]; 24] = powers_in(-1.0, 2.0);
 
-/// 1/n, from n = 1. A vectorised division may have an unused lane that divides by 0.
+/// 1/n, from n = 1: a table, because a vectorised division may divide by 0 in an unused lane (see `guard`).
 pub(crate) static RECIPROCALS: [f64; TERMS] = tabulate!(TERMS, |n| 1.0 / (n as f64 + 1.0));
 
 /// Value and slope of a function at a point.
@@ -159,8 +159,8 @@ fn add_rows<const M: usize>(sums: &mut [f64], factors: impl Iterator<Item = f64>
     }
 }
 
-/// Adds the polynomials of a table of the given width, of degrees 0, 1, ..., each times its factor. One function for all lengths, for each
-/// of which the compiler would unroll it.
+/// Adds the polynomials of degrees 0, 1, ... in the rows of a table of the given width, each times its factor. One function serves
+/// all lengths; the compiler would unroll it for each of them.
 #[inline(never)]
 fn add_triangle(powers: &mut [f64], factors: &[f64], table: &[f64], width: usize) {
     for ((factor, row), terms) in factors.iter().zip(table.chunks_exact(width.max(1))).zip(1..) {
@@ -168,8 +168,8 @@ fn add_triangle(powers: &mut [f64], factors: &[f64], table: &[f64], width: usize
     }
 }
 
-/// Powers of z of a Chebyshev series, without the terms at its end that are rounding errors or exceed the rows: their derivatives would
-/// be n² times as large.
+/// Coefficients of the powers of z of a Chebyshev series. The terms at its end that are rounding errors, or exceed the rows, are
+/// left out: their derivatives would be n² times as large.
 pub(crate) fn powers<const R: usize>(series: &[f64]) -> PolynomialRows<R> {
     let mut result = [[0.0; 4]; R];
     add_powers(result.as_flattened_mut(), series);

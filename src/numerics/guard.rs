@@ -1,9 +1,13 @@
 //! Quotients and roots that no value makes infinite, NaN or a trap.
 //!
-//! Compilers divide before they compare: `if b > 0 { a / b } else { 0 }` may divide by 0 and set the flag that a program traps. Two
-//! choices by one comparison are joined into one, too. So divisors and radicands are limited by a maximum, which no optimisation
-//! removes. They also compute quotients of different numbers in one vector, with a product or with nothing beside them, and divide by what is
-//! there: sums of products with one reciprocal are safe, and four quotients at once.
+//! A compiler may divide first and select afterwards: `if b > 0 { a / b } else { 0 }` may compute a/0, which sets a floating-point
+//! flag on which the application may trap. Choosing the divisor by a comparison of its own does not help, because the compiler
+//! joins the two comparisons. So divisors and square roots take the maximum of their argument and a bound, which no optimisation
+//! removes.
+//!
+//! A compiler may also place a quotient in a vector register next to unrelated numbers and divide by these as well. Therefore a
+//! formula with several quotients multiplies by one reciprocal, or divides four numbers at once, or is in a function that is never
+//! inlined.
 
 use super::lanes::Lanes;
 use core::ops::Div;

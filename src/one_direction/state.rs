@@ -8,7 +8,7 @@
 use crate::element::{Directions, Element, Normal};
 use crate::error::{Error, ensure};
 use crate::fourier::workspace::records;
-use crate::law::{Law, Requested, StepOf, StepResult};
+use crate::law::{Law, LawStep, Requested, StepResult};
 use crate::limits::check_displacement;
 use crate::numerics::fp_class::is_finite;
 use crate::numerics::total::PanicFreeSlice;
@@ -146,13 +146,13 @@ impl Law for OneDirection {
         steps(copy);
     }
 
-    fn trial(element: &Element, state: &[f64], displacement: [f64; 2], requested: Requested) -> StepOf<Self> {
+    fn trial(element: &Element, state: &[f64], displacement: [f64; 2], requested: Requested) -> LawStep<Self> {
         let (header, mut knots) = read(state);
         step(element, &header, &mut knots, displacement, requested.energy).0
     }
 
     #[inline(never)]
-    fn advance(element: &Element, state: &mut [f64], displacement: [f64; 2], requested: Requested) -> StepOf<Self> {
+    fn advance(element: &Element, state: &mut [f64], displacement: [f64; 2], requested: Requested) -> LawStep<Self> {
         let Some((header, knots)) = state.split_first_chunk_mut::<HEADER>() else { return StepResult::NONE };
         let mut polygon = Polygon::new(element.friction_coefficient, knots, used_knots(header));
         let (step, to) = step(element, &Header::read(header), &mut polygon, displacement, requested.energy);

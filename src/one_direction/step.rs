@@ -1,7 +1,7 @@
 //! A step from a point and its diagram, and the contact that opens or closes in it.
 
 use crate::element::{Element, Normal};
-use crate::law::{StepOf, StepResult};
+use crate::law::{LawStep, StepResult};
 use crate::one_direction::OneDirection;
 use crate::one_direction::diagram::{self, Diagram, Knot};
 use crate::one_direction::energy::{self, StepPath};
@@ -45,7 +45,7 @@ pub(crate) fn step(
     diagram: &mut impl Diagram,
     [displacement, input]: [f64; 2],
     with_energy: bool,
-) -> (StepOf<OneDirection>, Header) {
+) -> (LawStep<OneDirection>, Header) {
     if !(element.is_closed(input) && from.normal.load > 0.0 && element.friction_coefficient > 0.0) {
         return opening_or_closing(element, from, diagram, [displacement, input], with_energy);
     }
@@ -76,7 +76,7 @@ fn opening_or_closing(
     diagram: &mut impl Diagram,
     [displacement, input]: [f64; 2],
     with_energy: bool,
-) -> (StepOf<OneDirection>, Header) {
+) -> (LawStep<OneDirection>, Header) {
     let friction = element.friction_coefficient > 0.0;
     let (was_closed, closed) = (from.normal.load > 0.0, element.is_closed(input));
     let normal = if closed { element.normal(input) } else { Normal::OPEN };

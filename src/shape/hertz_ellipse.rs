@@ -7,8 +7,8 @@
 //! U = (3/2) C_n N0 n^(2/3),   S = (3/2) C_t N0 n^(2/3),   Λ = C n^(-1/3),   M = (2/5) N S.
 //! ```
 //!
-//! The displacement at the centre under `T/(2πbl) (1 - x²/b² - y²/l²)^(-1/2)` (Boussinesq, and Cerruti's Eq. 5) gives sums over both
-//! bodies,
+//! The displacement at the centre under `T/(2πbl) (1 - x²/b² - y²/l²)^(-1/2)` (Boussinesq, and Cerruti's Eq. 5) gives sums over
+//! both bodies,
 //!
 //! ```text
 //! C_n = Σ (1-ν²)/(πE) J,      C_t = Σ (1+ν)/(πE) [(1-ν) J + ν J_cos],
@@ -71,7 +71,7 @@ impl Geometry for EllipticParameters {
 
     /// The largest size, with loads and displacements up to 2^498.
     fn largest_size(&self, shape: &Shape, _directions: usize) -> Result<f64, Error> {
-        // The approach, free of overflow.
+        // The approach must not overflow.
         for axis in [self.semi_axis_x, self.semi_axis_y] {
             quotient_in_range(&[self.normal_force], &[axis, shape.composite_modulus])?;
         }
@@ -110,7 +110,7 @@ pub fn near_shift(_: &Size, load: f64) -> f64 {
     (load / 1.5).sqrt()
 }
 
-/// Differences of the pressure `sqrt(s² - x²)` of a size.
+/// The difference of the pressures `sqrt(s² - x²)` of two sizes.
 pub fn pressure(_: &Size, [from, _, squares]: [f64; 3], point: &SurfacePoint) -> f64 {
     let outer = point.from_edge * (1.0 + point.x);
     0.375 * difference_of_heights(outer, (from - point.x) * (from + point.x), squares)
@@ -120,7 +120,7 @@ pub fn slip(_: &Size, _: &SurfacePoint) -> f64 {
     f64::NAN
 }
 
-/// The series of an ellipse, binomial ones: N scales as the powers 3/2 of U and of S.
+/// The series of an ellipse are binomial: N scales as U and S to the power 3/2.
 pub fn series(_: &Size, shape: &Shape, leg: f64, argument: Quantity) -> [Series; 3] {
     let binomial = |value: f64, exponent: f64| -> Series {
         let mut term = value;
@@ -131,8 +131,8 @@ pub fn series(_: &Size, shape: &Shape, leg: f64, argument: Quantity) -> [Series;
         })
     };
     let size = shape.size(leg);
-    let [approach, shift] =
-        [Quantity::Approach, Quantity::Shift].map(|quantity| shape.own_sums(shape.of(quantity), &size, size.load())[0]);
+    let [approach, shift] = [Quantity::Approach, Quantity::Shift]
+        .map(|quantity| shape.own_sums(shape.compliance_coefficients(quantity), &size, size.load())[0]);
     let load = shape.load(leg);
     if argument == Quantity::Load {
         let power = binomial(1.0, 2.0 / 3.0);

@@ -1,4 +1,5 @@
-//! Kernels: the compliance of a flat punch of half-width s, but for a factor and a constant, as every punch of a shape has it.
+//! Kernels: the compliance of a flat punch as a function of its half-width s, except for a factor and a constant, which all punches
+//! of a shape have in common.
 
 use crate::numerics::guard::{TINY, quotient};
 
@@ -19,7 +20,7 @@ impl Kernel {
         }
     }
 
-    /// ds/s over the decrease of the value, and the power of s by which that grows.
+    /// The relative growth ds/s over the decrease of the kernel that it causes, and the power of s with which this ratio grows.
     pub fn reach(self, half_width: f64) -> (f64, f64) {
         match self {
             Kernel::Line => (1.0, 0.0),
@@ -27,7 +28,7 @@ impl Kernel {
         }
     }
 
-    /// The value less that of s = 1, given also 1 - s².
+    /// The increase of the kernel from s = 1 down to s, given s and 1 - s².
     pub fn increase(self, half_width: f64, squares: f64) -> f64 {
         let square = half_width * half_width;
         match self {
@@ -37,7 +38,7 @@ impl Kernel {
         }
     }
 
-    /// 1 - s², the inverse of `increase`.
+    /// 1 - s² at a given increase of the kernel: the inverse of `increase`.
     pub fn squares(self, increase: f64) -> f64 {
         match self {
             Kernel::Line => -(-2.0 * increase).exp_m1(),

@@ -1,7 +1,7 @@
 //! A compliant layer in series with a contact: roughness, a coating, the body around the contact, the rig.
 //!
-//! Contact and layer carry the same forces N and T, and have one friction coefficient. Then both have the same memory diagram over the
-//! load, so that their displacements add up: the pair is the contact with the sums of U, S and M
+//! Contact and layer carry the same forces N and T, and have one friction coefficient. Then both have the same memory diagram over
+//! the load, so that their displacements add up: the pair is the contact with the sums of U, S and M
 //! ([derivation](../../../docs/derivation.md)). Under its reference load N_r the layer has the compliances c_n and c_t, and its
 //! stiffness grows in proportion to N + N_c:
 //!
@@ -9,9 +9,8 @@
 //! U2 = c_n (N_r + N_c) ln(1 + N/N_c),   S2 = (c_t/c_n) U2,   M2 = ∫ N dS2 = c_t (N_r + N_c) [N - N_c ln(1 + N/N_c)]
 //! ```
 //!
-//! N_c infinite: U2 = c_n N, M2 = c_t N²/2. A shape has the sums at a size, `stick_zone` those between two sizes. Of the laws,
-//! `contact` brings the layer into its units, `interpolant` and `curve` follow the knee of a small N_c, `sensitivity`
-//! differentiates by the layer, and `element` adds it along y.
+//! For an infinite N_c these are U2 = c_n N and M2 = c_t N²/2. A shape adds them to its sums at a size, a stick zone to the
+//! differences between two sizes.
 
 use crate::error::{Error, ensure};
 use crate::limits::in_range;
@@ -36,7 +35,8 @@ pub(crate) struct LayerCompliance {
 const MOST_COMPLIANT: f64 = (1u64 << 40) as f64;
 
 impl LayerCompliance {
-    /// The layer of parameters that were checked, N > 0, and its compliance under N over that of the parameters.
+    /// The layer, and the ratio of its compliance under N to its compliance under the reference load; for checked parameters and N
+    /// > 0.
     /// Errors: `BadReferenceLoad` if the compliance under N is more than 2^40 times that of the parameters; `BadNormalCompliance`,
     /// `BadTangentialCompliance` if it, or the displacement, is not representable.
     pub fn new(parameters: &parameters::Layer, normal_force: f64) -> Result<(LayerCompliance, f64), Error> {
@@ -71,8 +71,8 @@ impl LayerCompliance {
         self.normal == 0.0 && self.tangential == 0.0
     }
 
-    /// Errors: `BadNormalCompliance`, `BadTangentialCompliance` if the layer hides the contact: given the normal and tangential
-    /// compliance of both under a load.
+    /// Checks that the layer does not hide the contact, given the normal and tangential compliance of both together under a load.
+    /// Errors: `BadNormalCompliance`, `BadTangentialCompliance`.
     pub fn check_share(&self, load: f64, [normal, tangential]: [f64; 2]) -> Result<(), Error> {
         let hides = |layer: f64, both: f64| layer * self.softness(load) > (1.0 - 1.0 / MOST_COMPLIANT) * both;
         ensure(!hides(self.normal, normal), Error::BadNormalCompliance)?;
@@ -91,13 +91,14 @@ impl LayerCompliance {
         if x < 1e-8 { load * (1.0 - 0.5 * x) } else { quotient(x.ln_1p(), self.stiffening) }
     }
 
-    /// The load at which [`LayerCompliance::extent`] has a value, at most a value of the size of the largest loads.
+    /// The load at which [`LayerCompliance::extent`] has a given value; the exponential is bounded at the magnitude of the largest
+    /// loads.
     pub fn load_of_extent(&self, extent: f64) -> f64 {
         let x = self.stiffening * extent;
         if x < 1e-8 { extent * (1.0 + 0.5 * x) } else { x.min(345.0).exp_m1() / self.stiffening.max(TINY) }
     }
 
-    /// dU2/dN and dS2/dN over the compliance without load.
+    /// The compliance dU2/dN or dS2/dN under a load over the compliance without load.
     pub fn softness(&self, load: f64) -> f64 {
         1.0 / (1.0 + self.stiffening * load)
     }
@@ -112,7 +113,7 @@ impl LayerCompliance {
         self.tangential * self.softness(load)
     }
 
-    /// 1/(N + N_c): the derivative of the stiffness by the load, over the stiffness.
+    /// 1/(N + N_c): the derivative of the stiffness with respect to the load, over the stiffness.
     pub fn hardening(&self, load: f64) -> f64 {
         self.stiffening * self.softness(load)
     }
@@ -128,7 +129,7 @@ impl LayerCompliance {
         load * (self.tangential * load) * logarithm_remainder(self.stiffening * load)
     }
 
-    /// Taylor coefficients of the extent about a load N, for the load N (1 + ε): those of `N_c ln(1 + ωε)`, `ω = N/(N + N_c)`.
+    /// Taylor coefficients of the extent at the load N (1 + ε): of `N_c ln(1 + ωε)`, with `ω = N/(N + N_c)`.
     pub fn series(&self, load: f64) -> Series {
         let mut series = [0.0; ORDER];
         let ratio = self.stiffening * load * self.softness(load);
@@ -142,19 +143,19 @@ impl LayerCompliance {
     }
 }
 
-/// The layer in the curve under a constant normal force, which is the unit of loads: with the consumed load
-/// `z = τ/(1 + (1-τ) N/N_c)` in the unit of that which the layer carries at the stick zone,
+/// The layer in the monotonic curve, with the constant normal force as the unit of loads. Under a tangential force τ it has the
+/// shift that it would have alone under the load `z = τ/(1 + (1-τ) N/N_c)`:
 ///
 /// ```text
 /// x2 = S2(1) - S2(1-τ) = S2(z),      x_s - x2 = S2(1-τ),      λ2 = c_t ω z,      ∫ t dλ2 = (N/N_c) M2(z)
 /// ```
 ///
-/// free of cancellation, with the compliance c_t without load in units of that for which Λ + λ is 1.
+/// These forms are free of cancellation. The unit of c_t, the compliance without load, is the compliance for which Λ + λ is 1.
 impl LayerCompliance {
-    /// [`LayerCompliance::new`] in units of the stick zones, in which the compliance 1 is the inverse of `stiffness_scale`, given the compliance of
-    /// the contact in these units.
-    /// Errors: those of [`LayerCompliance::new`]; `BadTangentialCompliance` if the layer hides the contact, or its compliance in these units is
-    /// not representable.
+    /// The layer and the ratio of [`LayerCompliance::new`] in the units of stick zones, given the stiffness for a compliance of 1
+    /// and the compliance of the contact in these units.
+    /// Errors: those of [`LayerCompliance::new`]; `BadTangentialCompliance` if the layer hides the contact, or if its compliance in
+    /// these units is not representable.
     pub fn relative(
         parameters: &parameters::Layer,
         normal_force: f64,
@@ -174,12 +175,12 @@ impl LayerCompliance {
         Ok((relative, under_load))
     }
 
-    /// z: the load that the layer alone would have to lose for the same shift.
+    /// The load z under which the layer alone has the consumed shift.
     pub fn consumed(&self, load: Complement) -> f64 {
         load.consumed * self.softness(load.remaining)
     }
 
-    /// λ2.
+    /// The compliance increase λ2.
     pub fn increase(&self, load: Complement) -> f64 {
         self.compliance(1.0) * (self.stiffening * self.consumed(load))
     }
@@ -191,8 +192,8 @@ impl LayerCompliance {
         [value, 2.0 * rate * value]
     }
 
-    /// Whether the layer bends the curve strongly near gross slip: N_c is less than a quarter of N. The curve is then singular, as a
-    /// function of the displacement, at complex displacements near gross slip.
+    /// Whether the curve has a knee, a strong bend near gross slip: if N_c is less than a quarter of N. As a function of a complex
+    /// displacement the curve is then singular near gross slip.
     pub fn has_knee(&self) -> bool {
         self.tangential > 0.0 && self.stiffening > 4.0
     }
@@ -214,13 +215,13 @@ impl LayerCompliance {
         self.stiffening * self.potential(self.consumed(load))
     }
 
-    /// The derivative of a force over μN by the compliance under N at a fixed displacement, given the compliance of the contact at this
-    /// force.
+    /// The derivative of the force over μN with respect to the compliance of the layer under N, at a fixed displacement, given the
+    /// compliance of the contact at this force.
     pub fn slope_by_compliance(&self, load: Complement, of_contact: f64) -> f64 {
         -self.extent(self.consumed(load)) * (1.0 + self.stiffening) / (of_contact + self.compliance(load.remaining))
     }
 
-    /// The parts of the layer in the derivatives by N, of the same layer under another load, and by μ.
+    /// The parts of the layer in the derivatives with respect to N and to μ. The layer stays the same under another N.
     pub fn slopes_by_load_and_friction(&self, load: Complement, of_contact: f64) -> [f64; 2] {
         [self.increase(load), self.first_moment(load)].map(|part| part / (of_contact + self.compliance(load.remaining)))
     }

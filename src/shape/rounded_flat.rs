@@ -1,17 +1,18 @@
 //! Flat with rounded edges, cylinder included: the geometry of Allara (2009) in absolute terms, free of the load.
 //!
-//! A size s is given by `leg = sqrt(s² - a²) = s sin ψ`, which is free of cancellation for nearly flat contacts. With `ψ = atan2(leg,
-//! a)` and `Λ = ln(2L/s) + χ`,
+//! A size s is given by `leg = sqrt(s² - a²) = s sin ψ`, which is free of cancellation for nearly flat contacts. With
+//! `ψ = atan2(leg, a)` and `Λ = ln(2L/s) + χ`,
 //!
 //! ```text
 //! g = 2 s² ψ - 2 a leg,     N = L E* g/(4R)     Eq. 1, corrected
-//! K_t = 2 Λ/(π E* L)                            Eq. 8, with χ = ν/(1-ν); K_n the same with χ = 0
-//! S = g (Λ + β)/(2πR)                           U the same with χ = 0
+//! K_t = 2 Λ/(π E* L)                            Eq. 8, with χ = ν/(1-ν); K_n follows with χ = 0
+//! S = g (Λ + β)/(2πR)                           U follows with χ = 0
 //! M = L E* g² (Λ + γ)/(16πR²)
 //! ```
 //!
-//! For unlike bodies χ is the mean weighted by their compliances. With `MSLIP_RIGID_STRIP` a constant is taken off both χ: the one
-//! that three-dimensional contact mechanics gives at the size under the normal force of the parameters.
+//! For unlike bodies χ is the mean of both bodies weighted by their compliances. `MSLIP_RIGID_STRIP` subtracts a constant from the
+//! χ of K_t and from the χ of K_n: the correction by three-dimensional contact mechanics at the size under the normal force of the
+//! parameters.
 //!
 //! β and γ are functions of ψ: they increase from ψ²/5 and ψ²/8 for the flat to 1/2 and 1/4 for the cylinder. The closed forms in ψ
 //! suffer cancellation for a nearly flat contact (g ~ leg³, βg ~ leg⁵, γg² ~ leg⁸). Up to ψ = π/3, power series in
@@ -93,7 +94,7 @@ fn leg_minus_arc(size: &Size) -> f64 {
     size.leg - size.flat * size.psi
 }
 
-/// Between 0 and π/2; for a cylinder π/2 even at leg = 0.
+/// The angle ψ between 0 and π/2; for a cylinder it is π/2 even at leg = 0.
 pub fn angle(size: &Size) -> f64 {
     size.leg.max(if size.flat > 0.0 { 0.0 } else { TINY }).atan2(size.flat)
 }
@@ -150,8 +151,8 @@ pub fn at_load(size: &Size, load: f64) -> Size {
     now
 }
 
-/// The inverse of g with an error of at most 3 %: the limits `sqrt(g/π)` of the cylinder and `(3ag/4)^(1/3)` of the flat, added
-/// as cubes.
+/// An estimate of the leg under a load g, with an error of at most 3 %: the cube root of the sum of the cubes of both limits,
+/// `sqrt(g/π)` of the cylinder and `(3ag/4)^(1/3)` of the flat.
 pub fn near_shift(size: &Size, load: f64) -> f64 {
     let load = load.max(0.0);
     let hertz = load / PI;
@@ -168,11 +169,11 @@ pub fn near_shift(size: &Size, load: f64) -> f64 {
 pub fn series(_: &Size, shape: &Shape, leg: f64, argument: Quantity) -> [Series; 3] {
     let punch = shape.size(leg);
     let (flat, by_load) = (shape.flat, argument == Quantity::Load);
-    // S for the argument N.
-    let of = shape.of(if by_load { Quantity::Shift } else { argument });
+    // The integrated compliance belongs to the argument; to S if the argument is N.
+    let coefficients = shape.compliance_coefficients(if by_load { Quantity::Shift } else { argument });
     let [mut compliance, mut size, mut load, mut shift, mut angle] = [[0.0; ORDER]; 5];
     (size[0], load[0], angle[0]) = (leg, shape.load(leg), punch.psi);
-    [shift[0], compliance[0]] = shape.own_sums(of, &punch, punch.load());
+    [shift[0], compliance[0]] = shape.own_sums(coefficients, &punch, punch.load());
     let [mut size_angle, mut half_width_2, mut load_1, mut size_1, mut angle_1, mut compliance_1] = [[0.0; ORDER]; 6];
     let (per_compliance, per_load_scale) = (1.0 / compliance[0], 0.25 / shape.load_scale);
     let (per_size_angle, per_half_width_2) = (1.0 / (leg * punch.psi), 1.0 / (leg * leg + flat * flat));
@@ -188,7 +189,7 @@ pub fn series(_: &Size, shape: &Shape, leg: f64, argument: Quantity) -> [Series;
         };
         let size_growth = add_quotient_term(&mut size_1, load_growth * per_load_scale, &size_angle, per_size_angle, k);
         let angle_growth = add_quotient_term(&mut angle_1, flat * size_growth, &half_width_2, per_half_width_2, k);
-        let growth = -of[0] * product_term(&size_1, &size, k);
+        let growth = -coefficients[0] * product_term(&size_1, &size, k);
         let compliance_growth = add_quotient_term(&mut compliance_1, growth, &half_width_2, per_half_width_2, k);
         let per_order = PER_ORDER[k];
         if by_load {
@@ -269,8 +270,8 @@ impl Geometry for Parameters {
         // The load at b = 2L.
         quotient_in_range(&[self.length, self.length, self.length, shape.composite_modulus], &[self.edge_radius])?;
         let [[normal, _], ..] = shape.compliances;
-        let of = |[scale, offset]: &[f64; 2]| offset - SMALLEST_COMPLIANCE * (normal / scale);
-        let bound = shape.compliances.iter().take(directions + 1).map(of).fold(-SMALLEST_COMPLIANCE, f64::min);
+        let exponent = |[scale, offset]: &[f64; 2]| offset - SMALLEST_COMPLIANCE * (normal / scale);
+        let bound = shape.compliances.iter().take(directions + 1).map(exponent).fold(-SMALLEST_COMPLIANCE, f64::min);
         let half_width = shape.length * bound.exp();
         let (less, more) = (half_width - shape.flat, half_width + shape.flat);
         Ok(less.signum() * (less.abs() * more).sqrt())
@@ -305,7 +306,7 @@ pub(crate) fn size_under_load(parameters: &Parameters, modulus: f64) -> Result<(
 /// `MSLIP_RIGID_STRIP`: mean of a displacement that grows as the square across the strip, over b/L.
 const ACROSS: f64 = 8.0 / (PI * PI);
 
-/// dχ/d(ln b) of S: 0 unless χ depends on b/L.
+/// The derivative dχ/d(ln b) of the constant of the tangential compliance: 0 unless χ depends on b/L.
 pub(crate) fn reference_slope(parameters: &Parameters, half_width: f64) -> f64 {
     match parameters.displacement_reference {
         CENTRE_POINT => 0.0,
@@ -318,9 +319,9 @@ fn cerruti_factor(nu: f64) -> f64 {
     (1.0 - 2.0 * nu) / (1.0 - nu)
 }
 
-/// Reduction of χ by three-dimensional contact mechanics: the mean instead of the centre of the displacement along and across the
-/// strip (1 - ln 2, and `across`, b/L times a function of Poisson's ratio), and the redistribution of traction along it (0.093,
-/// fitted to boundary-element results for 16 strips, which scatter from 0.081 to 0.102).
+/// Reduction of χ by three-dimensional contact mechanics. Two terms replace the displacement of the centre by the mean: 1 - ln 2
+/// along the strip, and a multiple of `across`, which is b/L times a function of Poisson's ratio. The third is the redistribution
+/// of traction along the strip, 0.093: fitted to boundary-element results for 16 strips, which scatter from 0.081 to 0.102.
 fn strip_correction(across: f64) -> f64 {
     const REDISTRIBUTION: f64 = 0.093;
     (1.0 - LN_2) + REDISTRIBUTION - ACROSS * across

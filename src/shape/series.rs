@@ -9,7 +9,7 @@ pub(crate) const ORDER: usize = 16;
 /// Taylor coefficients.
 pub(crate) type Series = [f64; ORDER];
 
-/// The series of an argument itself, `x (1 + ε)`.
+/// The series of the argument itself, `x (1 + ε)`.
 pub(crate) fn identity(x: f64) -> Series {
     let mut series = [0.0; ORDER];
     (series[0], series[1]) = (x, x);
@@ -21,7 +21,8 @@ pub(crate) fn product_term(one: &Series, other: &Series, k: usize) -> f64 {
     one.iter().zip(other.part(..=k).iter().rev()).map(|(one, other)| one * other).sum()
 }
 
-/// Adds term k to a series that is a quotient, and returns it, given term k of the numerator and the reciprocal of term 0 of the denominator.
+/// Appends term k to the series of a quotient and returns it, given term k of the numerator and the reciprocal of term 0 of the
+/// denominator.
 pub(crate) fn add_quotient_term(
     quotient: &mut Series,
     numerator: f64,
@@ -40,7 +41,7 @@ impl Shape {
         if self.layer.is_none() {
             return self.reference_size.series(self, leg, argument);
         }
-        // As functions of the load N (1 + ν).
+        // As functions of the load N (1 + ε).
         let [load, mut approach, mut shift] = self.reference_size.series(self, leg, Quantity::Load);
         for (k, term) in self.layer.series(self.load(leg)).iter().enumerate() {
             approach[k] += self.layer.normal * term;
@@ -66,7 +67,7 @@ fn inverse_powers(y: &Series) -> [Series; ORDER] {
     powers[0][0] = 1.0;
     let (mut inverse, per_slope) = ([0.0; ORDER], 1.0 / y[1]);
     for order in 1..ORDER {
-        // Orders of ν², ν³, ... need lower orders of ν only.
+        // The orders of t², t³, ... need lower orders of t only.
         let mut sum = if order == 1 { y[0] } else { 0.0 };
         for (power, coefficient) in y.iter().enumerate().take(order + 1).skip(2) {
             let product = product_term(&inverse, &powers.or_zero(power - 1), order);

@@ -1,20 +1,20 @@
 //! A size of a shape, and what follows from the formulas of the shape for each size.
 //!
-//! A size is given by its leg, which is 0 for the smallest size, and by the half-width a of the flat: `s = sqrt(a² + leg²)`. The load g
-//! follows from ψ, and the means of the load and of its square over the compliance Λ from both:
+//! A size is given by its leg, which is 0 for the smallest size, and by the half-width a of the flat: `s = sqrt(a² + leg²)`. The
+//! load g follows from ψ, and the means of the load and of its square over the compliance Λ from both:
 //!
 //! ```text
 //! dg = 4 leg ψ d leg,       β = -(1/g) ∫ g dΛ,       γ = -(1/g²) ∫ g² dΛ       from leg = 0 on.
 //! ```
 //!
-//! A shape gives ψ, g, β and γ in closed form; Newton's method and expansions follow from ψ and from the kernel. Lengths are in any one
-//! unit, or in one that belongs to the shape.
+//! Each shape has closed forms for ψ, g, β and γ; derivatives and inverses follow from ψ and from the kernel. All lengths of a size
+//! have one unit, which the caller chooses or the shape prescribes.
 
 use crate::numerics::guard::{TINY, quotient};
 use crate::shape::ShapeKind;
 use crate::shape::kernel::Kernel;
 
-/// A size: plain data.
+/// One size of a shape; plain data.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Size {
@@ -56,7 +56,8 @@ impl Size {
         Size { psi: size.angle(), ..size }
     }
 
-    /// The size that carries a load, by one Newton step if that is at most 1e-9 of leg: its square is below rounding.
+    /// The size that carries a load, given that this size nearly does. One Newton step is enough if it is at most 1e-9 of leg,
+    /// because the square of the step is then below rounding.
     pub fn at_load_near(&self, load: f64) -> Size {
         let step = quotient(load - self.load(), 4.0 * self.leg * self.psi);
         if step.abs() > 1e-9 * self.leg { self.at_load(load) } else { self.resized(self.leg + step) }
@@ -75,8 +76,9 @@ impl Size {
         [decrease, decrease * (2.0 * (1.0 - share) - order * share)]
     }
 
-    /// The inverse close to this size of a quantity with a derivative proportional to leg ψ Λ, given its value, its power
-    /// (the derivative of its logarithm with respect to ln leg), and d ln ψ/d ln leg and -d ln Λ/d ln leg, both with derivatives.
+    /// The size as a function of a quantity whose derivative with respect to leg is proportional to leg ψ Λ, expanded about this
+    /// size. `power` is d ln(value)/d ln leg, `slope_of_psi` is d ln ψ/d ln leg and `slope_of_compliance` is -d ln Λ/d ln leg, the
+    /// latter two with their derivatives with respect to ln leg.
     pub fn inverse(
         &self,
         value: f64,
@@ -98,8 +100,8 @@ impl Size {
 /// leg as a function of a quantity that scales nearly as a power of leg, close to leg_0: the expansion of
 /// `(leg - leg_0)/(leg + leg_0)` in powers of `(value - value_0)/(value + value_0)`, up to the third.
 ///
-/// These are the hyperbolic tangents of half the logarithms of leg/leg_0 and value/value_0. For a constant power of 2 to 3 the
-/// error for a value 20 % away is below 2e-6 of leg.
+/// Both variables are hyperbolic tangents of half a logarithm, of leg/leg_0 and of value/value_0. For a constant power of 2 to 3
+/// and a value 20 % away the error is below 2e-6 of leg.
 #[derive(Default)]
 pub(crate) struct InversePower {
     leg: f64,

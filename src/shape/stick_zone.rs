@@ -16,17 +16,18 @@
 //! Λ + λ = dx/dτ             the compliance of c, λ = 0 at b
 //! ```
 //!
-//! τ and x are stored with their complements 1 - τ and x_s - x, the distances to gross slip: whichever is smaller is computed
-//! directly, so that neither end suffers cancellation.
+//! Each of τ and x is stored together with its distance to gross slip, 1 - τ and x_s - x. The smaller number of each pair is
+//! computed directly and not as a difference, so that neither small forces nor the approach to gross slip suffer cancellation.
 //!
-//! The load g of a size and the means β and γ are those of the shape (`size`), Λ and λ its kernel over the decrease of the kernel at b:
+//! The load g and the means β and γ of a size are given by its shape (`size`). In these units the compliances are the same for all
+//! line contacts and for all ellipses:
 //!
 //! ```text
 //! line      λ = ln(b/c),     Λ = ln(2L/b) + ν/(1-ν)                 Eq. 8-10
 //! ellipse   λ = b/c - 1,     Λ = 1, the same for all ellipses
 //! ```
 //!
-//! With the index c for a stick zone and b for the contact, `1 - τ = g_c/g_b` and,
+//! The index c denotes a stick zone and b the contact; `1 - τ = g_c/g_b`. Then
 //!
 //! ```text
 //! remaining shift  x_s - x = (1-τ) (Λ + λ + β_c)           x = Λ τ + β_b - (1-τ) (λ + β_c)
@@ -53,9 +54,9 @@ pub(crate) struct StickZone {
     pub load: Complement,
     /// x and x_s - x.
     pub shift: Complement,
-    /// λ of contact and layer; infinite for the point to which the stick zone of an ellipse or a cylinder shrinks.
+    /// Compliance increase λ of contact and layer; infinite if the stick zone of an ellipse or a cylinder has shrunk to a point.
     pub compliance_increase: f64,
-    /// Its leg if the zone was found by it; otherwise it follows from the load.
+    /// The leg of the stick zone if it is known; otherwise it follows from the load.
     pub leg: Option<f64>,
 }
 
@@ -70,16 +71,17 @@ pub(crate) struct LoadPoint {
     pub curvature: f64,
 }
 
-/// Moments of the curvature h'' of the contact without its layer over the load t from 0 to τ, each free of cancellation.
+/// Moments of the curvature h'' of the contact without its layer, integrals over the load t from 0 to τ that are free of
+/// cancellation.
 #[derive(Clone, Copy)]
 pub(crate) struct Moments {
     /// ∫ h'' dt = λ.
     pub increase: f64,
     /// ∫ t h'' dt = τ λ - h.
     pub first: f64,
-    /// ∫ (1-t) h'' dt = β_b - s β_c.
+    /// ∫ (1-t) h'' dt = β_b - (1-τ) β_c.
     pub complement: f64,
-    /// ∫ (4 leg/g_b) h'' dt; not used for an ellipse.
+    /// ∫ (4 leg/g_b) h'' dt, for the derivative by a; not used for an ellipse.
     pub by_flat: f64,
 }
 
@@ -87,7 +89,7 @@ pub(crate) struct Moments {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct StickZones {
-    /// b, and its load g, β and γ.
+    /// The size b of the contact, and its load g and means β and γ.
     b: Size,
     load: f64,
     beta: f64,
@@ -96,9 +98,9 @@ pub(crate) struct StickZones {
     pub slip_shift: f64,
     /// The layer in series.
     pub layer: LayerCompliance,
-    /// The expansion for τ <= 1/2 of the contact without its layer.
-    pub contact: SmallLoadSeries,
-    /// The expansion for τ <= 1/2.
+    /// The expansion for τ <= 1/2, without the layer.
+    pub small_load_without_layer: SmallLoadSeries,
+    /// The expansion for τ <= 1/2, with the layer.
     pub small_load: SmallLoadSeries,
 }
 
@@ -108,8 +110,8 @@ impl StickZones {
         let load = b.load();
         let mut zones = StickZones { b, load, beta: b.beta(load), gamma: b.gamma(load), ..StickZones::default() };
         zones.slip_shift = compliance + zones.beta + layer.shift(1.0);
-        zones.contact = SmallLoadSeries::new(compliance, &zones.curvatures());
-        (zones.layer, zones.small_load) = (layer, zones.contact);
+        zones.small_load_without_layer = SmallLoadSeries::new(compliance, &zones.curvatures());
+        (zones.layer, zones.small_load) = (layer, zones.small_load_without_layer);
         if zones.has_layer() {
             zones.small_load = SmallLoadSeries::new(compliance + layer.compliance(1.0), &zones.curvatures());
         }
@@ -121,19 +123,20 @@ impl StickZones {
         self.layer.tangential > 0.0
     }
 
-    /// λ of a size of the contact without its layer, accurate also for c close to b.
+    /// Compliance increase λ of a stick zone without the layer, accurate also for c close to b.
     fn increase_of(&self, size: &Size) -> f64 {
         let squares = (self.b.leg - size.leg) * (self.b.leg + size.leg);
         self.b.kernel().increase(size.half_width, squares)
     }
 
-    /// `h'' = dλ/dτ` of a size of the contact without its layer: the decrease of the compliance over that of τ with ln leg.
+    /// Curvature `h'' = dλ/dτ` at a stick zone without the layer: the rates of λ and of τ with ln leg, divided.
     fn curvature_of(&self, size: &Size) -> f64 {
         let (reach, _) = self.b.kernel().reach(size.half_width);
         self.load / (4.0 * (size.half_width * size.half_width * reach) * size.psi).max(TINY)
     }
 
-    /// Values and slopes of h'' over z at τ = (1+z)/4: positive, with its singularity as far beyond as the interval is long.
+    /// Values and slopes of the curvature h'' as a function of z at τ = (1+z)/4. It is positive, and its singularity at τ = 1 is as
+    /// far from the interval as the interval is long.
     fn curvatures(&self) -> [SeriesPoint; RETAINED_TERMS / 2] {
         Interpolant::<{ RETAINED_TERMS / 2 }>::at_points(|z| {
             let load = Complement::of_remaining(0.75 - 0.25 * z);
@@ -161,10 +164,11 @@ impl StickZones {
         (self.b.resized(leg).at_load_near(load), load)
     }
 
-    /// The stick zone of a size with the load g and `1 - τ = g/g_b`. In the form Λ τ + h the consumed shift is no difference of two
-    /// large terms if the curve is nearly straight; that of the layer, a logarithm which the iteration does not need, is not in it.
+    /// The stick zone of a size with the load g and `1 - τ = g/g_b`. The consumed shift is computed as Λ τ + h, which is not a
+    /// difference of two large terms if the curve is nearly straight. It does not contain the shift of the layer, a logarithm that
+    /// the iteration does not need.
     fn zone(&self, punch: &Size, load: f64, remaining: f64) -> StickZone {
-        let (full_stick, beta) = (self.contact.compliance, punch.beta(load));
+        let (full_stick, beta) = (self.small_load_without_layer.compliance, punch.beta(load));
         let (load, increase) = (Complement::of_remaining(remaining), self.increase_of(punch));
         let mut zone = StickZone {
             load,
@@ -189,18 +193,19 @@ impl StickZones {
         StickZone { shift, ..self.zone(punch, load, load / self.load) }
     }
 
-    /// A size close to that at a remaining shift. The shift of the contact alone is at most the sum, and at most the root of the load that
-    /// the layer alone would have (a power of about 2/3); then with Λ + λ + β constant, first at its smallest value. It is at most the size
-    /// of the contact: the compliance of larger ones may be negative.
+    /// An estimate of the size at a remaining shift. The contact alone has at most this shift, and at most the shift that scales as
+    /// the root of the load which the layer alone would carry (its true power is about 2/3). The load follows with a constant mean
+    /// compliance Λ + λ + β: first with its smallest value, then with its value at the size found. The result is at most the size
+    /// of the contact, because the compliance of larger sizes may be negative.
     fn initial_guess(&self, remaining: f64) -> Size {
-        let slip_shift = self.contact.compliance + self.beta;
+        let slip_shift = self.small_load_without_layer.compliance + self.beta;
         let mut own = remaining;
         if self.has_layer() {
             let of_layer = self.layer.load_of_extent(remaining / self.layer.tangential);
             own = own.min(slip_shift * of_layer.sqrt()).max(f64::MIN_POSITIVE);
         }
         let near = |compliance: f64| self.b.near_shift(own / compliance * self.load);
-        let leg = near(self.contact.compliance);
+        let leg = near(self.small_load_without_layer.compliance);
         if self.b.is_power_law() {
             return self.b.resized(leg);
         }
@@ -208,9 +213,10 @@ impl StickZones {
         self.b.resized(near(slip_shift + increase).min(self.b.leg))
     }
 
-    /// The stick zone at a remaining shift, from a size close to it; its size, and the inverse of the remaining shift close to it.
+    /// The stick zone at a remaining shift, its size, and the expansion of the inverse about it, by iteration from a size close to
+    /// it.
     ///
-    /// The iteration raises an error to its fourth power.
+    /// One iteration raises the relative error to its fourth power.
     fn refine(&self, remaining: f64, start: Size) -> (StickZone, Size, InversePower) {
         if self.b.is_power_law() && !self.has_layer() {
             let punch = self.initial_guess(remaining);
@@ -242,8 +248,9 @@ impl StickZones {
         }
     }
 
-    /// Finds the points of the curve at a sequence of decreasing remaining shifts, the first of which is close to x_s. Each starts from
-    /// the expansion about the one before, so that the closed forms are nearly always evaluated once.
+    /// A function that returns the point of the curve at a remaining shift, for a decreasing sequence of shifts that starts close
+    /// to x_s. Each point is predicted by the expansion about the previous point, so that the closed forms are nearly always
+    /// evaluated once.
     pub fn sequence(&self) -> impl FnMut(f64) -> LoadPoint {
         let mut last: Option<InversePower> = None;
         move |remaining| {
@@ -259,7 +266,7 @@ impl StickZones {
         }
     }
 
-    /// The stick zone at a load.
+    /// The stick zone under a tangential force τ.
     pub fn at_load(&self, load: Complement) -> StickZone {
         if load.consumed <= 0.5 {
             return self.small_load.at_load(load, self.slip_shift);
@@ -286,8 +293,8 @@ impl StickZones {
         self.small_load.compliance + zone.compliance_increase
     }
 
-    /// Energy dissipated per cycle between ±τ, in units of force times shift (Eq. 13-16), and its derivative with respect to τ, which is
-    /// `4 (τ λ - h)` with `h = β_b - s (λ + β_c)`; λ is given to the rounding of Λ + λ.
+    /// Energy dissipated per cycle between ±τ, in units of force times shift (Eq. 13-16), and its derivative with respect to τ:
+    /// `4 (τ λ - h)` with `h = β_b - (1-τ) (λ + β_c)`. The given λ needs to be accurate only to the rounding of Λ + λ.
     pub fn dissipation(&self, load: Complement, compliance_increase: f64) -> (f64, f64) {
         if load.consumed <= 0.5 {
             return self.small_load.dissipation(load.consumed);
@@ -305,14 +312,15 @@ impl StickZones {
         (energy + self.layer.dissipation(load), slope + 4.0 * self.layer.first_moment(load))
     }
 
-    /// The moments at a load; λ of contact and layer, to the rounding of Λ + λ, is used for τ > 1/2.
+    /// The moments at a load. For τ > 1/2 they follow from the given λ of contact and layer, which needs to be accurate only to the
+    /// rounding of Λ + λ.
     ///
-    /// With C(leg) = leg - a ψ the fourth is 4 (C_b - C_c)/g_b, because dc/da at a constant load is leg/(c ψ).
+    /// The moment `by_flat` is 4 [(leg_b - a ψ_b) - (leg_c - a ψ_c)]/g_b, because dc/da at a constant load is leg/(c ψ).
     pub fn moments(&self, load: Complement, compliance_increase: f64) -> Moments {
         let Size { flat, leg, .. } = self.b;
         let tau = load.consumed;
         let (increase, first, complement, w_difference) = if tau <= 0.5 {
-            let [increase, first] = self.contact.moments(tau);
+            let [increase, first] = self.small_load_without_layer.moments(tau);
             let squares = -(-2.0 * increase).exp_m1();
             (increase, first, increase - first, squares / (leg + (leg * leg - squares).max(0.0).sqrt()))
         } else {
@@ -333,7 +341,7 @@ impl StickZones {
 
     /// d(ln b)/d(ln g_b), and db/da at a constant load.
     pub fn size_slopes(&self) -> [f64; 2] {
-        [self.contact.initial_curvature(), self.b.leg / self.b.psi]
+        [self.small_load_without_layer.initial_curvature(), self.b.leg / self.b.psi]
     }
 
     /// leg² of a stick zone, and `leg_b² - leg²` free of cancellation.
@@ -341,8 +349,11 @@ impl StickZones {
         if let Some(leg) = zone.leg {
             return [leg * leg, (self.b.leg - leg) * (self.b.leg + leg)];
         }
-        let increase =
-            if self.has_layer() { self.contact.moments(zone.load.consumed)[0] } else { zone.compliance_increase };
+        let increase = if self.has_layer() {
+            self.small_load_without_layer.moments(zone.load.consumed)[0]
+        } else {
+            zone.compliance_increase
+        };
         let squares = self.b.kernel().squares(increase);
         [(self.b.leg * self.b.leg - squares).max(0.0), squares]
     }
@@ -353,7 +364,7 @@ impl StickZones {
         (self.b.flat * self.b.flat + square).sqrt().max(self.b.flat)
     }
 
-    /// Pressure, less that of the size with `[leg², leg_b² - leg²]`.
+    /// Pressure of the contact less the pressure of a smaller size, given `[leg², leg_b² - leg²]` of the latter.
     fn pressure_beyond(&self, [square, squares]: [f64; 2], point: &SurfacePoint) -> f64 {
         let legs = [square.sqrt(), self.b.leg, squares];
         self.b.pressure(legs, point) * self.traction_scale() / PI

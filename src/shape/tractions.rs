@@ -7,17 +7,17 @@
 //! the integral = ∫ ψ c' dc'/sqrt(c'² - x²)          from max(c, |x|) to b.
 //! ```
 //!
-//! Slip at x is the same superposition of the surface displacements outside the punches, `∫ acosh(|x|/c') ψ c' dc'` from c to |x|. Both
-//! have elementary antiderivatives; Eq. 17 and 22, corrected, are the first. If their difference loses more than six bits to
-//! cancellation (a narrow slip zone, a nearly flat contact), the integral is computed by 16-point Gauss-Legendre quadrature, which is
-//! accurate to rounding: the integrand is smooth and positive.
+//! Slip at x is the same superposition of the surface displacements outside the punches, `∫ acosh(|x|/c') ψ c' dc'` from c to |x|.
+//! Both have elementary antiderivatives; Eq. 17 and 22, corrected, are the first. If their difference loses more than six bits to
+//! cancellation (a narrow slip zone, a nearly flat contact), the integral is computed by 16-point Gauss-Legendre quadrature, which
+//! is accurate to rounding: the integrand is smooth and positive.
 
 use crate::numerics::guard::{TINY, quotient, root};
 use crate::numerics::quadrature::gauss;
 use crate::shape::size::Size;
 
-/// A point along the width. The differences are computed from the dimensional lengths: for a nearly flat contact the rounding error of
-/// x/b may exceed the distance from flat to edge.
+/// A point along the width. Its differences are computed from the dimensional lengths, because for a nearly flat contact the
+/// rounding error of x/b may exceed the distance from flat to edge.
 pub(crate) struct SurfacePoint {
     /// |x|/b.
     pub x: f64,

@@ -12,7 +12,7 @@ use super::tangent::{ContactSlopes, ParameterChanges, PerParameter, Propagation,
 use crate::element::{Directions, Element, Normal};
 use crate::error::{Error, ensure};
 use crate::fourier::workspace::{records, records_mut};
-use crate::law::{Law, Requested, StepOf, StepResult};
+use crate::law::{Law, LawStep, Requested, StepResult};
 use crate::limits::check_displacement;
 use crate::numerics::fp_class::is_finite;
 use crate::numerics::lanes::Lanes;
@@ -95,7 +95,7 @@ impl Law for TwoDirections {
         )
     }
 
-    fn trial(element: &Element, old: &[f64], displacement: [f64; 3], requested: Requested) -> StepOf<Self> {
+    fn trial(element: &Element, old: &[f64], displacement: [f64; 3], requested: Requested) -> LawStep<Self> {
         let mut copy = [0.0; LENGTH];
         Self::copy_used(old, &mut copy);
         Self::advance(element, &mut copy, displacement, requested)
@@ -108,7 +108,7 @@ impl Law for TwoDirections {
         steps(&mut copy);
     }
 
-    fn advance(element: &Element, state: &mut [f64], to: [f64; 3], requested: Requested) -> StepOf<Self> {
+    fn advance(element: &Element, state: &mut [f64], to: [f64; 3], requested: Requested) -> LawStep<Self> {
         records_mut::<State>(state).first_mut().map_or(StepResult::NONE, |state| state.advance(element, to, requested))
     }
 }
@@ -118,7 +118,7 @@ const NORMAL_COMPONENT: usize = 2;
 
 impl State {
     /// A step of a contact that may open or close.
-    fn advance(&mut self, element: &Element, to: [f64; 3], requested: Requested) -> StepOf<TwoDirections> {
+    fn advance(&mut self, element: &Element, to: [f64; 3], requested: Requested) -> LawStep<TwoDirections> {
         let (closes, was_closed) = (element.is_closed(to[2]), self.normal_force > 0.0);
         if element.friction_coefficient == 0.0 || !(closes || was_closed) {
             // Without friction, or open before and after, only the position changes.
@@ -142,7 +142,7 @@ impl State {
     }
 
     /// A step of a contact that is closed at its end.
-    fn step(&mut self, element: &Element, to: [f64; 3], requested: Requested) -> StepOf<TwoDirections> {
+    fn step(&mut self, element: &Element, to: [f64; 3], requested: Requested) -> LawStep<TwoDirections> {
         let (mut contacts, mut old_springs) = ([LoadedContact::default(); 2], None);
         let load = element.normal(to[2]).load;
         if self.normal_force > 0.0 {
@@ -212,7 +212,7 @@ impl State {
     }
 
     /// A step of a contact that is open at its end.
-    fn separate(&mut self, element: &Element, to: [f64; 3], requested: Requested) -> StepOf<TwoDirections> {
+    fn separate(&mut self, element: &Element, to: [f64; 3], requested: Requested) -> LawStep<TwoDirections> {
         let mut result = StepResult::NONE;
         if requested.energy && self.normal_force > 0.0 {
             let path = ContactPath::new(element, &self.units, [self.displacement, to], [true, false]);

@@ -1,7 +1,7 @@
 //! An element along a path in one direction, by displacements or forces.
 
 use microslip::element::Element;
-use microslip::law::StepOf;
+use microslip::law::LawStep;
 use microslip::one_direction::{Law, OneDirection, state_length};
 
 /// An element with its state, and the displacement that it has reached.
@@ -20,14 +20,14 @@ impl Path<'_> {
     }
 
     /// A step to a displacement and normal input.
-    pub fn displace(&mut self, displacement: f64, normal: f64) -> StepOf<OneDirection> {
+    pub fn displace(&mut self, displacement: f64, normal: f64) -> LawStep<OneDirection> {
         self.displacement = displacement;
         OneDirection::step(self.element, &mut self.state, [displacement, normal]).expect("an admissible step")
     }
 
     /// A step to the displacement u within a distance with a u + b T = `target`, for weights a and b: Newton's method, bisection
     /// where it leaves the bracket.
-    pub fn pull(&mut self, [a, b]: [f64; 2], target: f64, normal: f64, distance: f64) -> StepOf<OneDirection> {
+    pub fn pull(&mut self, [a, b]: [f64; 2], target: f64, normal: f64, distance: f64) -> LawStep<OneDirection> {
         let start = self.state.clone();
         let (mut low, mut high) = (self.displacement - distance, self.displacement + distance);
         let mut next = self.displacement;

@@ -1,7 +1,7 @@
 //! An element with two tangential directions and its state, and the harmonic force of a motion with one harmonic.
 
 use microslip::element::{Directions, Element, NormalInput};
-use microslip::law::StepOf;
+use microslip::law::LawStep;
 use microslip::parameters::{CENTRE_POINT, EllipticParameters, Layer, Material, Parameters};
 use microslip::two_directions::harmonic_force::{
     HarmonicOutput, TwoDirectionsWorkspace, harmonic_force, workspace_init, workspace_length,
@@ -56,11 +56,11 @@ impl Contact<'_> {
         Contact { element, state }
     }
 
-    pub fn to(&mut self, displacement: [f64; 3]) -> StepOf<TwoDirections> {
+    pub fn to(&mut self, displacement: [f64; 3]) -> LawStep<TwoDirections> {
         TwoDirections::step(self.element, &mut self.state, displacement).unwrap()
     }
 
-    pub fn trial(&self, displacement: [f64; 3]) -> StepOf<TwoDirections> {
+    pub fn trial(&self, displacement: [f64; 3]) -> LawStep<TwoDirections> {
         self.clone().to(displacement)
     }
 

@@ -1,9 +1,9 @@
 //! Event-driven harmonic force: piecewise Gauss-Legendre quadrature between the events of a period.
 //!
 //! The force of a periodic displacement is smooth except at events: reversals, closures of loops, the onset of gross slip. Uniform
-//! samples miss them, with an error of O(samples⁻²). Here the events are located, as roots of the rate and as crossings of the ends of
-//! branches, and each segment between two of them has its own rule: the error decreases exponentially with the number of nodes.
-//! The energy is that between reversals: it is exact.
+//! samples miss them, with an error of O(samples⁻²). Here the events are found as roots of the rate and as crossings of the ends of
+//! branches, and each segment between two events has its own rule: the error decreases exponentially with the number of nodes.
+//! The energy depends on the reversals only and has no quadrature error.
 //!
 //! The Jacobian is the same rule applied to the exact derivative of the integrals,
 //!
@@ -33,8 +33,8 @@ use crate::parameters::PARAMETERS;
 use crate::tag::Kind;
 use core::f64::consts::PI;
 
-/// Points of the search grid: an even number, at least sixteen per period of the highest harmonic. Three reversals within two grid
-/// steps h may be taken for one: the width of the missed loop is `h⁴/24` times the fourth derivative, at most a thousandth of the
+/// Number of points of the search grid: even, and at least sixteen per period of the highest harmonic. Three reversals within two
+/// grid steps h may be counted as one; the missed loop is `h⁴/24` times the fourth derivative wide, at most a thousandth of the
 /// amplitude.
 fn grid_points(size: SamplingSize) -> usize {
     (size.samples.max(16 * size.harmonics) + 1) & !1
@@ -47,7 +47,7 @@ fn most_reversals(size: SamplingSize) -> usize {
 
 /// An opened workspace.
 pub(super) struct EventWorkspace<'a> {
-    /// The stack of reversals of the law.
+    /// The stack of reversals of the steady state.
     reversals: &'a mut [Reversal],
     buffers: Buffers<'a>,
 }
@@ -59,14 +59,15 @@ struct Buffers<'a> {
     /// Instant and displacement of each reversal of the motion.
     instants: &'a mut [Instant],
     nodes: NodalFourier<'a>,
-    /// φ_r and dT_r of each reversal on the stack, rows over the coefficients.
+    /// The rows φ_r and dT_r over the coefficients, for each reversal on the stack.
     gradients: &'a mut Blocks,
-    /// ∫ φ and ∫ k φ over a segment, rows over the coefficients and up to the order 2H.
+    /// ∫ φ over a segment, up to the order H.
     phi_integrals: &'a mut Blocks,
+    /// ∫ k φ over a segment, up to the order 2H.
     segment_stiffness: &'a mut Blocks,
-    /// Integrals of the force.
+    /// Integrals of the force over the period, times φ.
     force: &'a mut [f64],
-    /// Those of the stiffness, and the terms of the reversals.
+    /// The Jacobian under assembly: integrals of the stiffness over the period, and outer products of the reversals.
     assembly: Assembly<'a>,
 }
 
@@ -112,12 +113,17 @@ pub(super) fn harmonic_force(
 ) {
     let EventWorkspace { reversals, buffers } = workspace;
     let HarmonicOutput { force, jacobian, dissipated, .. } = output;
-    let law = SteadyState::new(contact, reversals, dissipated.is_some());
+    let steady_state = SteadyState::new(contact, reversals, dissipated.is_some());
     let requested = RequestedOfCurve { force: force.is_some(), stiffness: jacobian.is_some() };
-    let mut period =
-        Period { law, requested, motion: Motion::new(displacement), now: Response::default(), sensitivity: None };
+    let mut period = Period {
+        steady_state,
+        requested,
+        motion: Motion::new(displacement),
+        now: Response::default(),
+        sensitivity: None,
+    };
     let half_wave_symmetric = period.integrate(buffers);
-    if let (Some(dissipated), Some(energy)) = (dissipated, period.law.dissipated()) {
+    if let (Some(dissipated), Some(energy)) = (dissipated, period.steady_state.dissipated()) {
         *dissipated = if half_wave_symmetric { 2.0 * energy } else { energy };
     }
     if let Some(force) = force {
@@ -141,9 +147,9 @@ pub(super) fn harmonic_sensitivity(
 ) {
     let EventWorkspace { reversals, buffers } = workspace;
     sensitivity.fill(0.0);
-    let law = SteadyState::new(contact, reversals, false);
+    let steady_state = SteadyState::new(contact, reversals, false);
     let (requested, motion, now) = (RequestedOfCurve::default(), Motion::new(displacement), Response::default());
-    let mut period = Period { law, requested, motion, now, sensitivity: Some(&mut *sensitivity) };
+    let mut period = Period { steady_state, requested, motion, now, sensitivity: Some(&mut *sensitivity) };
     let half_wave_symmetric = period.integrate(buffers);
     for column in sensitivity.chunks_exact_mut(buffers.coefficients()) {
         complete(column, half_wave_symmetric);
@@ -181,10 +187,10 @@ impl Buffers<'_> {
 
 /// Integration over a period, event by event.
 struct Period<'m, 'c, 's> {
-    law: SteadyState<'c, 's>,
+    steady_state: SteadyState<'c, 's>,
     requested: RequestedOfCurve,
     motion: Motion<'m>,
-    /// Response at the present instant.
+    /// Force and stiffness at the present instant.
     now: Response,
     /// Integrals of the derivatives with respect to the parameters, if requested.
     sensitivity: Option<&'m mut [f64]>,
@@ -204,7 +210,7 @@ impl Period<'_, '_, '_> {
         let distance = |index: usize| buffers.instant(index).displacement.abs();
         let first = (1..count).fold(0, |first, index| if distance(index) > distance(first) { index } else { first });
         let mut from = buffers.instant(first);
-        self.now = self.law.begin(from.displacement);
+        self.now = self.steady_state.begin(from.displacement);
         for index in (first + 1..count).chain(0..=first) {
             let Instant { t, displacement } = buffers.instant(index);
             let to = if index > first {
@@ -220,11 +226,11 @@ impl Period<'_, '_, '_> {
 
     /// Integrates a constant displacement.
     fn integrate_constant(&mut self, buffers: &mut Buffers, span: f64) {
-        self.now = self.law.begin(self.motion.mean);
+        self.now = self.steady_state.begin(self.motion.mean);
         buffers.force.set(0, span * self.now.force);
         buffers.assembly.sums.set(0, span * self.now.stiffness);
         if let Some(sums) = &mut self.sensitivity {
-            let derivatives = self.law.sensitivity(self.motion.mean);
+            let derivatives = self.steady_state.sensitivity(self.motion.mean);
             for (column, derivative) in sums.chunks_exact_mut(buffers.coefficients()).zip(derivatives) {
                 column.set(0, span * derivative);
             }
@@ -233,7 +239,7 @@ impl Period<'_, '_, '_> {
 
     /// Integrates from one reversal of the motion to the next, along one branch and its continuations.
     fn integrate_half_cycle(&mut self, buffers: &mut Buffers, from: Instant, to: Instant) {
-        let present = self.law.branch().direction;
+        let present = self.steady_state.branch().direction;
         let change = to.displacement - from.displacement;
         let direction = if change == 0.0 { present } else { change.signum() };
         if direction != present {
@@ -241,7 +247,7 @@ impl Period<'_, '_, '_> {
         }
         let mut at = from;
         loop {
-            let branch = self.law.branch();
+            let branch = self.steady_state.branch();
             let end = branch.end;
             if branch.gross_slip || direction * (to.displacement - end) < 0.0 {
                 self.integrate_segment(buffers, at, to, false);
@@ -249,24 +255,24 @@ impl Period<'_, '_, '_> {
             }
             let t = if to.displacement == end { to.t } else { self.motion.crossing(at, from, to, end) };
             let event = Instant { t, displacement: end };
-            let next = self.law.continuation();
+            let next = self.steady_state.continuation();
             self.integrate_segment(buffers, at, event, next.gross_slip);
-            self.law.enter(next);
+            self.steady_state.enter(next);
             at = event;
         }
-        self.now = self.law.branch().response(self.law.contact, to.displacement);
+        self.now = self.steady_state.branch().response(self.steady_state.contact, to.displacement);
     }
 
     /// Makes an instant the newest reversal on the stack and stores its derivatives.
     fn reverse(&mut self, buffers: &mut Buffers, at: Instant, direction: f64) {
-        let left = self.law.branch().depth;
+        let left = self.steady_state.branch().depth;
         let mut stack = ReversalSensitivities::new(buffers.gradients.as_flattened_mut());
-        let sensitivity = self.sensitivity.is_some().then(|| stack.sensitivity(&self.law, at.displacement));
-        if !self.law.reverse(Point { displacement: at.displacement, force: self.now.force }, direction) {
+        let sensitivity = self.sensitivity.is_some().then(|| stack.sensitivity(&self.steady_state, at.displacement));
+        if !self.steady_state.reverse(Point { displacement: at.displacement, force: self.now.force }, direction) {
             return;
         }
         if let Some(sensitivity) = sensitivity {
-            return stack.store(&self.law, sensitivity);
+            return stack.store(&self.steady_state, sensitivity);
         }
         let row = buffers.row();
         let mut stack = buffers.gradients.chunks_exact_mut((2 * row).max(1)).skip(left.saturating_sub(1));
@@ -287,19 +293,19 @@ impl Period<'_, '_, '_> {
 
     /// Adds a segment of the present branch to the integrals and the energy. `to_slip`: gross slip starts at its end.
     fn integrate_segment(&mut self, buffers: &mut Buffers, from: Instant, to: Instant, to_slip: bool) {
-        self.law.account_for(from.displacement, to.displacement);
+        self.steady_state.account_for(from.displacement, to.displacement);
         let RequestedOfCurve { force, stiffness } = self.requested;
         if to.t <= from.t || !(force || stiffness || self.sensitivity.is_some()) {
             return;
         }
-        let branch = self.law.branch();
+        let branch = self.steady_state.branch();
         let coefficients = buffers.coefficients();
-        let segment = Segment { from: from.t, to: to.t, to_slip, has_knee: self.law.contact.has_knee() };
+        let segment = Segment { from: from.t, to: to.t, to_slip, has_knee: self.steady_state.contact.has_knee() };
         if let Some(sums) = &mut self.sensitivity {
             let stack = ReversalSensitivities::new(buffers.gradients.as_flattened_mut());
             let mut columns = sums.chunks_exact_mut(coefficients);
             let sums: [_; PARAMETERS] = core::array::from_fn(|_| columns.next().unwrap_or_default());
-            let derivatives = |displacement| stack.sensitivity(&self.law, displacement);
+            let derivatives = |displacement| stack.sensitivity(&self.steady_state, displacement);
             return buffers.nodes.integrate(&self.motion, segment, buffers.harmonics, derivatives, sums);
         }
         let orders = if stiffness { 2 * buffers.harmonics } else { buffers.harmonics };
@@ -307,7 +313,7 @@ impl Period<'_, '_, '_> {
         let sums = segment_stiffness.as_flattened_mut().part_mut(..2 * coefficients - 1);
         sums.fill(0.0);
         let values = |displacement| {
-            let Response { force, stiffness } = branch.response(self.law.contact, displacement);
+            let Response { force, stiffness } = branch.response(self.steady_state.contact, displacement);
             [force, stiffness]
         };
         let requested = [if force { &mut **force_sums } else { &mut [] }, if stiffness { &mut *sums } else { &mut [] }];

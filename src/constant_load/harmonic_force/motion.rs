@@ -22,7 +22,7 @@ pub(super) struct Grid<'a> {
     /// Number of points, even.
     pub points: usize,
     pub fourier: FoldedFourier<'a>,
-    /// Rate of the displacement: its coefficients, and its values.
+    /// Coefficients of the rate of the displacement, and its values at the points.
     pub coefficients: &'a mut [f64],
     pub rate: &'a mut [f64],
 }
@@ -34,7 +34,7 @@ pub(super) struct Motion<'a> {
 }
 
 impl<'a> Motion<'a> {
-    /// From the coefficients: the mean, then a cosine and a sine of each order.
+    /// The motion with the given coefficients: the mean, then a cosine and a sine of each order.
     pub fn new(coefficients: &'a [f64]) -> Motion<'a> {
         let (mean, pairs) = coefficients.split_first().unwrap_or((&0.0, &[]));
         Motion { mean: *mean, pairs: pairs.blocks() }
@@ -68,8 +68,8 @@ impl<'a> Motion<'a> {
         let half_wave_symmetric =
             self.mean == 0.0 && self.pairs.iter().skip(1).step_by(2).all(|pair| *pair == [0.0; 2]);
         let searched = if half_wave_symmetric { half } else { 2 * half };
-        // A rate of 0 counts as positive. Under half-wave symmetry the rate at π is minus that at 0: if it is exactly 0 and positive
-        // before π, it has to count as negative at π, or the reversal there is missed.
+        // A rate of 0 counts as positive. Under half-wave symmetry the rates at 0 and at π have opposite signs. If both are exactly
+        // 0 and the rate is positive before π, it must count as negative at π, or the reversal there is missed.
         if half_wave_symmetric && rate.or_zero(0) == 0.0 && rate.or_zero(half.wrapping_sub(1)) > 0.0 {
             rate.set(half, -f64::MIN_POSITIVE);
         }
@@ -97,7 +97,7 @@ impl<'a> Motion<'a> {
         (search.count, half_wave_symmetric)
     }
 
-    /// Instant after `at` at which the displacement crosses `level`, on its monotonic course between the reversals `from` and `to`.
+    /// Instant after `at` at which the displacement crosses `level`; it is monotonic between the reversals `from` and `to`.
     pub fn crossing(&self, at: Instant, from: Instant, to: Instant, level: f64) -> f64 {
         let distance = (level - from.displacement).abs();
         let fraction = distance / (to.displacement - from.displacement).abs().max(distance).max(f64::MIN_POSITIVE);

@@ -1,8 +1,9 @@
 //! Terms of the reversals of the Jacobian under uniform sampling.
 //!
-//! Reversal r on the stack has the derivative `dT_r = k_r (φ_r - φ_q) + dT_q`, with q the reversal before it; the oldest one lies on the
-//! initial loading curve: `dT_r = k_r φ_r`. With G_r the sum of φ over all samples whose force depends on dT_r, its terms
-//! `G_r ⊗ dT_r - (Σ k φ) ⊗ φ_r` are outer products with φ_r and φ_q. They are gathered when the reversal is removed from the stack:
+//! The force at reversal r on the stack has the derivative `dT_r = k_r (φ_r - φ_q) + dT_q`, with the reversal q before it; the
+//! oldest reversal lies on the initial loading curve, `dT_r = k_r φ_r`. Let G_r be the sum of φ over all samples whose force
+//! depends on dT_r. The terms of r in the Jacobian, `G_r ⊗ dT_r - (Σ k φ) ⊗ φ_r`, are outer products with φ_r and φ_q. The product
+//! with φ_r is added when the reversal is removed from the stack, and the rest is passed to q:
 //!
 //! ```text
 //! Y_r = k_r G_r - Σ k φ,     Y_q -= k_r G_r,     G_q += G_r.
@@ -35,7 +36,7 @@ pub(super) struct ReversalTerms<'a> {
     pub rows: Rows<'a>,
     /// The reversals on the stack.
     pub entries: &'a mut [Entry],
-    /// G and Y of each.
+    /// The rows G and Y of each reversal.
     pub sums: &'a mut Blocks,
     pub outer: OuterProducts<'a>,
 }
@@ -76,7 +77,7 @@ struct ReversalStack<'s, const N: usize> {
 }
 
 impl<const N: usize> ReversalStack<'_, N> {
-    /// The sample of the first period.
+    /// The index in the first period of a sample of two periods.
     fn in_period(&self, sample: usize) -> usize {
         sample.checked_sub(self.rows.phi.len()).unwrap_or(sample)
     }

@@ -14,8 +14,8 @@ use core::f64::consts::PI;
 const MIN_BLOCKS: usize = 2;
 const MIN_BLOCKS_TO_SLIP: usize = 4;
 
-/// Nodes over those of a segment without a knee: a knee is a singularity at complex times near the segment, and convergence is slower.
-/// With 2 the error of the force is 9e-7 of μN for N_c = N/1000, with 3 it is that of contacts without a layer.
+/// Factor on the number of nodes if the curve has a knee: it is a singularity at complex times near the segment, and convergence is
+/// slower. With 2 the error of the force is 9e-7 of μN for N_c = N/1000, with 3 it is as small as without a layer.
 const KNEE_DENSITY: f64 = 3.0;
 
 /// Largest number of nodes in a panel; longer segments are divided into panels.
@@ -81,8 +81,8 @@ impl<'a> NodalFourier<'a> {
         NodalFourier { nodes_per_period: size.samples, rows }
     }
 
-    /// Adds the integrals of functions of the displacement over a segment times 1, cos t, sin t, cos 2t, ... to their sums; those without
-    /// sums are not requested. `orders`: the highest order of all.
+    /// Adds the integrals over a segment of functions of the displacement, times 1, cos t, sin t, cos 2t, ..., to the sums of each
+    /// function. A function with empty sums is not integrated. `orders` is the highest order of all sums.
     pub fn integrate<const K: usize>(
         &mut self,
         motion: &Motion,

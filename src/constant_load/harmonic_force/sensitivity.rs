@@ -1,7 +1,8 @@
 //! Derivatives of the harmonic force with respect to the parameters of the contact, for both quadrature rules.
 //!
-//! At a fixed displacement the instants of the reversals are fixed, and the force is continuous where a loop closes or gross slip starts.
-//! So the derivatives are those of the force along the branches: those at the reversal that a branch leaves, and its own.
+//! At a fixed displacement the instants of the reversals are fixed, and the force is continuous when a loop closes or gross slip
+//! starts. The derivatives at a point are therefore the sum of two terms: the derivatives at the reversal that its branch leaves,
+//! and the derivatives of the curve along the branch.
 
 use crate::constant_load::steady_state::SteadyState;
 use crate::numerics::total::PanicFreeSlice;
@@ -16,13 +17,14 @@ impl<'a> ReversalSensitivities<'a> {
     }
 
     /// Stores the derivatives at the reversal that the present branch leaves.
-    pub fn store(&mut self, law: &SteadyState, sensitivity: Sensitivity) {
-        self.0.set(law.branch().depth.wrapping_sub(1), sensitivity);
+    pub fn store(&mut self, steady_state: &SteadyState, sensitivity: Sensitivity) {
+        self.0.set(steady_state.branch().depth.wrapping_sub(1), sensitivity);
     }
 
     /// The derivatives at a displacement on the present branch.
-    pub fn sensitivity(&self, law: &SteadyState, displacement: f64) -> Sensitivity {
-        let (start, along) = (self.0.or_zero(law.branch().depth.wrapping_sub(1)), law.sensitivity(displacement));
+    pub fn sensitivity(&self, steady_state: &SteadyState, displacement: f64) -> Sensitivity {
+        let (start, along) =
+            (self.0.or_zero(steady_state.branch().depth.wrapping_sub(1)), steady_state.sensitivity(displacement));
         core::array::from_fn(|parameter| start[parameter] + along[parameter])
     }
 }

@@ -1,8 +1,8 @@
 //! Harmonic force by alternating frequency/time (AFT) with uniformly spaced samples.
 //!
-//! The displacement is sampled, the law advanced from branch to branch, the forces of each branch are evaluated four at a time, and
-//! transformed back. The error is O(samples⁻²). The Jacobian is exact for the discrete sums: `Σ k φ ⊗ φ` follows from Fourier sums of
-//! the stiffness, and `reversal_terms` adds the terms of the reversals.
+//! The displacement is sampled, the steady state is advanced from branch to branch, and the forces on each branch are evaluated
+//! four at a time and transformed back. The error is O(samples⁻²). The Jacobian is the exact derivative of the discrete sums:
+//! `Σ k φ ⊗ φ` follows from Fourier sums of the stiffness, and `reversal_terms` adds the terms of the reversals.
 
 use super::reversal_terms::{self, ReversalTerms};
 use super::sensitivity::ReversalSensitivities;
@@ -23,12 +23,12 @@ use crate::tag::Kind;
 pub(super) struct UniformWorkspace<'a> {
     size: SamplingSize,
     fourier: FoldedFourier<'a>,
-    /// The stack of reversals of the law.
+    /// The stack of reversals of the steady state.
     reversals: &'a mut [Reversal],
     path: SampledPath<'a>,
     terms: ReversalTerms<'a>,
     assembly: Assembly<'a>,
-    /// Derivatives with respect to the parameters at the samples of a path, from the one after the farthest on.
+    /// Derivatives of the force with respect to the parameters at the samples after the farthest one.
     derivatives: &'a mut [Sensitivity],
 }
 
@@ -73,10 +73,10 @@ pub(super) fn harmonic_force(
     let HarmonicOutput { force, jacobian, dissipated, .. } = output;
     let FarthestPart { farthest, length, half_wave } = sample(size.samples, fourier, displacement, path.displacement);
     let symmetry = |sign: f64| half_wave.then_some(sign);
-    let mut law = SteadyState::new(contact, reversals, dissipated.is_some());
+    let mut steady_state = SteadyState::new(contact, reversals, dissipated.is_some());
     let requested = RequestedOfCurve { force: force.is_some() || jacobian.is_some(), stiffness: jacobian.is_some() };
-    let branches = path.advance(&mut law, farthest, length, requested);
-    if let (Some(dissipated), Some(energy)) = (dissipated, law.dissipated()) {
+    let branches = path.advance(&mut steady_state, farthest, length, requested);
+    if let (Some(dissipated), Some(energy)) = (dissipated, steady_state.dissipated()) {
         *dissipated = if half_wave { 2.0 * energy } else { energy };
     }
     if let Some(force) = force {
@@ -100,17 +100,17 @@ pub(super) fn harmonic_sensitivity(
 ) {
     let UniformWorkspace { size, fourier, reversals, path, terms, derivatives, .. } = workspace;
     let FarthestPart { farthest, length, half_wave } = sample(size.samples, fourier, displacement, path.displacement);
-    let mut law = SteadyState::new(contact, reversals, false);
+    let mut steady_state = SteadyState::new(contact, reversals, false);
     let mut stack = ReversalSensitivities::new(terms.sums.as_flattened_mut());
     let mut from = path.displacement.or_zero(farthest);
-    law.begin(from);
-    let mut now = law.sensitivity(from);
+    steady_state.begin(from);
+    let mut now = steady_state.sensitivity(from);
     for (i, &displacement) in path.displacement.part(farthest + 1..=farthest + length).iter().enumerate() {
         if displacement != from {
-            if law.advance(Point { displacement: from, force: 0.0 }, displacement) {
-                stack.store(&law, now);
+            if steady_state.advance(Point { displacement: from, force: 0.0 }, displacement) {
+                stack.store(&steady_state, now);
             }
-            (now, from) = (stack.sensitivity(&law, displacement), displacement);
+            (now, from) = (stack.sensitivity(&steady_state, displacement), displacement);
         }
         derivatives.set(i, now);
     }
@@ -131,7 +131,7 @@ struct FarthestPart {
     half_wave: bool,
 }
 
-/// Samples a displacement along two periods.
+/// Samples a displacement along two periods, and chooses the part that is evaluated.
 fn sample(count: usize, fourier: &FoldedFourier, displacement: &[f64], samples: &mut [f64]) -> FarthestPart {
     fourier.synthesise(displacement, samples);
     let even_order = |c: usize| c.div_ceil(2).is_multiple_of(2);
@@ -155,35 +155,41 @@ struct SampledPath<'a> {
 }
 
 impl SampledPath<'_> {
-    /// Advances the law from the farthest sample along `length` further ones, and evaluates force and stiffness if requested. Returns the
-    /// number of branches.
-    fn advance(&mut self, law: &mut SteadyState, farthest: usize, length: usize, requested: RequestedOfCurve) -> usize {
+    /// Advances the steady state from the farthest sample along `length` further samples, and evaluates force and stiffness if
+    /// requested. Returns the number of branches.
+    fn advance(
+        &mut self,
+        steady_state: &mut SteadyState,
+        farthest: usize,
+        length: usize,
+        requested: RequestedOfCurve,
+    ) -> usize {
         let SampledPath { displacement, force, stiffness, scratch, branches } = self;
         let mut from = Point { displacement: displacement.or_zero(farthest), force: 0.0 };
-        let response = law.begin(from.displacement);
+        let response = steady_state.begin(from.displacement);
         from.force = response.force;
         stiffness.set(farthest, response.stiffness);
         let mut branches = Stack { values: branches, depth: 0 };
         let (mut next, last) = (farthest + 1, farthest + length);
         while next <= last {
             let (entered, rest) = (displacement.or_zero(next), displacement.part(next..));
-            law.advance(from, entered);
-            let branch = law.branch();
+            steady_state.advance(from, entered);
+            let branch = steady_state.branch();
             let count = count_on_branch(rest, &branch).min(last + 1 - next);
             let [first, on_branch, depth] = [next, count, branch.depth].map(|number| number as u64);
             branches.push(reversal_terms::BranchSamples { first, count: on_branch, depth });
             from.displacement = displacement.or_zero(next + count - 1);
-            law.account_for(entered, from.displacement);
+            steady_state.account_for(entered, from.displacement);
             if requested.force {
                 let (force, stiffness) = (force.part_mut(next..), stiffness.part_mut(next..));
                 let scratch = scratch.each_mut().map(|array| &mut **array);
                 if branch.gross_slip {
-                    force.part_mut(..count).fill(branch.response(law.contact, 0.0).force);
+                    force.part_mut(..count).fill(branch.response(steady_state.contact, 0.0).force);
                     stiffness.part_mut(..count).fill(0.0);
                 } else if requested.stiffness {
-                    branch.along::<true>(law.contact, count, rest, scratch, [force, stiffness]);
+                    branch.along::<true>(steady_state.contact, count, rest, scratch, [force, stiffness]);
                 } else {
-                    branch.along::<false>(law.contact, count, rest, scratch, [force, stiffness]);
+                    branch.along::<false>(steady_state.contact, count, rest, scratch, [force, stiffness]);
                 }
                 from.force = force.or_zero(count - 1);
             }

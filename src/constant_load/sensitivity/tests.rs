@@ -6,8 +6,8 @@ use std::vec::Vec;
 const BODIES: [Material; 2] =
     [Material { young_modulus: 114e9, poisson_ratio: 0.32 }, Material { young_modulus: 2e11, poisson_ratio: 0.2 }];
 
-/// Contacts as functions of N, the friction coefficient, a, R, L, the factor of both moduli, and the compliance of a layer, with the
-/// values of these.
+/// Contacts as functions of N, the friction coefficient, a, R, L, the factor of both moduli, and the compliance of a layer, with
+/// the values of these.
 pub(crate) type Case = (std::boxed::Box<dyn Fn(Sensitivity) -> Contact>, Sensitivity);
 
 fn flat(displacement_reference: i32, stiffening_load: f64) -> impl Fn(Sensitivity) -> Contact {

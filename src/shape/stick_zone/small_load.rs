@@ -1,7 +1,7 @@
 //! The monotonic curve up to τ = 1/2 as one polynomial: `x = Λ τ + Σ h_n τⁿ`, n from 2.
 //!
-//! For small τ the formulas of `stick_zone` are differences of nearly equal terms. The curvature h'' is positive, and its integrals are
-//! free of cancellation. All quantities follow from the coefficients of `h'' = Σ c_m τᵐ`:
+//! For small τ the formulas of `stick_zone` are differences of nearly equal terms. The curvature h'' is positive, and its integrals
+//! are free of cancellation. All quantities follow from the coefficients of `h'' = Σ c_m τᵐ`:
 //!
 //! ```text
 //! h = Σ h_n τⁿ,     λ = h',     W = 4 ∫ t (τ-t) h''(t) dt = 4 Σ (n-1)/(n+1) h_n τⁿ⁺¹,     dW/dτ = 4 Σ (n-1) h_n τⁿ,
@@ -40,7 +40,7 @@ pub struct SmallLoadSeries {
 }
 
 impl SmallLoadSeries {
-    /// The series from values and slopes of its curvature over z at τ = (1+z)/4.
+    /// The series of a curve with the compliance Λ, given values and slopes of its curvature h'' as a function of z at τ = (1+z)/4.
     pub(crate) fn new(compliance: f64, curvature: &[SeriesPoint; RETAINED_TERMS / 2]) -> SmallLoadSeries {
         let mut scale = 1.0;
         let curvature = Interpolant::<RETAINED_TERMS>::osculating(curvature).powers_from_end().map(|power| {
@@ -98,8 +98,8 @@ impl SmallLoadSeries {
         }
     }
 
-    /// The stick zone at a shift of at most that at τ = 1/2: Halley's iteration from the root of the first two terms of the series, which
-    /// is too large by less than 5 %.
+    /// The stick zone at a shift up to that of τ = 1/2, by Halley's iteration. The first estimate is the root of the first two
+    /// terms of the series, which is too large by less than 5 %.
     pub fn at_shift(&self, shift: Complement) -> StickZone {
         let linear = self.compliance;
         let second_derivative = 2.0 * self.initial_curvature() * shift.consumed;
@@ -114,7 +114,7 @@ impl SmallLoadSeries {
             let newton = (linear * tau + h - shift.consumed) / slope;
             let step = newton / (1.0 - 0.5 * newton * curvature / slope);
             tau -= step;
-            // To first order in the step; its square is below rounding.
+            // λ after the step to first order: the square of the last step is below rounding.
             compliance_increase = compliance - step * curvature;
             if step.abs() <= 1e-8 * tau {
                 break;
