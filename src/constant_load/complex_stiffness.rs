@@ -236,16 +236,6 @@ impl Contact {
         (real, (slope * per_slip).min(0.0))
     }
 
-    /// Energy dissipated per cycle, and its derivative with respect to the amplitude.
-    fn energy_of_cycle(&self, amplitude: f64) -> (f64, f64) {
-        if self.is_frictionless() || amplitude >= self.slip_displacement {
-            let slope = 4.0 * self.slip_force;
-            (self.slip_energy + slope * (amplitude - self.slip_displacement), slope)
-        } else {
-            self.cycle_energy(self.before_slip(amplitude))
-        }
-    }
-
     /// Both derivatives at the amplitude 0, from the initial curvature of the curve: `-h_2/Λ³` and `4 h_2/(3πΛ³)`.
     fn initial_slopes(&self) -> (f64, f64) {
         if self.is_frictionless() {

@@ -8,7 +8,6 @@ use crate::constant_load::contact::Contact;
 use crate::constant_load::memory::StepSegment;
 use crate::error::{Error, ensure};
 use crate::numerics::fp_class::in_0_to;
-use crate::shape::Complement;
 use crate::shape::stick_zone::StickZone;
 
 impl Contact {
@@ -26,11 +25,14 @@ impl Contact {
         self.check_force(force_amplitude)
     }
 
-    /// Energy \[J\] dissipated per cycle of a displacement amplitude up to the onset of gross slip, and its derivative with respect
-    /// to the amplitude \[N\].
-    pub(crate) fn cycle_energy(&self, amplitude: Complement) -> (f64, f64) {
+    /// Energy \[J\] dissipated per cycle of a displacement amplitude, and its derivative with respect to the amplitude \[N\].
+    pub(crate) fn energy_of_cycle(&self, amplitude: f64) -> (f64, f64) {
+        if self.is_frictionless() || amplitude >= self.slip_displacement {
+            let slope = 4.0 * self.slip_force;
+            return (self.slip_energy + slope * (amplitude - self.slip_displacement), slope);
+        }
         let zones = &self.zones;
-        let (load, increase) = self.load_of_energy(amplitude);
+        let (load, increase) = self.load_of_energy(self.before_slip(amplitude));
         let (dissipation, slope) = zones.dissipation(load, increase);
         (self.energy_scale() * dissipation, self.slip_force * slope / (zones.small_load.compliance + increase))
     }
@@ -58,16 +60,10 @@ impl<'a> Dissipation<'a> {
         }
     }
 
-    /// Energy of a cycle between ± a displacement, at most that of gross slip.
+    /// Energy of a cycle between ± a displacement.
     #[inline(never)]
     fn cycle_energy(&self, amplitude: f64) -> f64 {
-        if amplitude <= 0.0 {
-            0.0
-        } else if amplitude >= self.contact.slip_displacement {
-            self.contact.slip_energy
-        } else {
-            self.contact.cycle_energy(self.contact.before_slip(amplitude)).0
-        }
+        if amplitude > 0.0 { self.contact.energy_of_cycle(amplitude).0 } else { 0.0 }
     }
 
     fn add_last(&mut self) {

@@ -19,7 +19,7 @@ use crate::numerics::chebyshev::{Interpolant, Polynomial, SeriesPoint, TERMS, po
 use crate::numerics::guard::TINY;
 use crate::numerics::lanes::Lanes;
 use crate::numerics::polynomial::{rows, value_and_slope, values_and_slopes};
-use crate::shape::stick_zone::{LoadPoint, StickZones};
+use crate::shape::stick_zone::{StickZone, StickZones};
 
 /// Fraction of x_s that the first polynomial covers.
 pub(crate) const INNER_FRACTION: f64 = 0.4;
@@ -65,10 +65,10 @@ impl ForceInterpolant {
     #[inline(never)]
     pub fn new(inner_fraction: f64, zones: &StickZones) -> ForceInterpolant {
         let (slip_shift, compliance) = (zones.slip_shift, zones.small_load.compliance);
-        let at_remaining: &mut dyn FnMut(f64) -> LoadPoint = &mut zones.sequence();
+        let at_remaining: &mut dyn FnMut(f64) -> (StickZone, f64) = &mut zones.sequence();
         let (first, remaining) = (inner_fraction * slip_shift, (1.0 - inner_fraction) * slip_shift);
         let mut tangents = Interpolant::<{ TERMS / 2 }>::at_points(|z| {
-            let LoadPoint { compliance_increase: increase, curvature, .. } =
+            let (StickZone { compliance_increase: increase, .. }, curvature) =
                 at_remaining(slip_shift - 0.5 * (1.0 - z) * first);
             let stiffness = 1.0 / (compliance + increase);
             let slope = 0.5 * first * compliance * curvature * stiffness * stiffness * stiffness;
@@ -175,7 +175,7 @@ pub(crate) fn power_of_2(j: u64) -> f64 {
 fn last_pieces(
     compliance: f64,
     remaining: f64,
-    at_remaining: &mut dyn FnMut(f64) -> LoadPoint,
+    at_remaining: &mut dyn FnMut(f64) -> (StickZone, f64),
 ) -> [Polynomial; LAST_PIECES] {
     let mut last = [[[0.0; 4]; _]; LAST_PIECES];
     for (piece, polynomial) in last.iter_mut().enumerate() {
@@ -183,9 +183,9 @@ fn last_pieces(
             let root = 0.25 * (3.0 + z) * f64::from_bits((1023 - piece as u64) << 52);
             let square = root * root;
             let rho = END_OF_PIECES * ((square * square) * (square * square));
-            let point = at_remaining(remaining * rho);
-            let value = point.remaining / rho;
-            let tangent = remaining / (compliance + point.compliance_increase);
+            let (zone, _) = at_remaining(remaining * rho);
+            let value = zone.load.remaining / rho;
+            let tangent = remaining / (compliance + zone.compliance_increase);
             SeriesPoint { value, slope: 8.0 / (3.0 + z) * (tangent - value) }
         };
         *polynomial = powers(Interpolant::<16>::osculating(&Interpolant::<8>::at_points(tangent)).terms());
@@ -197,11 +197,16 @@ fn last_pieces(
 /// constant that fits the values of 1 - τ. The compliance at the first point gives a parabola, and the difference from it is
 /// interpolated.
 #[inline(never)]
-fn interpolate(compliance: f64, unit: f64, at: &mut dyn FnMut(f64) -> LoadPoint, tolerance: f64) -> (Polynomial, bool) {
+fn interpolate(
+    compliance: f64,
+    unit: f64,
+    at: &mut dyn FnMut(f64) -> (StickZone, f64),
+    tolerance: f64,
+) -> (Polynomial, bool) {
     let (mut sum, mut first) = (0.0, None);
     let tangents = Interpolant::<{ TERMS / 2 }>::at_points(|z| {
-        let LoadPoint { remaining, compliance_increase: increase, curvature } = at(z);
-        sum += remaining;
+        let (StickZone { load, compliance_increase: increase, .. }, curvature) = at(z);
+        sum += load.remaining;
         let first = *first.get_or_insert(increase);
         let stiffness = 1.0 / (compliance + increase);
         let (r, ratio) = (3.0 + z, (increase - first) * stiffness);

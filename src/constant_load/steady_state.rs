@@ -80,14 +80,10 @@ impl<'c, 's> SteadyState<'c, 's> {
         transition.reversed
     }
 
-    /// Pushes a point of the present branch as the newest reversal; returns `false` if the stack is full.
-    pub fn reverse(&mut self, at: Point, direction: f64) -> bool {
-        let has_room = self.depth < self.reversals.len();
-        if has_room {
-            (self.depth, _) = push(self.contact, self.initial.offset, self.reversals, self.depth, at);
-            self.branch = self.memory(at).branch(self.contact, self.depth, direction);
-        }
-        has_room
+    /// Pushes a point of the present branch as the newest reversal.
+    pub fn reverse(&mut self, at: Point, direction: f64) {
+        (self.depth, _) = push(self.contact, self.initial.offset, self.reversals, self.depth, at);
+        self.branch = self.memory(at).branch(self.contact, self.depth, direction);
     }
 
     /// Enters the branch that follows at the end of the present one.

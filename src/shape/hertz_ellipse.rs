@@ -20,11 +20,11 @@
 
 use crate::error::Error;
 use crate::limits::{in_range, quotient_in_range};
-use crate::numerics::guard::quotient;
+use crate::numerics::guard::{quotient, root};
 use crate::parameters::{Common, EllipticParameters, Pair, positive};
 use crate::shape::series::{Series, identity};
 use crate::shape::size::Size;
-use crate::shape::tractions::{SurfacePoint, difference_of_heights};
+use crate::shape::tractions::SurfacePoint;
 use crate::shape::{Geometry, LARGEST, Quantity, Shape, ShapeKind};
 use core::array::from_fn;
 use core::f64::consts::{FRAC_PI_2, PI};
@@ -113,7 +113,10 @@ pub fn near_shift(_: &Size, load: f64) -> f64 {
 /// The difference of the pressures `sqrt(s² - x²)` of two sizes.
 pub fn pressure(_: &Size, [from, _, squares]: [f64; 3], point: &SurfacePoint) -> f64 {
     let outer = point.from_edge * (1.0 + point.x);
-    0.375 * difference_of_heights(outer, (from - point.x) * (from + point.x), squares)
+    let inner = (from - point.x) * (from + point.x);
+    // The sum of both heights; the inner one is 0 outside that size.
+    let sum = root(outer) + root(inner);
+    0.375 * if inner > 0.0 { quotient(squares, sum) } else { sum }
 }
 
 pub fn slip(_: &Size, _: &SurfacePoint) -> f64 {

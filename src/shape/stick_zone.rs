@@ -60,17 +60,6 @@ pub(crate) struct StickZone {
     pub leg: Option<f64>,
 }
 
-/// A point of the monotonic curve.
-#[derive(Clone, Copy)]
-pub(crate) struct LoadPoint {
-    /// 1 - τ.
-    pub remaining: f64,
-    /// λ.
-    pub compliance_increase: f64,
-    /// dλ/dτ.
-    pub curvature: f64,
-}
-
 /// Moments of the curvature h'' of the contact without its layer, integrals over the load t from 0 to τ that are free of
 /// cancellation.
 #[derive(Clone, Copy)]
@@ -248,21 +237,17 @@ impl StickZones {
         }
     }
 
-    /// A function that returns the point of the curve at a remaining shift, for a decreasing sequence of shifts that starts close
+    /// A function that returns the stick zone and dλ/dτ at a remaining shift, for a decreasing sequence of shifts that starts close
     /// to x_s. Each point is predicted by the expansion about the previous point, so that the closed forms are nearly always
     /// evaluated once.
-    pub fn sequence(&self) -> impl FnMut(f64) -> LoadPoint {
+    pub fn sequence(&self) -> impl FnMut(f64) -> (StickZone, f64) {
         let mut last: Option<InversePower> = None;
         move |remaining| {
             let leg = last.as_ref().map_or(self.b.leg, |last| last.leg(remaining));
             let (zone, punch, inverse) = self.refine(remaining, self.b.resized(leg));
             last = Some(inverse);
             let [of_layer, _] = self.layer.curvature(zone.load);
-            LoadPoint {
-                remaining: zone.load.remaining,
-                compliance_increase: zone.compliance_increase,
-                curvature: self.curvature_of(&punch) + of_layer,
-            }
+            (zone, self.curvature_of(&punch) + of_layer)
         }
     }
 

@@ -12,7 +12,7 @@
 //! cancellation (a narrow slip zone, a nearly flat contact), the integral is computed by 16-point Gauss-Legendre quadrature, which
 //! is accurate to rounding: the integrand is smooth and positive.
 
-use crate::numerics::guard::{TINY, quotient, root};
+use crate::numerics::guard::{TINY, root};
 use crate::numerics::quadrature::gauss;
 use crate::shape::size::Size;
 
@@ -33,12 +33,6 @@ impl SurfacePoint {
         let (x, unit) = (x.abs().min(2.0 * half_width), half_width.max(f64::MIN_POSITIVE));
         SurfacePoint { x: x / unit, past_flat: (x - flat.min(x + unit)) / unit, from_edge: (half_width - x) / unit }
     }
-}
-
-/// The difference of the roots of two numbers, 0 of a negative one, given the difference of these.
-pub(crate) fn difference_of_heights(outer: f64, inner: f64, difference: f64) -> f64 {
-    let sum = root(outer) + root(inner);
-    if inner > 0.0 { quotient(difference, sum) } else { sum }
 }
 
 /// Ratio of a sum to its terms below which quadrature is used: six bits lost to cancellation.

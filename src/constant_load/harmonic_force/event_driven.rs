@@ -268,9 +268,7 @@ impl Period<'_, '_, '_> {
         let left = self.steady_state.branch().depth;
         let mut stack = ReversalSensitivities::new(buffers.gradients.as_flattened_mut());
         let sensitivity = self.sensitivity.is_some().then(|| stack.sensitivity(&self.steady_state, at.displacement));
-        if !self.steady_state.reverse(Point { displacement: at.displacement, force: self.now.force }, direction) {
-            return;
-        }
+        self.steady_state.reverse(Point { displacement: at.displacement, force: self.now.force }, direction);
         if let Some(sensitivity) = sensitivity {
             return stack.store(&self.steady_state, sensitivity);
         }

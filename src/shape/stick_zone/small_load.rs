@@ -24,8 +24,7 @@ type SeriesTerms = PolynomialRows<{ RETAINED_TERMS / 4 }>;
 // The factors f_m of integrals of τᵐ.
 const COMPLIANCE_FACTORS: SeriesTerms = rows(&tabulate!(RETAINED_TERMS, |m| 1.0 / (m + 1) as f64));
 const SHIFT_FACTORS: SeriesTerms = rows(&tabulate!(RETAINED_TERMS, |m| 1.0 / ((m + 1) * (m + 2)) as f64));
-const DISSIPATION: SeriesTerms = rows(&tabulate!(RETAINED_TERMS, |m| 4.0 / ((m + 2) * (m + 3)) as f64));
-const D_DISSIPATION: SeriesTerms = rows(&tabulate!(RETAINED_TERMS, |m| 4.0 / (m + 2) as f64));
+const DISSIPATION_FACTORS: SeriesTerms = rows(&tabulate!(RETAINED_TERMS, |m| 4.0 / ((m + 2) * (m + 3)) as f64));
 
 /// The expansion of the monotonic curve for τ <= 1/2.
 #[repr(C)]
@@ -75,12 +74,12 @@ impl SmallLoadSeries {
 
     /// λ = ∫ h'' dt and ∫ t h'' dt from 0 to τ.
     pub fn moments(&self, tau: f64) -> [f64; 2] {
-        [self.sum(&COMPLIANCE_FACTORS, tau) * tau, 0.25 * self.sum(&D_DISSIPATION, tau) * tau * tau]
+        [self.sum(&COMPLIANCE_FACTORS, tau) * tau, 0.25 * self.dissipation(tau).1]
     }
 
     /// W and dW/dτ at τ.
     pub fn dissipation(&self, tau: f64) -> (f64, f64) {
-        let (sum, slope) = polynomial::value_and_slope(&self.terms(&DISSIPATION), tau);
+        let (sum, slope) = polynomial::value_and_slope(&self.terms(&DISSIPATION_FACTORS), tau);
         let square = tau * tau;
         (sum * tau * square, (3.0 * sum + slope * tau) * square)
     }
