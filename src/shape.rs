@@ -259,10 +259,9 @@ impl Shape {
         let size = self.size(leg);
         let shift = self.compliance_coefficients(Quantity::Shift);
         let (own, load) = (self.own_compliance(shift, size.half_width), self.load_scale * size.load());
-        let [decrease, _] = size.decrease();
         let layer = self.layer.compliance(load);
         let stiffness = 1.0 / (own + layer);
-        let per_load = shift[0] * decrease / (self.load_scale * size.load_slope()) + layer * self.layer.hardening(load);
+        let per_load = shift[0] * size.decrease_with_load() / self.load_scale + layer * self.layer.hardening(load);
         per_load * stiffness * stiffness * stiffness
     }
 

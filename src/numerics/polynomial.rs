@@ -53,34 +53,3 @@ pub(crate) fn values_and_slopes<const L: usize, const SLOPES: bool>(
     let odd_rate = sums[3] * twice + (slopes[1] + slopes[3] * square) * cube;
     (value, (sums[1] + sums[3] * square) + (even_rate + odd_rate * x))
 }
-
-/// Number of rows, at most `all`, after which a series with coefficients near 1 is converged to double precision at x.
-#[inline]
-pub(crate) fn rows_for(x: f64, all: usize) -> usize {
-    // (1/16)¹⁶, (1/4)²⁸ and (1/3)³⁶ are below 2⁻⁵³.
-    let enough = if x <= 1.0 / 16.0 {
-        4
-    } else if x <= 0.25 {
-        7
-    } else if x <= 1.0 / 3.0 {
-        9
-    } else {
-        all
-    };
-    enough.min(all)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_rows_of_a_geometric_series_are_enough_up_to_each_bound() {
-        for x in [1.0 / 16.0, 0.25, 1.0 / 3.0] {
-            let used = rows_for(x, 20);
-            let found = value([[1.0; 4]; 20].get(..used).unwrap(), x);
-            assert!((found * (1.0 - x) - 1.0).abs() < 4.0 * f64::EPSILON, "{x} {found}");
-            assert!(rows_for(x, 20) < rows_for(f64::next_up(x), 20) && rows_for(x, 2) == 2);
-        }
-    }
-}

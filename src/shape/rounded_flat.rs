@@ -80,7 +80,13 @@ static BETA: SeriesTable = mean_over_ln_c(1.0);
 static GAMMA: SeriesTable = mean_over_ln_c(2.0);
 
 fn sum(table: &SeriesTable, t: f64) -> f64 {
-    polynomial::value(table.part(..polynomial::rows_for(t, TERMS / 4)), t)
+    // The terms that are left out are below 2⁻⁵³: (1/16)¹⁶, (1/4)²⁸, (1/3)³⁶.
+    let rows = match t {
+        ..=0.0625 => 4,
+        ..=0.25 => 7,
+        _ => TERMS / 4,
+    };
+    polynomial::value(table.part(..rows), t)
 }
 
 /// t = tan²(ψ/2) if the series apply.

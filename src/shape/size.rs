@@ -68,6 +68,12 @@ impl Size {
         4.0 * self.leg * self.leg * self.psi
     }
 
+    /// Decrease of the compliance with the load, -dΛ/dg.
+    pub fn decrease_with_load(&self) -> f64 {
+        let (reach, _) = self.kernel().reach(self.half_width);
+        1.0 / (4.0 * (self.half_width * self.half_width * reach) * self.psi).max(TINY)
+    }
+
     /// Decrease of the compliance with ln leg, and the derivative of this decrease with respect to ln leg.
     pub fn decrease(&self) -> [f64; 2] {
         let share = self.leg * self.leg / (self.half_width * self.half_width).max(TINY);

@@ -120,8 +120,7 @@ impl StickZones {
 
     /// Curvature `h'' = dλ/dτ` at a stick zone without the layer: the rates of λ and of τ with ln leg, divided.
     fn curvature_of(&self, size: &Size) -> f64 {
-        let (reach, _) = self.b.kernel().reach(size.half_width);
-        self.load / (4.0 * (size.half_width * size.half_width * reach) * size.psi).max(TINY)
+        self.load * size.decrease_with_load()
     }
 
     /// Values and slopes of the curvature h'' as a function of z at τ = (1+z)/4. It is positive, and its singularity at τ = 1 is as

@@ -12,7 +12,6 @@
 use crate::numerics::chebyshev::{Interpolant, SeriesPoint};
 use crate::numerics::const_math::tabulate;
 use crate::numerics::polynomial::{self, PolynomialRows, rows};
-use crate::numerics::total::PanicFreeSlice;
 use crate::shape::Complement;
 use crate::shape::stick_zone::StickZone;
 
@@ -58,9 +57,10 @@ impl SmallLoadSeries {
         first
     }
 
-    /// `Σ c_m f_m τᵐ`.
+    /// `Σ c_m f_m τᵐ`. Not inlined: the evaluation of the interpolant, which is used more often, would not be inlined any more.
+    #[inline(never)]
     fn sum(&self, factors: &SeriesTerms, tau: f64) -> f64 {
-        polynomial::value(self.terms(factors).part(..polynomial::rows_for(tau, RETAINED_TERMS / 4)), tau)
+        polynomial::value(&self.terms(factors), tau)
     }
 
     /// The coefficients c_m f_m.
