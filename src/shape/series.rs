@@ -62,14 +62,14 @@ impl Shape {
 }
 
 /// Powers of the series t(ε) that inverts `f(t) = f_0 (1 + ε)`, at `[power][order]`.
-fn inverse_powers(y: &Series) -> [Series; ORDER] {
+fn inverse_powers(function: &Series) -> [Series; ORDER] {
     let mut powers = [[0.0; ORDER]; ORDER];
     powers[0][0] = 1.0;
-    let (mut inverse, per_slope) = ([0.0; ORDER], 1.0 / y[1]);
+    let (mut inverse, per_slope) = ([0.0; ORDER], 1.0 / function[1]);
     for order in 1..ORDER {
         // The orders of t², t³, ... need lower orders of t only.
-        let mut sum = if order == 1 { y[0] } else { 0.0 };
-        for (power, coefficient) in y.iter().enumerate().take(order + 1).skip(2) {
+        let mut sum = if order == 1 { function[0] } else { 0.0 };
+        for (power, coefficient) in function.iter().enumerate().take(order + 1).skip(2) {
             let product = product_term(&inverse, &powers.or_zero(power - 1), order);
             powers.as_flattened_mut().set(ORDER * power + order, product);
             sum -= coefficient * product;
@@ -81,10 +81,10 @@ fn inverse_powers(y: &Series) -> [Series; ORDER] {
 }
 
 /// `f(t(ε))` from the powers of t.
-fn composed(y: &Series, powers: &[Series; ORDER]) -> Series {
+fn composed(function: &Series, powers: &[Series; ORDER]) -> Series {
     let mut series = [0.0; ORDER];
     // From the highest power, the smallest terms, on.
-    for (coefficient, power) in y.iter().zip(powers).rev() {
+    for (coefficient, power) in function.iter().zip(powers).rev() {
         series.iter_mut().zip(power).for_each(|(sum, term)| *sum += coefficient * term);
     }
     series

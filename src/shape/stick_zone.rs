@@ -78,8 +78,8 @@ pub(crate) struct Moments {
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct StickZones {
-    /// The size b of the contact, and its load g and means β and γ.
-    b: Size,
+    /// The size of the contact, and its load g and means β and γ.
+    contact: Size,
     load: f64,
     beta: f64,
     gamma: f64,
@@ -94,10 +94,11 @@ pub(crate) struct StickZones {
 }
 
 impl StickZones {
-    /// The sizes below the contact `b` (lengths in units of its half-width), with the compliance Λ of full stick.
-    pub fn new(b: Size, compliance: f64, layer: LayerCompliance) -> StickZones {
-        let load = b.load();
-        let mut zones = StickZones { b, load, beta: b.beta(load), gamma: b.gamma(load), ..StickZones::default() };
+    /// The stick zones of a contact (lengths in units of its half-width) with the compliance Λ of full stick.
+    pub fn new(contact: Size, compliance: f64, layer: LayerCompliance) -> StickZones {
+        let load = contact.load();
+        let mut zones =
+            StickZones { contact, load, beta: contact.beta(load), gamma: contact.gamma(load), ..StickZones::default() };
         zones.slip_shift = compliance + zones.beta + layer.shift(1.0);
         zones.small_load_without_layer = SmallLoadSeries::new(compliance, &zones.curvatures());
         (zones.layer, zones.small_load) = (layer, zones.small_load_without_layer);
@@ -114,8 +115,8 @@ impl StickZones {
 
     /// Compliance increase λ of a stick zone without the layer, accurate also for c close to b.
     fn increase_of(&self, size: &Size) -> f64 {
-        let squares = (self.b.leg - size.leg) * (self.b.leg + size.leg);
-        self.b.kernel().increase(size.half_width, squares)
+        let squares = (self.contact.leg - size.leg) * (self.contact.leg + size.leg);
+        self.contact.kernel().increase(size.half_width, squares)
     }
 
     /// Curvature `h'' = dλ/dτ` at a stick zone without the layer: the rates of λ and of τ with ln leg, divided.
@@ -140,16 +141,16 @@ impl StickZones {
 
     /// The size with `1 - τ = remaining`.
     fn size_under(&self, remaining: f64) -> Size {
-        self.b.at_load(remaining * self.load)
+        self.contact.at_load(remaining * self.load)
     }
 
     /// The size with `1 - τ = remaining`, given λ of contact and layer to the rounding of Λ + λ, and its load g.
     fn size_near(&self, remaining: f64, compliance_increase: f64) -> (Size, f64) {
         let load = remaining * self.load;
         let own = compliance_increase - self.layer.increase(Complement::of_remaining(remaining));
-        let square = self.b.leg * self.b.leg;
-        let leg = (square - self.b.kernel().squares(own)).max(0.25 * square * remaining).sqrt();
-        (self.b.resized(leg).at_load_near(load), load)
+        let square = self.contact.leg * self.contact.leg;
+        let leg = (square - self.contact.kernel().squares(own)).max(0.25 * square * remaining).sqrt();
+        (self.contact.resized(leg).at_load_near(load), load)
     }
 
     /// The stick zone of a size with the load g and `1 - τ = g/g_b`. The consumed shift is computed as Λ τ + h, which is not a
@@ -192,13 +193,13 @@ impl StickZones {
             let of_layer = self.layer.load_of_extent(remaining / self.layer.tangential);
             own = own.min(slip_shift * of_layer.sqrt()).max(f64::MIN_POSITIVE);
         }
-        let near = |compliance: f64| self.b.near_shift(own / compliance * self.load);
+        let near = |compliance: f64| self.contact.near_shift(own / compliance * self.load);
         let leg = near(self.small_load_without_layer.compliance);
-        if self.b.is_power_law() {
-            return self.b.resized(leg);
+        if self.contact.is_power_law() {
+            return self.contact.resized(leg);
         }
-        let increase = -0.5 * (self.b.flat * self.b.flat + leg * leg).clamp(TINY, 1.0).ln();
-        self.b.resized(near(slip_shift + increase).min(self.b.leg))
+        let increase = -0.5 * (self.contact.flat * self.contact.flat + leg * leg).clamp(TINY, 1.0).ln();
+        self.contact.resized(near(slip_shift + increase).min(self.contact.leg))
     }
 
     /// The stick zone at a remaining shift, its size, and the expansion of the inverse about it, by iteration from a size close to
@@ -206,7 +207,7 @@ impl StickZones {
     ///
     /// One iteration raises the relative error to its fourth power.
     fn refine(&self, remaining: f64, start: Size) -> (StickZone, Size, InversePower) {
-        if self.b.is_power_law() && !self.has_layer() {
+        if self.contact.is_power_law() && !self.has_layer() {
             let punch = self.initial_guess(remaining);
             return (self.at_size(&punch, remaining), punch, InversePower::default());
         }
@@ -229,7 +230,7 @@ impl StickZones {
             let inverse = punch.inverse(now.shift.remaining, power, slope_of_psi, rates);
             let step = inverse.step(remaining);
             iterations_left -= 1;
-            punch = self.b.resized((leg + step).max(0.0).min(self.b.leg));
+            punch = self.contact.resized((leg + step).max(0.0).min(self.contact.leg));
             if step.abs() <= 2e-5 * compliance.min(1.0) * leg || iterations_left == 0 {
                 return (self.at_size(&punch, remaining), punch, inverse);
             }
@@ -242,8 +243,8 @@ impl StickZones {
     pub fn sequence(&self) -> impl FnMut(f64) -> (StickZone, f64) {
         let mut last: Option<InversePower> = None;
         move |remaining| {
-            let leg = last.as_ref().map_or(self.b.leg, |last| last.leg(remaining));
-            let (zone, punch, inverse) = self.refine(remaining, self.b.resized(leg));
+            let leg = last.as_ref().map_or(self.contact.leg, |last| last.leg(remaining));
+            let (zone, punch, inverse) = self.refine(remaining, self.contact.resized(leg));
             last = Some(inverse);
             let [of_layer, _] = self.layer.curvature(zone.load);
             (zone, self.curvature_of(&punch) + of_layer)
@@ -257,7 +258,7 @@ impl StickZones {
         }
         let mut zone = self.zone(&self.size_under(load.remaining), load.remaining * self.load, load.remaining);
         zone.shift.consumed += self.layer.shift(self.layer.consumed(load));
-        let vanishes = load.remaining <= 0.0 && self.b.flat <= 0.0;
+        let vanishes = load.remaining <= 0.0 && self.contact.flat <= 0.0;
         StickZone { compliance_increase: if vanishes { f64::INFINITY } else { zone.compliance_increase }, ..zone }
     }
 
@@ -301,9 +302,9 @@ impl StickZones {
     ///
     /// The moment `by_flat` is 4 [(leg_b - a ψ_b) - (leg_c - a ψ_c)]/g_b, because dc/da at a constant load is leg/(c ψ).
     pub fn moments(&self, load: Complement, compliance_increase: f64) -> Moments {
-        let Size { flat, leg, .. } = self.b;
+        let Size { flat, leg, .. } = self.contact;
         let tau = load.consumed;
-        let (increase, first, complement, w_difference) = if tau <= 0.5 {
+        let (increase, first, complement, leg_difference) = if tau <= 0.5 {
             let [increase, first] = self.small_load_without_layer.moments(tau);
             let squares = -(-2.0 * increase).exp_m1();
             (increase, first, increase - first, squares / (leg + (leg * leg - squares).max(0.0).sqrt()))
@@ -317,41 +318,41 @@ impl StickZones {
             // 2 ∫ (1-t) h'' dt + a ∫ 4 leg/g_b h'' dt = τ; the first term is the smaller one.
             (tau - 2.0 * complement) / flat
         } else {
-            let angle = (flat * w_difference).atan2(flat * flat + leg * (leg - w_difference));
-            4.0 / self.load * (w_difference - flat * angle)
+            let angle = (flat * leg_difference).atan2(flat * flat + leg * (leg - leg_difference));
+            4.0 / self.load * (leg_difference - flat * angle)
         };
         Moments { increase, first, complement, by_flat }
     }
 
     /// d(ln b)/d(ln g_b), and db/da at a constant load.
     pub fn size_slopes(&self) -> [f64; 2] {
-        [self.small_load_without_layer.initial_curvature(), self.b.leg / self.b.psi]
+        [self.small_load_without_layer.initial_curvature(), self.contact.leg / self.contact.psi]
     }
 
     /// leg² of a stick zone, and `leg_b² - leg²` free of cancellation.
     fn squares(&self, zone: &StickZone) -> [f64; 2] {
         if let Some(leg) = zone.leg {
-            return [leg * leg, (self.b.leg - leg) * (self.b.leg + leg)];
+            return [leg * leg, (self.contact.leg - leg) * (self.contact.leg + leg)];
         }
         let increase = if self.has_layer() {
             self.small_load_without_layer.moments(zone.load.consumed)[0]
         } else {
             zone.compliance_increase
         };
-        let squares = self.b.kernel().squares(increase);
-        [(self.b.leg * self.b.leg - squares).max(0.0), squares]
+        let squares = self.contact.kernel().squares(increase);
+        [(self.contact.leg * self.contact.leg - squares).max(0.0), squares]
     }
 
     /// c/b.
     pub fn size(&self, zone: &StickZone) -> f64 {
         let [square, _] = self.squares(zone);
-        (self.b.flat * self.b.flat + square).sqrt().max(self.b.flat)
+        (self.contact.flat * self.contact.flat + square).sqrt().max(self.contact.flat)
     }
 
     /// Pressure of the contact less the pressure of a smaller size, given `[leg², leg_b² - leg²]` of the latter.
     fn pressure_beyond(&self, [square, squares]: [f64; 2], point: &SurfacePoint) -> f64 {
-        let legs = [square.sqrt(), self.b.leg, squares];
-        self.b.pressure(legs, point) * self.traction_scale() / PI
+        let legs = [square.sqrt(), self.contact.leg, squares];
+        self.contact.pressure(legs, point) * self.traction_scale() / PI
     }
 
     /// Factor of the integrals of `tractions`.
@@ -361,7 +362,7 @@ impl StickZones {
 
     /// Pressure in units of N/(bL) or, for an ellipse, of N over the product of the semi-axes.
     pub fn pressure(&self, point: &SurfacePoint) -> f64 {
-        self.pressure_beyond([0.0, self.b.leg * self.b.leg], point)
+        self.pressure_beyond([0.0, self.contact.leg * self.contact.leg], point)
     }
 
     /// Shear traction over μ in those units under a monotonically increased force: the pressure of b less that of the stick zone
@@ -373,7 +374,7 @@ impl StickZones {
     /// Relative slip (Eq. 15) in units of shift; `None` for an ellipse, for which there is no closed form.
     pub fn slip(&self, point: &SurfacePoint, zone: &StickZone) -> Option<f64> {
         let [square, _] = self.squares(zone);
-        let slip = self.b.resized(square.sqrt()).slip(point);
+        let slip = self.contact.resized(square.sqrt()).slip(point);
         (!slip.is_nan()).then_some(slip * self.traction_scale())
     }
 }
