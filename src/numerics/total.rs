@@ -104,11 +104,6 @@ impl<T: Zero> Stack<'_, T> {
     pub fn push(&mut self, value: T) {
         self.depth += usize::from(self.values.set(self.depth, value));
     }
-
-    /// The last value, if there is one.
-    pub fn top(&mut self) -> Option<&mut T> {
-        self.values.get_mut(self.depth.checked_sub(1)?)
-    }
 }
 
 #[cfg(test)]
@@ -125,6 +120,6 @@ mod tests {
         let mut stack = Stack { values, depth: 1 };
         stack.push(5.0);
         stack.push(6.0);
-        assert_eq!((stack.depth, stack.top().copied()), (2, Some(5.0)));
+        assert_eq!((stack.depth, stack.values.or_zero(1)), (2, 5.0));
     }
 }

@@ -11,7 +11,7 @@
 //! - A stuck piece from sample i to j has `δu = m_i + (m_j - m_i)(S - S_i)/(S_j - S_i)` with the motion `m = δu - D δS` of a
 //!   sample: the integral is m_i times the rise of 1/K_t from S_i to S_2 (the constant weight), and m_j - m_i times the linear
 //!   weight, `[(S_2 - S_i)/K_t(S_2) - (N_2 - N_i)]/(S_j - S_i)`.
-//! - The part with D = 0 never moves.
+//! - The core of the contact, which keeps D = 0 throughout the period, never moves.
 //!
 //! S_2 is the outer end of the piece, which later samples cut. What depends on the sample itself is a weighted sum over
 //! `φ ⊗ φ`, composed of Fourier sums of the weights. Everything else is gathered by pieces: each sums φ of the later samples times
@@ -33,7 +33,7 @@ record! {
     /// A piece of the diagram, and its weights for the later samples.
     #[derive(Default)]
     pub(super) struct Piece {
-        /// [`Piece::NEVER`] and so on: how it was made.
+        /// [`Piece::CORE`] and so on: how it was made.
         made: u64,
         /// The sample that made it.
         sample: u64,
@@ -42,32 +42,20 @@ record! {
         since: u64,
         /// Slip zone: 1/K_t at the inner end; stuck: 1/(S_j - S_i).
         parameter: f64,
-        /// A run of slip that cut it, not yet added to its sums.
-        cut: Cut,
-        /// 1 if sums were stored.
+        /// 1 if sums of earlier samples are stored.
         stored: u64,
     }
 }
 
-record! {
-    /// A run that cuts a piece: its samples, counted along the path, and the first of its packed boundaries.
-    #[derive(Default)]
-    struct Cut {
-        step: u64,
-        count: u64,
-        packed: u64,
-    }
-}
-
 impl Piece {
-    /// The part with D = 0.
-    const NEVER: u64 = 0;
-    /// The force was made by slip, forwards or backwards.
+    /// The core of the contact, which keeps D = 0 throughout the period.
+    const CORE: u64 = 0;
+    /// A slip zone of forward or backward slip.
     const FORWARDS: u64 = 1;
     const BACKWARDS: u64 = 2;
-    /// The force was made by sticking, between two samples.
+    /// The piece was loaded between two samples while everything stuck.
     const BY_STICKING: u64 = 3;
-    /// The force was made by sticking, since the contact closed after the sample before.
+    /// The same after the contact closed between the two samples.
     const SINCE_CLOSING: u64 = 4;
 
     fn is_stuck(&self) -> bool {
@@ -88,7 +76,7 @@ fn weights_of_stuck(
 pub(super) struct JacobianMemory<'a> {
     pub rows: Rows<'a>,
     pub pieces: &'a mut [Piece],
-    /// Sums of φ times both weights of pieces that were cut repeatedly.
+    /// Sums of φ times both weights of pieces that were cut, up to the last cut.
     pub stored: &'a mut Blocks,
     /// Term of each sample among the outer products, or -1.
     pub places: &'a mut [f64],
@@ -221,7 +209,7 @@ impl<const N: usize> Gathering<'_, N> {
                 Run::STUCK => run.kept().saturating_sub(1),
                 _ => 0,
             };
-            self.remove_beyond(kept, run.kind == Run::SLIP, now);
+            self.remove_beyond(kept, now);
             let line = Piece {
                 made: if run.sign > 0.0 { Piece::FORWARDS } else { Piece::BACKWARDS },
                 sample: last as u64,
@@ -234,16 +222,12 @@ impl<const N: usize> Gathering<'_, N> {
                 Run::GROSS_SLIP => self.stack.push(line),
                 Run::STUCK => self.stack.stick(self.context, run, now),
                 _ => {
-                    let packed = run.cuts();
-                    let stack = &mut self.stack;
-                    if stack.depth < run.kept() {
-                        stack.push(Piece { made: Piece::NEVER, ..line });
+                    if self.stack.depth < run.kept() {
+                        self.stack.push(Piece { made: Piece::CORE, ..line });
                     }
-                    if let Some(piece) = stack.top() {
-                        piece.cut = Cut { step: now as u64, count: count as u64, packed: packed.start as u64 };
-                    }
-                    let cut = self.context.cut_stiffnesses.or_zero(packed.end.saturating_sub(1));
-                    stack.push(Piece { weights: [line.weights[0] - cut, 0.0], parameter: cut, ..line });
+                    self.cut(run, now);
+                    let cut = self.context.cut_stiffnesses.or_zero(run.cuts().end.saturating_sub(1));
+                    self.stack.push(Piece { weights: [line.weights[0] - cut, 0.0], parameter: cut, ..line });
                 }
             }
             now += count;
@@ -261,25 +245,28 @@ impl<const N: usize> Gathering<'_, N> {
         add_scaled(linear, weights[1], &covered);
     }
 
-    /// The sums of a piece before a step; updates its weights to those at its last cut.
-    fn sums(&self, index: usize, piece: &mut Piece, now: usize) -> [Strip<N>; 2] {
+    /// The sums of a piece over the samples before a step.
+    #[inline(always)]
+    fn sums(&self, index: usize, piece: &Piece, now: usize) -> [Strip<N>; 2] {
         let mut sums = if piece.stored > 0 { self.stored.or_zero(index) } else { Zero::zero() };
-        let Piece { since, cut: Cut { step, count, packed }, .. } = *piece;
-        let [since, step, count, packed] = [since, step, count, packed].map(|number| number as usize);
-        if count == 0 {
-            self.add_covered(&mut sums, piece.weights, since, now);
-            return sums;
+        self.add_covered(&mut sums, piece.weights, piece.since as usize, now);
+        sums
+    }
+
+    /// Cuts the last piece by a run of slip: each sample has weights of its own.
+    fn cut(&mut self, run: &Run, now: usize) {
+        let index = self.stack.depth.saturating_sub(1);
+        let mut piece = self.stack.values.or_zero(index);
+        if piece.made == Piece::CORE {
+            return;
         }
-        self.add_covered(&mut sums, piece.weights, since, step);
-        let first = self.context.sample_at(step);
-        let rows = self.rows.phi.part(first..first + count);
-        let packed = packed..packed + count;
-        let Context { cut_shifts, cut_loads, cut_stiffnesses, .. } = *self.context;
-        let [shifts, loads, stiffnesses] =
-            [cut_shifts, cut_loads, cut_stiffnesses].map(|cuts| cuts.part(packed.clone()));
+        let mut sums = self.sums(index, &piece, now);
+        let Context { samples, cut_shifts, cut_loads, cut_stiffnesses, .. } = *self.context;
+        let rows = self.rows.phi.part(run.samples());
+        let [shifts, loads, stiffnesses] = [cut_shifts, cut_loads, cut_stiffnesses].map(|cuts| cuts.part(run.cuts()));
         let [constant, linear] = &mut sums;
         if piece.is_stuck() {
-            let inner = self.context.contact_at(self.context.samples.before(piece.sample as usize));
+            let inner = self.context.contact_at(samples.before(piece.sample as usize));
             for (((row, &shift), &load), &stiffness) in rows.iter().zip(shifts).zip(loads).zip(stiffnesses) {
                 piece.weights = weights_of_stuck(piece.parameter, inner, [shift, load, stiffness]);
                 add_scaled(constant, piece.weights[0], row);
@@ -291,34 +278,20 @@ impl<const N: usize> Gathering<'_, N> {
                 add_scaled(constant, piece.weights[0], row);
             }
         }
-        self.add_covered(&mut sums, piece.weights, step + count, now);
-        sums
+        (piece.stored, piece.since) = (1, (now + run.samples().len()) as u64);
+        self.stored.set(index, sums);
+        self.stack.values.set(index, piece);
     }
 
-    /// Removes the pieces beyond those that stay. The last one of these, if it is cut again, stores its sums.
-    fn remove_beyond(&mut self, kept: usize, is_cut: bool, now: usize) {
-        while self.stack.depth > 0 {
+    /// Removes all pieces but the given number.
+    fn remove_beyond(&mut self, kept: usize, now: usize) {
+        while self.stack.depth > kept {
             let index = self.stack.depth - 1;
-            let mut piece = self.stack.values.or_zero(index);
-            let (removes, was_cut) = (self.stack.depth > kept, piece.cut.count > 0);
-            if !(removes || is_cut && was_cut && self.stack.depth == kept) {
-                return;
-            }
-            let has_sums = piece.stored > 0 || was_cut || now > piece.since as usize;
-            if piece.made != Piece::NEVER && has_sums {
-                let sums = self.sums(index, &mut piece, now);
-                if removes {
-                    self.distribute(&piece, &sums);
-                } else {
-                    self.stored.set(index, sums);
-                    (piece.stored, piece.since, piece.cut) = (1, now as u64, Cut::default());
-                }
-            }
-            if removes {
-                self.stack.depth = index;
-            } else {
-                self.stack.values.set(index, piece);
-                return;
+            self.stack.depth = index;
+            let piece = self.stack.values.or_zero(index);
+            if piece.made != Piece::CORE && (piece.stored > 0 || now > piece.since as usize) {
+                let sums = self.sums(index, &piece, now);
+                self.distribute(&piece, &sums);
             }
         }
     }

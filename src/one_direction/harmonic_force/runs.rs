@@ -106,7 +106,8 @@ impl RunKnot {
         RunKnot { xi: displacement, eta: displacement, end: PieceEnd::CENTRE }
     }
 
-    /// The far end of the part with D = 0.
+    /// The outer end of the core of the contact, which keeps D = 0 throughout the period: beyond the coordinates of all samples, so that
+    /// every slip zone cuts it.
     const CORE: RunKnot = RunKnot { xi: -1e200, eta: 1e200, end: PieceEnd::CENTRE };
 }
 
