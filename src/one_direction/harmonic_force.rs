@@ -108,8 +108,6 @@ struct MotionKind {
     /// u has only odd orders, the normal component only even ones, and the number of samples is even: after half a period ξ and -η
     /// have changed places, and the tangential force its sign.
     half_wave: bool,
-    /// The contact is open at all samples.
-    open: bool,
     /// The least normal component of the samples.
     least_input: f64,
 }
@@ -169,52 +167,48 @@ pub fn harmonic_force(
     let HarmonicOutput { force, jacobian, dissipated, drift } = output;
     let (tangential, input) = displacement.split_at_checked(coefficients).unwrap_or((&[], &[]));
     let motion = workspace.press(element, tangential, input, jacobian.is_some())?;
-    let has_friction = !motion.open && element.friction_coefficient > 0.0;
-    let mut part = None;
-    if has_friction && (force.is_some() || jacobian.is_some() || dissipated.is_some()) {
-        let OneDirectionWorkspace { fourier, samples, path, forces, sensitivity, .. } = workspace;
-        fourier.synthesise(tangential, samples.displacement);
-        let part = part.insert(samples.enter_steady_state(element, motion));
-        let (runs, cut_shift) = path.evaluate(element, samples, part);
-        if jacobian.is_none() {
-            forces.evaluate::<false>(element, samples, cut_shift, runs);
-        } else {
-            forces.evaluate::<true>(element, samples, cut_shift, runs);
-            let context = Context {
-                element,
-                samples,
-                part,
-                cut_shifts: cut_shift.as_flattened(),
-                cut_loads: forces.cut_load,
-                cut_stiffnesses: forces.cut_stiffness,
-                slopes: forces.slope,
-            };
-            sensitivity.gather(&context, runs);
-        }
+    let OneDirectionWorkspace { fourier, samples, path, forces, sensitivity, .. } = workspace;
+    fourier.synthesise(tangential, samples.displacement);
+    let part = samples.enter_steady_state(element, motion);
+    let (runs, cut_shift) = path.evaluate(element, samples, &part);
+    if jacobian.is_none() {
+        forces.evaluate::<false>(element, samples, cut_shift, runs);
+    } else {
+        forces.evaluate::<true>(element, samples, cut_shift, runs);
+        let context = Context {
+            element,
+            samples,
+            part: &part,
+            cut_shifts: cut_shift.as_flattened(),
+            cut_loads: forces.cut_load,
+            cut_stiffnesses: forces.cut_stiffness,
+            slopes: forces.slope,
+        };
+        sensitivity.gather(&context, runs);
     }
     if let Some(drift) = drift {
         *drift = 0.0;
     }
     let (to, normal) = force.and_then(|force| force.split_at_mut_checked(coefficients)).unzip();
     if to.is_some() || dissipated.is_some() {
-        let OneDirectionWorkspace { fourier, samples, forces, .. } = workspace;
         // The Jacobian has used the slopes.
         let to = to.unwrap_or(forces.slope.part_mut(..coefficients));
-        if let Some(part) = &part {
-            fourier.sum_half_wave(part.start, motion.half_wave.then_some(-1.0), forces.force, to);
-            normalise(to, 1.0 / samples.count as f64);
-        } else {
-            to.fill(0.0);
-        }
+        fourier.sum_half_wave(part.start, motion.half_wave.then_some(-1.0), forces.force, to);
+        normalise(to, 1.0 / samples.count as f64);
         if let Some(dissipated) = dissipated {
             *dissipated = work(coefficients, tangential, to);
         }
     }
     if let Some(normal) = normal {
-        workspace.write_normal_force(element, input, motion, normal);
+        if element.by_approach() {
+            fourier.sum(samples.load, normal);
+            normalise(normal, 1.0 / samples.count as f64);
+        } else {
+            normal.copy_from(input);
+        }
     }
     if let Some(jacobian) = jacobian {
-        workspace.write_jacobian(element, motion, part.as_ref(), jacobian);
+        workspace.write_jacobian(element, motion, &part, jacobian);
     }
     Ok(())
 }
@@ -247,31 +241,12 @@ impl OneDirectionWorkspace<'_> {
             coefficients.iter().enumerate().any(|(c, value)| c.div_ceil(2) % 2 == parity && *value != 0.0)
         };
         let amplitude: f64 = harmonics.iter().map(|value| value.abs()).sum();
-        let mut motion = MotionKind {
-            half_wave: samples.count.is_multiple_of(2) && !has(tangential, 0) && !has(input, 1),
-            open: false,
-            least_input: mean,
-        };
-        let rounding = if element.by_approach() {
-            motion.open = !element.is_closed(mean + amplitude);
-            f64::MAX
-        } else {
-            NORMAL_FORCE_ROUNDING * (mean.abs() + amplitude)
-        };
-        if motion.open {
-            return Ok(motion);
-        }
         fourier.synthesise(input, samples.input);
         let [least, largest] = [-largest_of(samples.input, |input| -input), largest_of(samples.input, |input| input)];
-        if least < -rounding {
+        if !element.by_approach() && least < -NORMAL_FORCE_ROUNDING * (mean.abs() + amplitude) {
             return Err(Error::BadNormalForce);
         }
         element.check_input(largest.max(0.0))?;
-        motion.open = !element.is_closed(largest);
-        if motion.open {
-            return Ok(motion);
-        }
-        motion.least_input = least;
         if !element.is_closed(least) {
             let open = |input: f64| if element.is_closed(input) { input } else { input.min(0.0) };
             samples.input.iter_mut().for_each(|input| *input = open(*input));
@@ -281,48 +256,24 @@ impl OneDirectionWorkspace<'_> {
         } else {
             samples.press::<false>(element);
         }
-        Ok(motion)
+        let half_wave = samples.count.is_multiple_of(2) && !has(tangential, 0) && !has(input, 1);
+        Ok(MotionKind { half_wave, least_input: least })
     }
 
-    fn write_normal_force(&mut self, element: &Element, input: &[f64], motion: MotionKind, normal: &mut [f64]) {
-        let OneDirectionWorkspace { fourier, samples, .. } = self;
-        if motion.open {
-            normal.fill(0.0);
-        } else if !element.by_approach() {
-            // Rounding below 0 counts as 0.
-            normal.copy_from(input);
-        } else {
-            fourier.sum(samples.load, normal);
-            normalise(normal, 1.0 / samples.count as f64);
-        }
-    }
-
-    fn write_jacobian(
-        &mut self,
-        element: &Element,
-        motion: MotionKind,
-        part: Option<&EvaluatedPart>,
-        jacobian: &mut [f64],
-    ) {
+    fn write_jacobian(&mut self, element: &Element, motion: MotionKind, part: &EvaluatedPart, jacobian: &mut [f64]) {
         let OneDirectionWorkspace { size, fourier, samples, sensitivity, assembly, .. } = self;
         let coefficients = size.coefficients();
         let (by_displacement, by_input) =
             jacobian.split_at_mut_checked(2 * coefficients * coefficients).unwrap_or((&mut [], &mut []));
-        for (index, (columns, sign)) in [(&mut *by_displacement, 1.0), (&mut *by_input, -1.0)].into_iter().enumerate() {
-            if let (Some(part), Some(own)) = (part, sensitivity.own.get_mut(index)) {
-                let symmetry = motion.half_wave.then_some(sign);
-                fourier.sum_half_wave(part.start, symmetry, own, assembly.sums);
-                assembly.set_products(&sensitivity.outer, index);
-                assembly.write(symmetry, columns, 2 * coefficients);
-            } else {
-                columns.fill(0.0);
-            }
+        let parts = [(&mut *by_displacement, 1.0), (&mut *by_input, -1.0)];
+        for (index, ((columns, sign), own)) in parts.into_iter().zip(&mut sensitivity.own).enumerate() {
+            let symmetry = motion.half_wave.then_some(sign);
+            fourier.sum_half_wave(part.start, symmetry, own, assembly.sums);
+            assembly.set_products(&sensitivity.outer, index);
+            assembly.write(symmetry, columns, 2 * coefficients);
             for column in columns.chunks_exact_mut(2 * coefficients) {
                 column.iter_mut().skip(coefficients).for_each(|value| *value = 0.0);
             }
-        }
-        if motion.open && element.by_approach() {
-            return;
         }
         if element.by_approach() {
             fourier.sum(samples.load_slope, assembly.sums);
