@@ -1,8 +1,8 @@
 //! Batches of contacts and of elements: all items are checked, in order, before the first output is written.
 
 use super::pointers::{
-    self, call, check_alignment, check_input, check_length, each, input, optional_output, output, outputs, requested,
-    set, state_input, with_law, write,
+    self, call, check_alignment, check_input, check_length, input, optional_output, output, outputs, requested, set,
+    state_input, with_law, write,
 };
 use super::{mslip_contact, mslip_element};
 use crate::constant_load::ConstantLoad;
@@ -143,46 +143,38 @@ impl<'a, T: Copy> Items<'a, T> {
         Ok(Items { n, laws: input(laws.cast(), n_laws)?, index: optional(index)?, active: optional(active)? })
     }
 
-    /// Checks the contacts or elements of all active items, and with each what else belongs to the item.
-    fn check<L: Law<Item = T>, V>(
-        self,
-        values: impl Iterator<Item = V>,
-        mut check: impl FnMut(usize, &T, V) -> Result<(), Error>,
-    ) -> Result<(), Failure> {
-        let mut check_item = |i, value| {
-            let law = self.law(i).ok_or(Error::BadIndex)?;
+    /// Checks the contacts or elements of all active items, and with each the other arguments of the item.
+    fn check<L: Law<Item = T>>(self, mut check: impl FnMut(usize, &T) -> Result<(), Error>) -> Result<(), Failure> {
+        let mut check_item = |i, law: Option<&T>| {
+            let law = law.ok_or(Error::BadIndex)?;
             L::check(law)?;
-            check(i, law, value)
+            check(i, law)
         };
-        self.active(values).try_for_each(|(i, value)| {
+        self.active().try_for_each(|(i, law)| {
             // The length is the same for all states.
-            check_item(i, value).map_err(|error| Failure { error, item: (error != Error::StateTooShort).then_some(i) })
+            check_item(i, law).map_err(|error| Failure { error, item: (error != Error::StateTooShort).then_some(i) })
         })
     }
 
-    /// Indices of the active items, with their values.
-    fn active<V>(self, values: impl Iterator<Item = V>) -> impl Iterator<Item = (usize, V)> {
-        let is_active = move |i: usize| self.active.is_none_or(|active| active.get(i).is_none_or(|flag| *flag != 0));
-        (0..self.n).zip(values).filter(move |(i, _)| is_active(*i))
+    /// The active items: number, and contact or element unless its index is invalid.
+    fn active(self) -> impl Iterator<Item = (usize, Option<&'a T>)> {
+        let is_active = move |i: &usize| self.active.is_none_or(|active| active.get(*i).is_none_or(|flag| *flag != 0));
+        (0..self.n).filter(is_active).map(move |i| match self.index {
+            None => (i, self.laws.get(i)),
+            Some(index) => (i, index.get(i).and_then(|law| self.laws.get(usize::try_from(*law).ok()?))),
+        })
     }
 
-    fn law(&self, i: usize) -> Option<&'a T> {
-        match self.index {
-            None => self.laws.get(i),
-            Some(index) => self.laws.get(usize::try_from(*index.get(i)?).ok()?),
-        }
-    }
-
-    /// Active items that were checked: index, contact or element, and value.
-    fn with<V>(self, values: impl Iterator<Item = V>) -> impl Iterator<Item = (usize, &'a T, V)> {
-        self.active(values).filter_map(move |(i, value)| Some((i, self.law(i)?, value)))
+    /// The active items that were checked: number, and contact or element.
+    fn checked(self) -> impl Iterator<Item = (usize, &'a T)> {
+        self.active().filter_map(|(i, law)| Some((i, law?)))
     }
 }
 
 impl Items<'_, Element> {
     /// Directions of the element of the first active item, which those of all others must equal; one if no item is active.
     fn directions(self) -> Directions {
-        let first = self.with(0..).next().map(|(_, element, _)| element);
+        let first = self.checked().next().map(|(_, element)| element);
         first.filter(|element| element.is_initialised()).map_or(Directions::One, Element::tangential_directions)
     }
 }
@@ -206,13 +198,14 @@ unsafe fn update<L: Law>(
     {
         // The reference ends before the new states, which may be the same memory, are written.
         let states = input(states_old, length)?;
-        items.check::<L, _>(displacement.iter(), |i, law, displacement| {
+        items.check::<L>(|i, law| {
             prefetch::<1>(states_old.wrapping_add((i + CHECKED_AHEAD) * state_length));
             L::check_header(states.part(i * state_length..(i + 1) * state_length))?;
-            L::check_step(law, displacement)
+            displacement.get(i).map_or(Ok(()), |displacement| L::check_step(law, displacement))
         })?;
     }
-    for (i, law, displacement) in items.with(displacement.iter()) {
+    for (i, law) in items.checked() {
+        let Some(displacement) = displacement.get(i) else { break };
         let state_old = states_old.wrapping_add(i * state_length);
         prefetch::<4>(state_old.wrapping_add(PREFETCH_DISTANCE * state_length));
         let states = (state_length, state_old, item_of(states_new, i * state_length));
@@ -256,15 +249,15 @@ unsafe fn harmonic_forces<L: Law>(
     check_input(displacement, items.n)?;
     // The arrays of an element with another number of directions are shorter: its coefficients are referenced after its check.
     let displacement_of = |i: usize| slice::from_raw_parts(displacement.wrapping_add(i * one), one);
-    items.check::<L, _>((0..).map(displacement_of), |_, law, motion| L::check_motion(law, workspace, motion))?;
-    items.with((0..).map(displacement_of)).try_for_each(|(i, law, displacement)| {
+    items.check::<L>(|i, law| L::check_motion(law, workspace, displacement_of(i)))?;
+    items.checked().try_for_each(|(i, law)| {
         let output = HarmonicOutput {
             force: requested(item_of(force, i * one), one),
             jacobian: requested(item_of(jacobian, i * one * one), one * one),
             dissipated: item_of(dissipated, i).as_mut(),
             drift: item_of(drift, i).as_mut(),
         };
-        Ok(L::harmonic_force(law, workspace, displacement, output)?)
+        Ok(L::harmonic_force(law, workspace, displacement_of(i), output)?)
     })
 }
 
@@ -286,15 +279,16 @@ pub unsafe extern "C" fn mslip_batch_complex_stiffness(
     failed_item: *mut size_t,
 ) -> i32 {
     call_batch(n, failed_item, || {
-        let (items, amplitude, outputs) = (
+        let (items, amplitude, mut outputs) = (
             Items::new(n, n_contacts, contacts, index, active)?,
             input(amplitude, n)?,
             outputs([k_real, k_imag, dk_real, dk_imag], n)?,
         );
-        items.check::<ConstantLoad, _>(amplitude.iter(), |_, _, amplitude| check_amplitude(*amplitude))?;
+        items.check::<ConstantLoad>(|i, _| check_amplitude(amplitude.or_zero(i)))?;
         let requested = stiffness_requested(&outputs);
-        for (_, contact, (amplitude, outputs)) in items.with(each(amplitude, outputs)) {
-            write(outputs, contact.stiffness_of_cycle(*amplitude, requested));
+        for (i, contact) in items.checked() {
+            let places = outputs.each_mut().map(|output| output.as_mut().and_then(|output| output.get_mut(i)));
+            write(places, contact.stiffness_of_cycle(amplitude.or_zero(i), requested));
         }
         Ok(())
     })
