@@ -155,7 +155,7 @@ impl Element {
     }
 
     /// Initialises an element in place; unchanged on an error. Checks all ranges before it writes.
-    pub(crate) fn init(&mut self, geometry: &impl Geometry, components: Components) -> Result<(), Error> {
+    pub(crate) fn init(&mut self, geometry: &impl Geometry, (directions, input): Components) -> Result<(), Error> {
         let parameters = geometry.checked()?;
         parameters.composite_modulus()?;
         if parameters.normal_force <= 0.0 {
@@ -163,15 +163,10 @@ impl Element {
         }
         let mut shape = geometry.shape()?;
         (shape.layer, _) = LayerCompliance::new(&parameters.layer, parameters.normal_force)?;
-        shape.largest = geometry.largest_size(&shape, components.0 as usize)?;
-        self.init_of(&shape, &parameters, components)
-    }
-
-    /// The element of a shape.
-    fn init_of(&mut self, shape: &Shape, parameters: &Common, (directions, input): Components) -> Result<(), Error> {
-        let Common { normal_force, friction_coefficient, .. } = *parameters;
+        shape.largest = geometry.largest_size(&shape, directions as usize)?;
+        let Common { normal_force, friction_coefficient, .. } = parameters;
         let layer = &shape.layer;
-        let [size, largest] = sizes(shape, normal_force)?;
+        let [size, largest] = sizes(&shape, normal_force)?;
         let [[approach, normal_compliance], [shift, tangential_compliance]] =
             [Quantity::Approach, Quantity::Shift].map(|quantity| shape.value_and_compliance(quantity, size));
         for value in [approach, shift, normal_force] {
@@ -201,12 +196,12 @@ impl Element {
         (self.normal_stiffness, self.tangential_stiffness) = (1.0 / normal_compliance, 1.0 / tangential_compliance);
         (self.directions, self.normal_input) = (directions as i32, input as i32);
         (self.tag, self.checksum) = (TAG, 0);
-        (self.composite_modulus, self.shape) = (shape.composite_modulus, *shape);
+        (self.composite_modulus, self.shape) = (shape.composite_modulus, shape);
         let [ratio, own] = shape.per_other(2, 1);
         let per_load = if layer.is_linear() { own + (1.0 - ratio) * layer.compliance(0.0) } else { own };
         self.lateral = [ratio, per_load];
         self.key = key_of(&[normal_force, friction_coefficient, size, approach, shift, shape.flat, ratio, per_load]);
-        self.fill_tables(shape, input, [normal_force, approach, shift]);
+        self.fill_tables(&shape, input, [normal_force, approach, shift]);
         Ok(())
     }
 
@@ -503,39 +498,22 @@ impl Element {
     /// N'' at four monotone shifts S > 0. The quarter of the table from an earlier call is kept.
     #[inline(always)]
     pub(crate) fn four_curvatures(&self, shift: &[f64; 4], quarter: &mut Curvature) -> [f64; 4] {
-        match self.load_of_shift.four_curvatures(shift, quarter) {
-            Some(values) => values,
-            None => shift.map(|shift| self.curvature_outside(shift)),
-        }
-    }
-
-    /// The curvature from the shape, beyond the table; 0 where N and S are proportional.
-    #[inline(never)]
-    fn curvature_outside(&self, shift: f64) -> f64 {
-        if shift <= self.smallest(Quantity::Shift) {
-            return 0.0;
-        }
-        self.shape().load_curvature(self.shape().size_at(Quantity::Shift, shift))
+        let outside = |shift: f64| {
+            // N and S are proportional to each other below the smallest size.
+            let size = self.shape.size_at(Quantity::Shift, shift);
+            if shift <= self.smallest(Quantity::Shift) { 0.0 } else { self.shape.load_curvature(size) }
+        };
+        self.load_of_shift.four_curvatures(shift, quarter).unwrap_or_else(|| shift.map(outside))
     }
 
     /// M, the integral of N, at a shift S >= 0.
     #[inline(always)]
     pub(crate) fn potential_at_shift(&self, shift: f64) -> f64 {
-        match self.load_of_shift.position(shift) {
-            Some(at) => {
-                let middle = self.potential.0.or_zero(at.index);
-                middle + self.load_of_shift.integral_from_middle(at)
-            }
-            None => self.potential_outside(shift),
+        match self.load_of_shift.integral_from_middle(shift) {
+            Some((quarter, integral)) => self.potential.0.or_zero(quarter) + integral,
+            None if shift <= self.smallest(Quantity::Shift) => 0.5 * self.load_under(shift) * shift,
+            None => self.shape.potential(self.shape.size_at(Quantity::Shift, shift)),
         }
-    }
-
-    #[inline(never)]
-    fn potential_outside(&self, shift: f64) -> f64 {
-        if shift <= self.smallest(Quantity::Shift) {
-            return 0.5 * self.load_under(shift) * shift;
-        }
-        self.shape().potential(self.shape().size_at(Quantity::Shift, shift))
     }
 }
 

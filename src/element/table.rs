@@ -46,14 +46,6 @@ pub(crate) struct Table {
     quarters: Quarters<[f64; TERMS]>,
 }
 
-/// Position of an argument in a table.
-#[derive(Clone, Copy)]
-pub(crate) struct Position {
-    /// Number of the quarter.
-    pub index: usize,
-    t: f64,
-}
-
 impl Table {
     /// Fills tables of several functions of one argument up to (at least) the argument `largest`, a normal number, from their Taylor
     /// series about the middle x of each quarter in powers of ε, for the argument x (1 + ε), in the order of the quarters.
@@ -73,14 +65,6 @@ impl Table {
                 quarters.next().into_iter().for_each(|quarter| *quarter = economized(series, middle, half_length));
             }
         }
-    }
-
-    /// Position of an argument; `None` outside the table.
-    #[inline(always)]
-    pub fn position(&self, x: f64) -> Option<Position> {
-        let bits = x.to_bits();
-        let index = (bits >> INDEX_BITS).wrapping_sub(self.base) as usize;
-        (index < QUARTER_COUNT).then_some(Position { index, t: position_in(x) })
     }
 
     /// y and, if requested, dy/dx at some arguments; `None` if one is outside.
@@ -141,22 +125,24 @@ impl Table {
         Some(values)
     }
 
-    /// The integral of y from the middle of the quarter to x.
+    /// Index of the quarter in which x lies, and the integral of y from its middle to x; `None` outside the table.
     #[inline(always)]
-    pub fn integral_from_middle(&self, at: Position) -> f64 {
+    pub fn integral_from_middle(&self, x: f64) -> Option<(usize, f64)> {
+        let number = x.to_bits() >> INDEX_BITS;
+        let index = number.wrapping_sub(self.base) as usize;
+        let coefficients = self.quarters.0.get(index)?.blocks::<4>();
         // By the number of the quarter: beside t, an argument in a vector that is raised to powers would overflow.
-        let ([middle, half_length], t) = (middle_and_half_length(self.base + at.index as u64), at.t);
+        let ([middle, half_length], t) = (middle_and_half_length(number), position_in(x));
         // Sums of c_k t^k/(k+1) and c_k t^k/(k+2), as two lanes.
         let t2 = t * t;
         let t4 = t2 * t2;
         let mut sums = Lanes::<2>::ZERO;
-        let coefficients = self.quarters.0.get(at.index).unwrap_or(&[0.0; TERMS]).blocks::<4>();
         for (c, weights) in coefficients.iter().zip(INTEGRAL_WEIGHTS.blocks::<4>()).rev() {
             let term = |k: usize| c[k] * Lanes(weights[k]);
             sums = sums * t4 + ((term(0) + term(1) * t) + t2 * (term(2) + term(3) * t));
         }
         let [zeroth, first] = *sums;
-        half_length * t * (middle * zeroth + half_length * t * first)
+        Some((index, half_length * t * (middle * zeroth + half_length * t * first)))
     }
 }
 
