@@ -102,16 +102,6 @@ impl<'a> Layout<'a> for OneDirectionWorkspace<'a> {
     }
 }
 
-/// Properties of a motion.
-#[derive(Clone, Copy)]
-struct MotionKind {
-    /// u has only odd orders, the normal component only even ones, and the number of samples is even: after half a period ξ and -η
-    /// have changed places, and the tangential force its sign.
-    half_wave: bool,
-    /// The least normal component of the samples.
-    least_input: f64,
-}
-
 /// Units of rounding by which a sample of the normal force may be negative, over the sum of the magnitudes of its coefficients.
 const NORMAL_FORCE_ROUNDING: f64 = 8.0 * f64::EPSILON;
 
@@ -166,10 +156,14 @@ pub fn harmonic_force(
     output.check(2 * coefficients, displacement)?;
     let HarmonicOutput { force, jacobian, dissipated, drift } = output;
     let (tangential, input) = displacement.split_at_checked(coefficients).unwrap_or((&[], &[]));
-    let motion = workspace.press(element, tangential, input, jacobian.is_some())?;
+    let least_input = workspace.press(element, input, jacobian.is_some())?;
     let OneDirectionWorkspace { fourier, samples, path, forces, sensitivity, .. } = workspace;
     fourier.synthesise(tangential, samples.displacement);
-    let part = samples.enter_steady_state(element, motion);
+    let has = |coefficients: &[f64], parity: usize| {
+        coefficients.iter().enumerate().any(|(c, value)| c.div_ceil(2) % 2 == parity && *value != 0.0)
+    };
+    let half_wave = samples.count.is_multiple_of(2) && !has(tangential, 0) && !has(input, 1);
+    let part = samples.enter_steady_state(element, half_wave, least_input);
     let (runs, cut_shift) = path.evaluate(element, samples, &part);
     if jacobian.is_none() {
         forces.evaluate::<false>(element, samples, cut_shift, runs);
@@ -193,7 +187,7 @@ pub fn harmonic_force(
     if to.is_some() || dissipated.is_some() {
         // The Jacobian has used the slopes.
         let to = to.unwrap_or(forces.slope.part_mut(..coefficients));
-        fourier.sum_half_wave(part.start, motion.half_wave.then_some(-1.0), forces.force, to);
+        fourier.sum_half_wave(part.start, half_wave.then_some(-1.0), forces.force, to);
         normalise(to, 1.0 / samples.count as f64);
         if let Some(dissipated) = dissipated {
             *dissipated = work(coefficients, tangential, to);
@@ -208,7 +202,7 @@ pub fn harmonic_force(
         }
     }
     if let Some(jacobian) = jacobian {
-        workspace.write_jacobian(element, motion, &part, jacobian);
+        workspace.write_jacobian(element, &part, jacobian);
     }
     Ok(())
 }
@@ -217,29 +211,20 @@ impl OneDirectionWorkspace<'_> {
     /// Checks a motion: all of a batch are checked before the first output is written.
     pub(crate) fn check(&mut self, element: &Element, displacement: &[f64]) -> Result<(), Error> {
         check_coefficients(displacement)?;
-        let (tangential, input) = displacement.split_at_checked(self.coefficients()).ok_or(Error::BadArraySize)?;
+        let (_, input) = displacement.split_at_checked(self.coefficients()).ok_or(Error::BadArraySize)?;
         let mean = input.or_zero(0);
         let amplitude: f64 = input.iter().skip(1).map(|value| value.abs()).sum();
         if (element.by_approach() || mean >= amplitude) && element.check_input(mean + amplitude).is_ok() {
             return Ok(());
         }
-        self.press(element, tangential, input, false).map(|_| ())
+        self.press(element, input, false).map(|_| ())
     }
 
-    /// Evaluates the normal states of the samples.
+    /// Evaluates the normal states of the samples, and returns the least normal component.
     /// Errors: `BadNormalForce`, `LengthTooShort`.
-    fn press(
-        &mut self,
-        element: &Element,
-        tangential: &[f64],
-        input: &[f64],
-        with_slopes: bool,
-    ) -> Result<MotionKind, Error> {
+    fn press(&mut self, element: &Element, input: &[f64], with_slopes: bool) -> Result<f64, Error> {
         let OneDirectionWorkspace { fourier, samples, .. } = self;
         let Some((&mean, harmonics)) = input.split_first() else { return Err(Error::BadArraySize) };
-        let has = |coefficients: &[f64], parity: usize| {
-            coefficients.iter().enumerate().any(|(c, value)| c.div_ceil(2) % 2 == parity && *value != 0.0)
-        };
         let amplitude: f64 = harmonics.iter().map(|value| value.abs()).sum();
         fourier.synthesise(input, samples.input);
         let [least, largest] = [-largest_of(samples.input, |input| -input), largest_of(samples.input, |input| input)];
@@ -256,18 +241,17 @@ impl OneDirectionWorkspace<'_> {
         } else {
             samples.press::<false>(element);
         }
-        let half_wave = samples.count.is_multiple_of(2) && !has(tangential, 0) && !has(input, 1);
-        Ok(MotionKind { half_wave, least_input: least })
+        Ok(least)
     }
 
-    fn write_jacobian(&mut self, element: &Element, motion: MotionKind, part: &EvaluatedPart, jacobian: &mut [f64]) {
+    fn write_jacobian(&mut self, element: &Element, part: &EvaluatedPart, jacobian: &mut [f64]) {
         let OneDirectionWorkspace { size, fourier, samples, sensitivity, assembly, .. } = self;
         let coefficients = size.coefficients();
         let (by_displacement, by_input) =
             jacobian.split_at_mut_checked(2 * coefficients * coefficients).unwrap_or((&mut [], &mut []));
         let parts = [(&mut *by_displacement, 1.0), (&mut *by_input, -1.0)];
         for (index, ((columns, sign), own)) in parts.into_iter().zip(&mut sensitivity.own).enumerate() {
-            let symmetry = motion.half_wave.then_some(sign);
+            let symmetry = part.half_wave.then_some(sign);
             fourier.sum_half_wave(part.start, symmetry, own, assembly.sums);
             assembly.set_products(&sensitivity.outer, index);
             assembly.write(symmetry, columns, 2 * coefficients);

@@ -1,7 +1,7 @@
 //! Normal states and characteristic coordinates of the samples.
 
-use super::MotionKind;
 use crate::element::Element;
+use crate::numerics::lanes::Lanes;
 use crate::numerics::total::PanicFreeSlice;
 
 /// Arrays over the samples of a period, continued periodically to whole blocks of four.
@@ -27,15 +27,16 @@ pub(super) struct Samples<'a> {
 pub(super) struct EvaluatedPart {
     /// First sample: one at which the steady state is known.
     pub start: usize,
-    /// A whole period, or half of it if the motion is half-wave symmetric.
-    pub length: usize,
+    /// Whether the motion is half-wave symmetric, so that half a period is evaluated: u has only odd orders, the normal component only
+    /// even ones, and the number of samples is even. After half a period ξ and -η have changed places, and the tangential force its sign.
+    pub half_wave: bool,
     /// Whether some samples are open.
     pub opens: bool,
 }
 
-/// Samples before and after the end of the arrays.
+/// The evaluated samples up to the end of the arrays, and those from their start on.
 pub(super) fn ranges(part: &EvaluatedPart, samples: usize) -> [core::ops::Range<usize>; 2] {
-    let end = part.start + part.length;
+    let end = part.start + if part.half_wave { samples / 2 } else { samples };
     if end <= samples { [part.start..end, 0..0] } else { [part.start..samples, 0..end - samples] }
 }
 
@@ -50,26 +51,19 @@ impl Samples<'_> {
 
     /// The normal states of all samples, with derivatives if requested.
     pub fn press<const SLOPES: bool>(&mut self, element: &Element) {
-        let blocks = self
-            .input
-            .blocks::<4>()
-            .iter()
-            .zip(self.load.blocks_mut::<4>())
-            .zip(self.shift.blocks_mut::<4>())
-            .zip(self.load_slope.blocks_mut::<4>())
-            .zip(self.shift_slope.blocks_mut::<4>())
-            .zip(self.stiffness.blocks_mut::<4>());
-        for (((((input, load), shift), load_slope), shift_slope), stiffness) in blocks {
-            let [loads, shifts, load_slopes, shift_slopes] = element.four_normals::<SLOPES>(input);
+        let inputs = self.input.blocks::<4>().iter();
+        let outputs =
+            [&mut self.load, &mut self.shift, &mut self.load_slope, &mut self.shift_slope, &mut self.stiffness];
+        let [load, shift, load_slope, shift_slope, stiffness] = outputs.map(|values| values.blocks_mut::<4>());
+        let outputs = load.iter_mut().zip(shift).zip(load_slope).zip(shift_slope).zip(stiffness);
+        for (input, ((((load, shift), load_slope), shift_slope), stiffness)) in inputs.zip(outputs) {
+            let [loads, shifts, slopes @ ..] = element.four_normals::<SLOPES>(input);
             (*load, *shift) = (loads, shifts);
             if SLOPES {
-                (*load_slope, *shift_slope) = (load_slopes, shift_slopes);
+                [*load_slope, *shift_slope] = slopes;
                 // 0 if open.
-                let mut quotients = [0.0; 4];
-                for k in 0..4 {
-                    quotients[k] = load_slopes[k] / if shift_slopes[k] > 0.0 { shift_slopes[k] } else { 1.0 };
-                }
-                *stiffness = quotients;
+                let divisors = shift_slope.map(|slope| if slope > 0.0 { slope } else { 1.0 });
+                *stiffness = (Lanes(*load_slope) / Lanes(divisors)).0;
             }
         }
     }
@@ -83,30 +77,24 @@ impl Samples<'_> {
     /// - X > 0: the centre has at most this displacement, so the sample of X is one of gross slip, and o = X; Y < 0 accordingly;
     /// - otherwise there is no gross slip and o = 0; the part of the diagram with D = 0 that is never reached ends at S = min(-X, Y)/mu.
     ///   At the sample where that is attained everything beyond is slip zone.
-    pub fn enter_steady_state(&mut self, element: &Element, motion: MotionKind) -> EvaluatedPart {
+    pub fn enter_steady_state(&mut self, element: &Element, half_wave: bool, least_input: f64) -> EvaluatedPart {
         let mu = element.friction_coefficient;
         let (mut largest, mut smallest) = ([f64::MIN; 4], [f64::MAX; 4]);
-        let blocks = self
-            .displacement
-            .blocks::<4>()
-            .iter()
-            .zip(self.shift.blocks::<4>())
-            .zip(self.xi.blocks_mut::<4>())
-            .zip(self.eta.blocks_mut::<4>());
-        for (((displacement, shift), xi), eta) in blocks {
-            let (displacement, shift, [mut x, mut y]) = (*displacement, *shift, [[0.0; 4]; 2]);
+        let blocks = self.displacement.blocks::<4>().iter().zip(self.shift.blocks::<4>());
+        for (block, (displacement, shift)) in blocks.enumerate() {
+            let (displacement, limit) = (Lanes(*displacement), mu * Lanes(*shift));
+            let (x, y) = (displacement - limit, displacement + limit);
             for k in 0..4 {
-                let limit = mu * shift[k];
-                (x[k], y[k]) = (displacement[k] - limit, displacement[k] + limit);
                 largest[k] = if x[k] > largest[k] { x[k] } else { largest[k] };
                 smallest[k] = if y[k] < smallest[k] { y[k] } else { smallest[k] };
             }
-            (*xi, *eta) = (x, y);
+            self.xi.blocks_mut().set(block, *x);
+            self.eta.blocks_mut().set(block, *y);
         }
         let largest = largest.into_iter().fold(f64::MIN, f64::max);
         let smallest = smallest.into_iter().fold(f64::MAX, f64::min);
         let first = |values: &[f64], value: f64| values.iter().position(|v| *v == value).unwrap_or(0);
-        let opens = !element.is_closed(motion.least_input);
+        let opens = !element.is_closed(least_input);
         let start = if opens {
             self.input.iter().position(|input| *input <= 0.0).unwrap_or(0)
         } else if largest > 0.0 || (smallest >= 0.0 && -largest <= smallest) {
@@ -114,7 +102,6 @@ impl Samples<'_> {
         } else {
             first(self.eta, smallest)
         };
-        let length = if motion.half_wave { self.count / 2 } else { self.count };
-        EvaluatedPart { start, length, opens }
+        EvaluatedPart { start, half_wave, opens }
     }
 }
