@@ -56,9 +56,8 @@ pub(crate) struct FoldedFourier<'a> {
     weights: &'a mut Blocks,
     /// Cosines and sines of two orders each; for each block of positions those of all orders.
     quads: &'a mut [[[f64; 4]; SYMMETRIES]],
-    /// Scratch memory: the folded sums at each block of positions, and four partial sums of each function.
+    /// Scratch memory: the folded sums at each block of positions.
     folded: &'a mut [[[f64; 4]; SYMMETRIES]],
-    totals: &'a mut Blocks,
 }
 
 impl<'a> FoldedFourier<'a> {
@@ -68,7 +67,7 @@ impl<'a> FoldedFourier<'a> {
         let weights = parts.take_blocks(blocks);
         let quads = parts.take_blocks(2 * orders * blocks).blocks_mut();
         let folded = parts.take_blocks(SYMMETRIES * blocks).blocks_mut();
-        FoldedFourier { samples, orders, weights, quads, folded, totals: parts.take_blocks(1 + 2 * orders) }
+        FoldedFourier { samples, orders, weights, quads, folded }
     }
 
     /// Fills the tables.
@@ -147,31 +146,22 @@ impl<'a> FoldedFourier<'a> {
             *next = *first;
         }
         self.fold(values);
-        let FoldedFourier { quads, folded, totals, .. } = self;
+        let FoldedFourier { quads, folded, .. } = self;
         let stride = (self.orders / 2).max(1);
+        let Some((constant, sums)) = sums.split_first_mut() else { return };
         let mut total = Four::ZERO;
         for [_, _, even_cosines, _] in folded.iter() {
             total += Lanes(*even_cosines);
         }
-        let (Some((first, sums)), Some((constant, totals))) = (sums.split_first_mut(), totals.split_first_mut()) else {
-            return;
-        };
-        *constant = total.0;
-        let count = sums.len().div_ceil(4);
-        for (quad, totals) in totals.blocks_mut::<SYMMETRIES>().iter_mut().take(count).enumerate() {
-            let mut sums = [Four::ZERO; SYMMETRIES];
-            for (block, folded) in folded.iter().enumerate() {
-                let Some(rows) = quads.get(quad + block * stride) else { break };
-                for ((sum, folded), row) in sums.iter_mut().zip(folded).zip(rows) {
-                    *sum += Lanes(*folded) * Lanes(*row);
+        *constant = total.total();
+        for (quad, sums) in sums.chunks_mut(SYMMETRIES).enumerate() {
+            let mut totals = [Four::ZERO; SYMMETRIES];
+            for (folded, rows) in folded.iter().zip(quads.part(quad..).iter().step_by(stride)) {
+                for ((total, folded), row) in totals.iter_mut().zip(folded).zip(rows) {
+                    *total += Lanes(*folded) * Lanes(*row);
                 }
             }
-            *totals = sums.map(|sum| sum.0);
-        }
-        // Summed from memory, which keeps the loop above vectorised along the positions.
-        *first = Lanes(*constant).total();
-        for (sum, total) in sums.iter_mut().zip(totals.iter()) {
-            *sum = Lanes(*total).total();
+            sums.iter_mut().zip(totals).for_each(|(sum, total)| *sum = total.total());
         }
     }
 
