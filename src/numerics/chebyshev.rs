@@ -1,4 +1,5 @@
-//! Interpolation of values and slopes at Chebyshev points. For a smooth function the trailing coefficients estimate the error.
+//! Interpolation of values and slopes at Chebyshev points. For a smooth function the trailing coefficients estimate the
+//! error.
 
 use super::const_math::{cosine, tabulate};
 use crate::numerics::polynomial::PolynomialRows;
@@ -29,7 +30,8 @@ const fn powers_in<const N: usize>(shift: f64, scale: f64) -> [[f64; N]; N] {
     table
 }
 
-/// Coefficients of the powers of z in the last M of the polynomials T_n(shift + scale z), n < N, each over its leading coefficient.
+/// Coefficients of the powers of z in the last M of the polynomials T_n(shift + scale z), n < N, each over its leading
+/// coefficient.
 pub(crate) const fn monic_powers<const N: usize, const M: usize>(shift: f64, scale: f64) -> [[f64; N]; M] {
     let powers = powers_in::<N>(shift, scale);
     tabulate!(M, |m| tabulate!(N, |k| powers[N - M + m][k] / powers[N - M + m][N - M + m]))
@@ -114,8 +116,8 @@ impl<const N: usize> Interpolant<N> {
         &self.0
     }
 
-    /// The integral over z whose mean over the points of [`Interpolant::osculating`] is zero. The twentieth coefficient is
-    /// dropped: its integral would exceed the degree.
+    /// The integral over z whose mean over the points of [`Interpolant::osculating`] is zero. The twentieth coefficient
+    /// is dropped: its integral would exceed the degree.
     pub fn integral(&self) -> Interpolant<TERMS> {
         let mut padded = [0.0; TERMS + 1];
         padded.copy_from(self.0.part(..TERMS - 1));
@@ -159,8 +161,8 @@ fn add_rows<const M: usize>(sums: &mut [f64], factors: impl Iterator<Item = f64>
     }
 }
 
-/// Adds the polynomials of degrees 0, 1, ... in the rows of a table of the given width, each times its factor. One function serves
-/// all lengths; the compiler would unroll it for each of them.
+/// Adds the polynomials of degrees 0, 1, ... in the rows of a table of the given width, each times its factor. One
+/// function serves all lengths; the compiler would unroll it for each of them.
 #[inline(never)]
 fn add_triangle(powers: &mut [f64], factors: &[f64], table: &[f64], width: usize) {
     for ((factor, row), terms) in factors.iter().zip(table.chunks_exact(width.max(1))).zip(1..) {
@@ -168,8 +170,8 @@ fn add_triangle(powers: &mut [f64], factors: &[f64], table: &[f64], width: usize
     }
 }
 
-/// Coefficients of the powers of z of a Chebyshev series. The terms at its end that are rounding errors, or exceed the rows, are
-/// left out: their derivatives would be n² times as large.
+/// Coefficients of the powers of z of a Chebyshev series. The terms at its end that are rounding errors, or exceed the
+/// rows, are left out: their derivatives would be n² times as large.
 pub(crate) fn powers<const R: usize>(series: &[f64]) -> PolynomialRows<R> {
     let mut result = [[0.0; 4]; R];
     add_powers(result.as_flattened_mut(), series);

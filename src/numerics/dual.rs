@@ -1,4 +1,5 @@
-//! Numbers with derivatives: a formula that is written for any number gives its values, and its derivatives in many directions at once.
+//! Numbers with derivatives: a formula that is written for any number gives its values, and its derivatives in many
+//! directions at once.
 
 use super::guard::{TINY, quotient, root};
 use super::lanes::Lanes;
@@ -10,9 +11,9 @@ pub(crate) trait Number:
 {
     fn constant(value: f64) -> Self;
     fn value(self) -> f64;
-    /// a/b of b >= 0.
+    /// a/b for b >= 0, see [`quotient`].
     fn quotient(self, divisor: Self) -> Self;
-    /// √x of x >= 0 but for rounding.
+    /// √x for x >= 0 but for rounding errors, see [`root`].
     fn root(self) -> Self;
 
     /// The larger of both, the first one if they are equal.
@@ -79,7 +80,8 @@ impl<const L: usize> Number for Dual<L> {
     }
 }
 
-/// 1/x of x >= 0. Not inlined, as [`reciprocal_root`]: the compiler would divide by what is beside it in a vector register of the caller.
+/// 1/x of x >= 0. Not inlined, as [`reciprocal_root`]: the compiler would divide by what is beside it in a vector
+/// register of the caller.
 #[inline(never)]
 fn reciprocal(x: f64) -> f64 {
     quotient(1.0, x)

@@ -1,13 +1,13 @@
-//! Quotients and roots that no value makes infinite, NaN or a trap.
+//! Quotients without division by zero, and square roots without negative arguments.
 //!
-//! A compiler may divide first and select afterwards: `if b > 0 { a / b } else { 0 }` may compute a/0, which sets a floating-point
-//! flag on which the application may trap. Choosing the divisor by a comparison of its own does not help, because the compiler
-//! joins the two comparisons. So divisors and square roots take the maximum of their argument and a bound, which no optimisation
-//! removes.
+//! A compiler may divide first and select afterwards: `if b > 0 { a / b } else { 0 }` may compute a/0, which sets a
+//! floating-point flag on which the application may trap. Choosing the divisor by a comparison of its own does not
+//! help, because the compiler joins the two comparisons. So divisors and square roots take the maximum of their
+//! argument and a bound, which no optimisation removes.
 //!
-//! A compiler may also place a quotient in a vector register next to unrelated numbers and divide by these as well. Therefore a
-//! formula with several quotients multiplies by one reciprocal, or divides four numbers at once, or is in a function that is never
-//! inlined.
+//! A compiler may also place a quotient in a vector register next to unrelated numbers and divide by these as well.
+//! Therefore a formula with several quotients multiplies by one reciprocal, or divides four numbers at once, or is in a
+//! function that is never inlined.
 
 use super::lanes::Lanes;
 use core::ops::Div;
@@ -46,13 +46,13 @@ impl<const L: usize> Guarded for Lanes<L> {
     }
 }
 
-/// a/b of b >= 0.
+/// a/b for b >= 0, which is limited below by `TINY`: where b may be 0, |a| is at most 1e8 and not NaN.
 #[inline(always)]
 pub(crate) fn quotient<A: Div<X, Output = X>, X: Guarded>(a: A, b: X) -> X {
     a / b.at_least(TINY)
 }
 
-/// √x of x >= 0 but for rounding.
+/// √x for x >= 0 but for rounding errors, with 0 below.
 #[inline(always)]
 pub(crate) fn root<X: Guarded>(x: X) -> X {
     x.at_least(0.0).sqrt()
@@ -72,8 +72,8 @@ mod tests {
     /// Invalid operation, division by zero, overflow.
     const TRAPS: i32 = if cfg!(target_arch = "x86_64") { 1 | 4 | 8 } else { 1 | 2 | 4 };
 
-    /// The results, and whether an exception was raised that a program may trap. A quotient that a comparison of its own divisor
-    /// discards is computed all the same.
+    /// The results, and whether an exception was raised that a program may trap. A quotient that a comparison of its
+    /// own divisor discards is computed all the same.
     fn compute(numbers: [f64; 4]) -> ([[f64; 4]; 3], bool) {
         feclearexcept(TRAPS);
         let numbers = black_box(numbers);

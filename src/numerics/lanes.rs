@@ -1,7 +1,7 @@
 //! Several numbers that are computed together in one vector register of the processor, or in more than one.
 //!
-//! Operators act lane by lane, in the order in which they are written. Nothing is fused: each lane has the bits of the same formula
-//! for one number.
+//! Operators act lane by lane, in the order in which they are written. Nothing is fused: each lane has the bits of the
+//! same formula for one number.
 
 use core::ops::{Add, AddAssign, Deref, DerefMut, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 

@@ -1,4 +1,5 @@
-//! Polynomials evaluated by four interleaved Horner schemes, two pairs of numbers, to shorten the chain of dependent operations.
+//! Polynomials evaluated by four interleaved Horner schemes, two pairs of numbers, to shorten the chain of dependent
+//! operations.
 
 use super::const_math::tabulate;
 use super::lanes::Lanes;

@@ -5,8 +5,8 @@ use super::const_math::{cosine, tabulate};
 /// Blocks of four nodes in the largest [`gauss_rule`].
 pub(crate) const MAX_GAUSS_BLOCKS: usize = 8;
 
-/// Node i of the Gauss-Legendre rule on (0, 1) with an even number n of nodes, the node at the same distance from the other end,
-/// and the weight of both.
+/// Node i of the Gauss-Legendre rule on (0, 1) with an even number n of nodes, the node at the same distance from the
+/// other end, and the weight of both.
 const fn gauss_pair(n: usize, i: usize) -> [f64; 3] {
     // Newton's method for a root of P_n from Tricomi's estimate -cos(π (i + 3/4)/(n + 1/2)), P_n by recurrence.
     let mut x = -cosine(4 * i + 3, 2 * n + 1);
@@ -42,7 +42,8 @@ pub(crate) const fn gauss_legendre(blocks: usize) -> [Block; MAX_GAUSS_BLOCKS] {
     rule
 }
 
-/// The rule on (0, 1) for even functions: the positive half of the Gauss-Legendre rule on (-1, 1), of twice as many nodes.
+/// The rule on (0, 1) for even functions: the positive half of the Gauss-Legendre rule on (-1, 1), of twice as many
+/// nodes.
 pub(crate) const fn gauss_even<const B: usize>() -> [Block; B] {
     let mut rule = [[[0.0; 4]; 2]; B];
     let mut i = 0;

@@ -1,8 +1,8 @@
 //! Root finding: Newton's method safeguarded by bisection, and in logarithms.
 
-/// Root of a function that is negative at `low` and not negative at `high`. `evaluate` returns value and derivative. A Newton step
-/// that leaves the bracket is replaced by bisection. The iteration ends after a Newton step below 1e-9, because the next step would
-/// be about its square.
+/// Root of a function that is negative at `low` and not negative at `high`. `evaluate` returns value and derivative. A
+/// Newton step that leaves the bracket is replaced by bisection. The iteration ends after a Newton step below 1e-9,
+/// because the next step would be about its square.
 pub(crate) fn bracketed_newton(low: f64, high: f64, start: f64, evaluate: impl Fn(f64) -> (f64, f64)) -> f64 {
     let start = if start >= low && start <= high { start } else { 0.5 * (low + high) };
     let (mut low, mut high, mut at) = (low, high, start);
@@ -27,10 +27,10 @@ pub(crate) fn bracketed_newton(low: f64, high: f64, start: f64, evaluate: impl F
     at
 }
 
-/// The argument at which a growing function has a given value > 0, by Newton's method in the logarithms of argument and function.
-/// `function` returns the function and the derivative of its logarithm with respect to the logarithm of the argument. If the
-/// function hardly grows, a step reduces the argument to at least a twentieth. For a function whose logarithm is concave, steps
-/// upwards do not pass the root.
+/// The argument at which a growing function has a given value > 0, by Newton's method in the logarithms of argument and
+/// function. `function` returns the function and the derivative of its logarithm with respect to the logarithm of the
+/// argument. If the function hardly grows, a step reduces the argument to at least a twentieth. For a function whose
+/// logarithm is concave, steps upwards do not pass the root.
 pub(crate) fn logarithmic_newton(value: f64, start: f64, function: impl Fn(f64) -> [f64; 2]) -> f64 {
     let mut argument = start;
     for _ in 0..30 {

@@ -1,12 +1,13 @@
 //! Slices whose length the compiler does not know: those of the caller and of workspaces.
 //!
-//! Every index is inside. The compiler cannot prove it, and `[i]` would compile to a panic, which the library must not contain.
-//! Here a value outside is 0, is not stored, and a part that reaches outside is empty. Arrays of a known length keep `[i]`.
+//! Every index is inside. The compiler cannot prove it, and `[i]` would compile to a panic, which the library must not
+//! contain. Here a value outside is 0, is not stored, and a part that reaches outside is empty. Arrays of a known
+//! length keep `[i]`.
 
 use super::lanes::Lanes;
 use core::slice::SliceIndex;
 
-/// What is read outside.
+/// Types with a value 0, which is read outside of a slice.
 pub(crate) trait Zero: Copy {
     fn zero() -> Self;
 }
