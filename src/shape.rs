@@ -213,8 +213,8 @@ impl Shape {
     }
 
     /// The compliance of one direction (0: normal, 1: x, 2: y) as a multiple of that of another one and a constant \[m/N\].
-    pub fn per_other(&self, k: usize, other: usize) -> [f64; 2] {
-        let ([scale, offset], [of_other, offset_of_other]) = (self.compliances[k], self.compliances[other]);
+    pub fn per_other(&self, direction: usize, other: usize) -> [f64; 2] {
+        let ([scale, offset], [of_other, offset_of_other]) = (self.compliances[direction], self.compliances[other]);
         [scale / of_other, scale * (offset - offset_of_other)]
     }
 

@@ -78,7 +78,7 @@ static RULE_IN_SLIP: [[[f64; 4]; 3]; BLOCKS_IN_SLIP] = {
     blocks
 };
 
-/// `sinh²(4a)` and its derivative with respect to `sinh²(a)`, from this one.
+/// The values `sinh²(4a)` and their derivatives with respect to `sinh²(a)`, given `square = sinh²(a)`.
 fn two_doublings<const L: usize>(mut square: Lanes<L>) -> (Lanes<L>, Lanes<L>) {
     let mut rate = Lanes([1.0; L]);
     for _ in 0..2 {

@@ -16,7 +16,7 @@ pub(crate) const BLOCKS_IN_SLIP: usize = 14;
 
 /// An initialised contact: plain data of fixed size that may be copied, stored and sent.
 ///
-/// An open contact (no normal force) has zero width, force and stiffness; one without friction has zero force and stiffness.
+/// An open contact (no normal force) has zero width, force and stiffness; a contact without friction has zero force and stiffness.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, Default)]
 pub struct Contact {
@@ -180,12 +180,12 @@ impl Contact {
         self.zones.layer.has_knee()
     }
 
-    /// No tangential force is possible: an open contact, or one without friction.
+    /// Whether no tangential force is possible: the contact is open or has no friction.
     pub(crate) fn is_frictionless(&self) -> bool {
         self.slip_force <= 0.0
     }
 
-    /// A displacement up to that of gross slip, and the remaining one.
+    /// A displacement up to the onset of gross slip, with its distance to the onset.
     pub(crate) fn before_slip(&self, displacement: f64) -> Complement {
         Complement { consumed: displacement, remaining: self.slip_displacement - displacement }
     }

@@ -21,10 +21,10 @@ pub struct SpringSlider {
     pub slip_force: f64,
 }
 
-/// The spring-slider with the contact's K' and K'' at a displacement amplitude \[m\].
+/// The spring-slider that has the K' and K'' of the contact at a displacement amplitude \[m\].
 ///
 /// A loop of amplitude δ_0 with slip force T_s and stiffness k has, with `cos θ = 1 - 2 T_s/(k δ_0)`,
-/// `K' = (k/π) (θ - sin θ cos θ)` and `K'' = (k/π) sin² θ`: their quotient gives θ. At amplitude 0 the slip force
+/// `K' = (k/π) (θ - sin θ cos θ)` and `K'' = (k/π) sin² θ`. The quotient K''/K' gives θ. At amplitude 0 the slip force
 /// is arbitrary, and the result is the initial stiffness with mu N; for a contact without friction both are 0.
 /// Errors: `BadAmplitude`.
 pub fn jenkins(contact: &Contact, amplitude: f64) -> Result<SpringSlider, Error> {
@@ -59,7 +59,7 @@ pub fn jenkins(contact: &Contact, amplitude: f64) -> Result<SpringSlider, Error>
     Ok(SpringSlider { stiffness, slip_force: (stiffness * half) * (amplitude * half) })
 }
 
-/// With this number of sliders the error is 4e-12 of mu N for a cylinder, and the computation takes seconds.
+/// Largest number of sliders. With it the error is 4e-12 of mu N for a cylinder, and the computation takes seconds.
 pub const MAX_SLIDERS: usize = 1 << 16;
 
 /// Checks a number of sliders.

@@ -7,7 +7,7 @@ use crate::shape::stick_zone::StickZone;
 use crate::shape::tractions::SurfacePoint;
 
 impl CurvePoint<'_> {
-    /// The stick zone; in gross slip the smallest one, to which it has shrunk.
+    /// The stick zone; in gross slip the zone to which it had shrunk at the onset.
     fn stick_zone_or_smallest(&self) -> StickZone {
         self.stick_zone().unwrap_or_else(|| self.contact.stick_zone_at_force(self.contact.slip_force))
     }

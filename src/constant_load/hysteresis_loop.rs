@@ -24,15 +24,16 @@ impl Contact {
 }
 
 impl HysteresisLoop<'_> {
-    /// Displacement \[m\] `amplitude cos t` at instant `i` of `n` uniformly spaced ones in a period, from t = 0.
-    pub fn displacement(&self, i: usize, n: usize) -> f64 {
-        let (sign, phase) = half_cycle(i, n);
+    /// Displacement \[m\] `amplitude cos t` at an instant, counted from 0 at t = 0, of a number of uniformly spaced instants in a
+    /// period.
+    pub fn displacement(&self, instant: usize, count: usize) -> f64 {
+        let (sign, phase) = half_cycle(instant, count);
         sign * self.amplitude * (2.0 * PI * phase).cos()
     }
 
     /// Force \[N\] at that instant.
-    pub fn force(&self, i: usize, n: usize) -> f64 {
-        let (sign, phase) = half_cycle(i, n);
+    pub fn force(&self, instant: usize, count: usize) -> f64 {
+        let (sign, phase) = half_cycle(instant, count);
         // The distance from a reversal is amplitude (1 - cos t) = 2 amplitude sin²(t/2). The monotonic curve is evaluated at half
         // of it.
         let sine = (PI * phase).sin();
@@ -41,9 +42,9 @@ impl HysteresisLoop<'_> {
     }
 }
 
-/// The half-cycle to which instant `i` of `n` belongs: its sign, +1 for the first, and the fraction of a period since its reversal.
-fn half_cycle(i: usize, n: usize) -> (f64, f64) {
-    let n = n.max(1);
-    let phase = (i % n) as f64 / n as f64;
+/// The half-cycle to which an instant belongs: its sign, +1 for the first, and the fraction of a period since its reversal.
+fn half_cycle(instant: usize, count: usize) -> (f64, f64) {
+    let count = count.max(1);
+    let phase = (instant % count) as f64 / count as f64;
     if phase < 0.5 { (1.0, phase) } else { (-1.0, phase - 0.5) }
 }

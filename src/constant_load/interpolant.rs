@@ -166,9 +166,9 @@ pub(crate) fn piece_in_integral(root: f64) -> u64 {
     if piece > PIECES { PIECES + 1 + ((piece - 1 - PIECES).min(4 * LAST_PIECES as u64 - 1) & !3) } else { piece }
 }
 
-/// 2ʲ.
-pub(crate) fn power_of_2(j: u64) -> f64 {
-    f64::from_bits((1023 + j) << 52)
+/// 2 to the power of an exponent.
+pub(crate) fn power_of_2(exponent: u64) -> f64 {
+    f64::from_bits((1023 + exponent) << 52)
 }
 
 /// The polynomials of (1 - τ)/ρ beyond the dyadic intervals of √ρ.

@@ -42,7 +42,7 @@ impl Branch {
         [forces, stiffnesses]: [&mut [f64]; 2],
     ) {
         let (slip, limit, factor) = (contact.slip_displacement, contact.slip_force, self.direction * self.scale);
-        // Displacements behind the last one may be in gross slip: they are replaced by it.
+        // Displacements behind the last of the branch may be in gross slip: they are limited to the distance of the last.
         let last = self.distance(slip, displacement.or_zero(count.saturating_sub(1)));
         let blocks = distances.blocks_mut().iter_mut().zip(roots.blocks_mut()).zip(displacement.blocks::<4>());
         for ((distances, roots), x) in blocks.take(count.div_ceil(4) + 1) {
@@ -63,7 +63,7 @@ impl Branch {
             if STIFFNESS {
                 *stiffness = *slopes;
             }
-            // In most cases all four are on one piece. Those behind the last one may be on any piece.
+            // In most cases all four are on one piece. The displacements behind the last of the branch may be on any piece.
             let same = [second, third].into_iter().take_while(|other| *other == piece).count();
             next += if fourth == piece && next + 4 <= count { 4 } else { 1 + same };
         }

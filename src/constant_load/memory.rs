@@ -54,7 +54,7 @@ impl InitialCurve {
 /// A branch of the force-displacement curve: it leaves a reversal, or is the initial loading curve, or gross slip.
 #[derive(Clone, Copy)]
 pub(crate) struct Branch {
-    /// Number of reversals on the stack up to the one that this branch leaves; 0 on the initial loading curve.
+    /// Number of reversals on the stack, up to the reversal that this branch leaves; 0 on the initial loading curve.
     pub depth: usize,
     /// The reversal that it leaves, or the start of the initial loading curve.
     pub start: Point,
@@ -70,7 +70,7 @@ pub(crate) struct Branch {
 }
 
 impl Branch {
-    /// The branch that leaves a reversal, number `depth` on the stack, with the one before it.
+    /// The branch that leaves reversal number `depth` of the stack, given also the reversal before it.
     fn from_reversal(depth: usize, start: Point, before: Option<Point>, offset: f64, direction: f64) -> Branch {
         let end = before.map_or(2.0 * offset - start.displacement, |before| before.displacement);
         Branch { depth, start, direction, end, scale: 2.0, inverse_scale: 0.5, gross_slip: false }
@@ -83,8 +83,8 @@ impl Branch {
         self.gross_slip || beyond < 0.0 || (beyond == 0.0 && self.depth == 0)
     }
 
-    /// Displacement on the monotonic curve that corresponds to one on the branch: `|δ-δ_r|/2` after a reversal. A distance that
-    /// exceeds that of gross slip by rounding is cut off there.
+    /// Displacement on the monotonic curve that corresponds to a displacement on the branch: `|δ-δ_r|/2` after a reversal. A
+    /// distance that exceeds that of gross slip by rounding is cut off there.
     pub fn distance(&self, slip_displacement: f64, displacement: f64) -> f64 {
         let distance = (displacement - self.start.displacement).abs() * self.inverse_scale;
         if distance > slip_displacement { slip_displacement } else { distance }
@@ -146,8 +146,8 @@ impl Memory<'_> {
         }
     }
 
-    /// The branch that continues one at its end: that of the enclosing loop once a loop is closed, the initial loading curve
-    /// after the mirror point, gross slip after the initial loading curve.
+    /// The branch that continues a branch at its end. The end of a loop is continued by the branch of the enclosing loop, the
+    /// mirror point by the initial loading curve, and the initial loading curve by gross slip.
     pub fn continuation(&self, contact: &Contact, branch: &Branch) -> Branch {
         if branch.depth == 0 {
             Branch { gross_slip: true, ..*branch }
@@ -285,8 +285,8 @@ pub(crate) struct Merge {
     pub shift: f64,
 }
 
-/// The mirror point of the oldest reversal on the initial loading curve. It is rounded outwards: its own mirror point encloses all
-/// other reversals.
+/// The mirror point of the oldest reversal on the initial loading curve. It is rounded outwards, so that it and its own mirror
+/// point enclose all other reversals.
 fn mirror(offset: f64, [displacement, force, _]: Reversal) -> Reversal {
     let mirrored = 2.0 * offset - displacement;
     let exact = 2.0 * offset - mirrored == displacement;
@@ -325,7 +325,7 @@ impl Merge {
         best
     }
 
-    /// Removes the pair from the stack; the depth after it.
+    /// Removes the pair from the stack; returns the new depth.
     pub fn apply(&self, offset: f64, reversals: &mut [Reversal]) -> usize {
         let Merge { pair, error, shift } = *self;
         for [_, force, _] in reversals.iter_mut().skip(pair + 2) {
@@ -345,7 +345,7 @@ impl Merge {
     }
 }
 
-/// Removes reversals from a full stack, from one on; the depth after it.
+/// Removes a number of reversals from a full stack, the first at the index `from`; returns the new depth.
 fn remove(reversals: &mut [Reversal], from: usize, count: usize) -> usize {
     let mut to = from;
     while let Some(&reversal) = reversals.get(to + count) {
@@ -361,8 +361,8 @@ fn branch_force_between(contact: &Contact, short: f64, long: f64) -> f64 {
     2.0 * (long - short)
 }
 
-/// Bound on the error \[N\] of the force that merged reversals cause: errors of branches of one direction add up, and those of
-/// the two directions have opposite signs.
+/// Bound on the error \[N\] of the force that merged reversals cause. Errors of branches of one direction add up; the sums for the
+/// two directions have opposite signs.
 pub(crate) fn force_error(reversals: &[Reversal]) -> f64 {
     let [one, other] = error_sums(reversals);
     if one > other { one } else { other }

@@ -31,7 +31,7 @@ use crate::parameters::{PARAMETERS, Sensitivity, times};
 
 impl Contact {
     /// Derivatives of the force of the monotonic curve at a fixed displacement \[m\]; beyond `slip_displacement` those of mu N.
-    /// Without friction or without normal force they are one-sided: those of mu N.
+    /// Without friction or without normal force they are one-sided and equal to those of mu N.
     /// Errors: `BadDisplacement` if the displacement is not finite, or beyond 1e150.
     pub fn monotonic_sensitivity(&self, displacement: f64) -> Result<Sensitivity, Error> {
         check_displacement(displacement)?;

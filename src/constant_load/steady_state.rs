@@ -25,7 +25,7 @@ impl<'c, 's> SteadyState<'c, 's> {
         SteadyState { contact, energy, initial: InitialCurve::default(), branch, reversals, depth: 0 }
     }
 
-    /// The branch that follows the present one at its end.
+    /// The branch that follows the present branch at its end.
     pub fn continuation(&self) -> Branch {
         self.memory(self.branch.start).continuation(self.contact, &self.branch)
     }

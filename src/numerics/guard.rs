@@ -15,7 +15,7 @@ use core::ops::Div;
 /// Lower bound of a divisor or of the argument of a logarithm whose result is not used.
 pub(crate) const TINY: f64 = 1e-300;
 
-/// A number, or several.
+/// One number, or several in lanes.
 pub(crate) trait Guarded: Copy + Div<Output = Self> {
     /// The number, or the limit if that is larger or the number is NaN.
     fn at_least(self, least: f64) -> Self;
@@ -46,13 +46,14 @@ impl<const L: usize> Guarded for Lanes<L> {
     }
 }
 
-/// a/b for b >= 0, which is limited below by `TINY`: where b may be 0, |a| is at most 1e8 and not NaN.
+/// A quotient by a divisor >= 0, which is limited below by `TINY`. Where the divisor may be 0, the numerator is not NaN and its size
+/// at most 1e8.
 #[inline(always)]
-pub(crate) fn quotient<A: Div<X, Output = X>, X: Guarded>(a: A, b: X) -> X {
-    a / b.at_least(TINY)
+pub(crate) fn quotient<A: Div<X, Output = X>, X: Guarded>(numerator: A, divisor: X) -> X {
+    numerator / divisor.at_least(TINY)
 }
 
-/// √x for x >= 0 but for rounding errors, with 0 below.
+/// The square root of a number >= 0, or below 0 by rounding errors.
 #[inline(always)]
 pub(crate) fn root<X: Guarded>(x: X) -> X {
     x.at_least(0.0).sqrt()

@@ -67,9 +67,9 @@ pub(crate) fn gauss_nodes(blocks: usize) -> impl Iterator<Item = (&'static f64, 
     gauss_rule(blocks).iter().flat_map(|[nodes, weights]| nodes.iter().zip(weights))
 }
 
-/// `∫ f` over (0, length) by 16-point Gauss-Legendre.
-pub(crate) fn gauss(length: f64, mut f: impl FnMut(f64) -> f64) -> f64 {
-    length * gauss_nodes(4).map(|(node, weight)| weight * f(length * node)).sum::<f64>()
+/// Integral of a function over (0, length) by 16-point Gauss-Legendre quadrature.
+pub(crate) fn gauss(length: f64, mut function: impl FnMut(f64) -> f64) -> f64 {
+    length * gauss_nodes(4).map(|(node, weight)| weight * function(length * node)).sum::<f64>()
 }
 
 #[cfg(test)]

@@ -287,7 +287,8 @@ impl Geometry for Parameters {
 /// Smallest Λ for which the laws are inverted: the approach is largest at Λ = 0.
 const SMALLEST_COMPLIANCE: f64 = 1.0 / 16.0;
 
-/// Half-width b, and the size in units of it: Eq. 1 in units that keep both the flat and the load at most 1.
+/// Half-width b of the contact, and its size in units of b: Eq. 1, solved in a unit in which the flat and the root of the load are
+/// at most 1.
 pub(crate) fn size_under_load(parameters: &Parameters, modulus: f64) -> Result<(f64, Size), Error> {
     let Parameters { edge_radius, length, normal_force, .. } = *parameters;
     let flat = parameters.flat_half_width.abs();

@@ -36,7 +36,7 @@ pub(crate) fn add_quotient_term(
 }
 
 impl Shape {
-    /// N, U and S about a size with leg > 0 as functions of one of them.
+    /// Taylor series of N, U and S about a size with leg > 0, as functions of one of the three.
     pub fn series(&self, leg: f64, argument: Quantity) -> [Series; 3] {
         if self.layer.is_none() {
             return self.reference_size.series(self, leg, argument);

@@ -197,7 +197,8 @@ struct Period<'m, 'c, 's> {
 }
 
 impl Period<'_, '_, '_> {
-    /// Integrates a period, or half of it if it is half-wave symmetric, from the farthest reversal. Returns which it is.
+    /// Integrates a period, or half of it if it is half-wave symmetric, from the farthest reversal. Returns whether it is half-wave
+    /// symmetric.
     fn integrate(&mut self, buffers: &mut Buffers) -> bool {
         let (count, half_wave_symmetric) = self.motion.find_reversals(&mut buffers.grid, buffers.instants);
         let span = if half_wave_symmetric { PI } else { 2.0 * PI };

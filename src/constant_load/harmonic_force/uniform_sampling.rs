@@ -42,7 +42,7 @@ impl<'a> Layout<'a> for UniformWorkspace<'a> {
 
     fn take(size: SamplingSize, parts: &mut Parts<'a>) -> UniformWorkspace<'a> {
         let SamplingSize { harmonics, samples: count, .. } = size;
-        // One reversal and one branch per sample, and one more.
+        // At most one reversal and one branch at each sample, and one at the start.
         let capacity = count + 1;
         let fourier = FoldedFourier::take(parts, count, 2 * harmonics);
         let rows = Rows::take(parts, harmonics, count);
@@ -144,7 +144,7 @@ fn sample(count: usize, fourier: &FoldedFourier, displacement: &[f64], samples: 
     FarthestPart { farthest, length, half_wave }
 }
 
-/// Values at the samples of two periods, of which those of one period are evaluated, and the branches on which they lie.
+/// Values at the samples of two periods, of which one period is evaluated, and the branches on which these samples lie.
 struct SampledPath<'a> {
     displacement: &'a mut [f64],
     force: &'a mut [f64],
