@@ -223,16 +223,17 @@ typedef struct mslip_material {
     double poisson_ratio;
 } mslip_material;
 
-// A compliant layer in series with the contact: roughness, a coating, the body around the contact, the rig. It carries the forces of
-// the contact. Its compliances are at most 2^40 times those of the contact, and loads of an element with a layer at most 2^40 times the
-// normal force of the parameters.
+// A compliant layer in series with the contact: roughness, a coating, the body around the contact, the rig. It carries the forces
+// of the contact. Its compliances are at most 2^40 times those of the contact, and loads of an element with a layer at most 2^40
+// times the normal force of the parameters.
 typedef struct mslip_layer {
-    // Normal compliance c_n >= 0 under the reference load [m/N]; 0: none. A contact under a constant normal force does not use it.
+    // Normal compliance c_n >= 0 under the reference load [m/N]; 0: none. A contact under a constant normal force does not use
+    // it.
     double normal_compliance;
     // Tangential compliance c_t >= 0 under the reference load [m/N]; 0: none.
     double tangential_compliance;
-    // N_c [N]: the stiffness grows in proportion to N + N_c, N_c at least 1e-3 of the normal force of the parameters; 0 or infinite:
-    // the stiffness is constant.
+    // N_c [N]: the stiffness grows in proportion to N + N_c, N_c at least 1e-3 of the normal force of the parameters; 0 or
+    // infinite: the stiffness is constant.
     double stiffening_load;
     // Reference load N_r, 0 <= N_r <= 1e150 [N]: the load under which the compliances were measured; 0: the normal force of the
     // parameters. Under N they are c (N_r + N_c)/(N + N_c).
@@ -296,8 +297,9 @@ typedef struct mslip_contact {
     double reserved[373];
 } mslip_contact;
 
-// A friction contact element: the law under a normal force that varies, with separation. Initialised once and only read afterwards;
-// it serves any number of contact points of its geometry. Plain data of fixed size that may be copied, stored and sent.
+// A friction contact element: the law under a normal force that varies, with separation. Initialised once and only read
+// afterwards; it serves any number of contact points of its geometry. Plain data of fixed size that may be copied, stored and
+// sent.
 typedef struct mslip_element {
     // E*, Eq. 2 [Pa].
     double composite_modulus;
@@ -352,8 +354,8 @@ void mslip_parameters_default(struct mslip_parameters *p);
 void mslip_elliptic_parameters_default(struct mslip_elliptic_parameters *p);
 
 // Warning i >= 0 of parameters that are valid but implausible: another unit, an exchanged pair, a contact for which the model is
-// inaccurate. A static text, NULL if there are no more: for the host to print. Lengths are in m and moduli in Pa, or in mm and MPa if
-// both moduli are at most 1.3e6. Any value of any parameter is accepted; errors are those of mslip_contact_init.
+// inaccurate. A static text, NULL if there are no more: for the host to print. Lengths are in m and moduli in Pa, or in mm and MPa
+// if both moduli are at most 1.3e6. Any value of any parameter is accepted; errors are those of mslip_contact_init.
 //
 // Since 0.1.0 (interface 6).
 const char *mslip_parameters_warning(const struct mslip_parameters *p,
@@ -382,15 +384,15 @@ int32_t mslip_contact_init_elliptic(const struct mslip_elliptic_parameters *p,
                                     struct mslip_contact *contact);
 
 // Divides a face with an uneven pressure along its length into n parts, each with a normal force of its own: parts[n] are the
-// parameters of their contacts or elements, whose forces add up to that of the face. A part is a row of pairs of opposite nodes in the
-// direction of motion: area [m2] and pressure [Pa], pairs x n, part after part; an area of 0 fills up a shorter row. weight, pairs x
-// n, is the share of a pair in its part: the displacements of the part are the sums of those of its pairs times their weights, and a
-// pair carries its weight times the forces of the part.
+// parameters of their contacts or elements, whose forces add up to that of the face. A part is a row of pairs of opposite nodes in
+// the direction of motion: area [m2] and pressure [Pa], pairs x n, part after part; an area of 0 fills up a shorter row.
+// weight, pairs x n, is the share of a pair in its part: the displacements of the part are the sums of those of its pairs times
+// their weights, and a pair carries its weight times the forces of the part.
 //
 // p are the parameters of the whole face. Their normal_force is not read: it is the sum of pressures times areas, also for a layer
-// whose reference_load is 0. A part whose normal force is below 1e-50 is open: its normal_force is 0, its weights are in proportion to
-// the areas, and it does not count in the length. An element requires a normal_force > 0, the largest in its motion: set that of
-// each part before mslip_element_init.
+// whose reference_load is 0. A part whose normal force is below 1e-50 is open: its normal_force is 0, its weights are in
+// proportion to the areas, and it does not count in the length. An element requires a normal_force > 0, the largest in its motion:
+// set that of each part before mslip_element_init.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_AREA, MSLIP_BAD_PRESSURE, the code of the first other parameter that is invalid, or
 // MSLIP_OUT_OF_RANGE.
@@ -404,8 +406,8 @@ int32_t mslip_face_parts(const struct mslip_parameters *p,
                          struct mslip_parameters *parts,
                          double *weight);
 
-// Validates a contact that was read from a file or a message: its checksum must be that written at initialisation, which detects any
-// single changed bit. Text needs 17 digits; initialise it again instead. Other functions only check a tag.
+// Validates a contact that was read from a file or a message: its checksum must be that written at initialisation, which detects
+// any single changed bit. Text needs 17 digits; initialise it again instead. Other functions only check a tag.
 //
 // Returns MSLIP_NULL_POINTER or MSLIP_BAD_CONTACT.
 //
@@ -439,9 +441,9 @@ int32_t mslip_slip(const struct mslip_contact *contact,
                    double *slip,
                    double *damage);
 
-// Monotonic (initial loading) curve (Eq. 10), odd in the force: displacement [m], compliance [m/N] and stick half-width [m] at
-// force[n] [N]. At mu N the compliance is infinite for a cylinder and an elliptical contact, and the stick half-width is that of
-// the flat, a.
+// Monotonic (initial loading) curve (Eq. 10), odd in the force: displacement [m], compliance [m/N] and stick half-width [m]
+// at force[n] [N]. At mu N the compliance is infinite for a cylinder and an elliptical contact, and the stick half-width is
+// that of the flat, a.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE or MSLIP_FORCE_EXCEEDS_SLIP.
 //
@@ -454,8 +456,8 @@ int32_t mslip_monotonic_displacement(const struct mslip_contact *contact,
                                      double *stick_half_width);
 
 // Inverse of the monotonic curve, odd in the displacement: force [N], stiffness [N/m] and stick half-width [m] at
-// displacement[n] [m]. At slip_displacement the stick half-width is a, as at mu N; beyond, the force stays at mu N, and stiffness
-// and stick half-width are 0.
+// displacement[n] [m]. At slip_displacement the stick half-width is a, as at mu N; beyond, the force stays at mu N, and
+// stiffness and stick half-width are 0.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_DISPLACEMENT.
 //
@@ -469,13 +471,13 @@ int32_t mslip_monotonic_force(const struct mslip_contact *contact,
 
 // Derivatives of the force of the monotonic curve with respect to the parameters at displacement[n] [m], which stays fixed:
 // force[n] [N] and sensitivity, MSLIP_PARAMETER_COUNT x n, column-major. The derivatives of force i are sensitivity[7 i +
-// MSLIP_BY_...], in [N] over the unit of the parameter. Beyond slip_displacement they are those of mu N; so are, one-sided, those of a
-// contact with mu = 0 or N = 0 at any displacement but 0.
+// MSLIP_BY_...], in [N] over the unit of the parameter. Beyond slip_displacement they are those of mu N; so are, one-sided,
+// those of a contact with mu = 0 or N = 0 at any displacement but 0.
 //
-// Of an elliptical contact the bodies keep their shapes, so that the ellipse changes with N and E*. The derivative with respect to the
-// edge radius is that for bodies whose radii of curvature change in proportion, with R = 4 E* semi_axis_x^3/(3 N): of a sphere, its
-// radius. Those with respect to a and L are 0. A layer is the same body under any N: its compliance under the reference load, and both
-// its loads, stay fixed. A reference_load of 0 stays at the N of the contact.
+// Of an elliptical contact the bodies keep their shapes, so that the ellipse changes with N and E*. The derivative with respect to
+// the edge radius is that for bodies whose radii of curvature change in proportion, with R = 4 E* semi_axis_x^3/(3 N): of a
+// sphere, its radius. Those with respect to a and L are 0. A layer is the same body under any N: its compliance under the
+// reference load, and both its loads, stay fixed. A reference_load of 0 stays at the N of the contact.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_ARRAY_SIZE or MSLIP_BAD_DISPLACEMENT.
 //
@@ -499,13 +501,13 @@ size_t mslip_state_length(size_t reversals);
 // Since 0.1.0 (interface 6).
 int32_t mslip_state_init(size_t state_length, double *state);
 
-// Validates a state that was read from a file or a message: all values must be finite and the reversals nested. Other functions only
-// check a tag and the number of reversals.
+// Validates a state that was read from a file or a message: all values must be finite and the reversals nested. Other functions
+// only check a tag and the number of reversals.
 //
-// A state that was decimal text of 17 significant digits has every bit. With 15 or 16 digits later forces are right to 1e-12 mu N (if
-// reversals were removed, within mslip_state_error), or the state is rejected, because rounding has moved one reversal onto another;
-// with fewer digits it is rejected. Not detected: values that another history leads to, such as a force or a displacement of which one
-// bit has changed. A file needs a checksum of its own against that.
+// A state that was decimal text of 17 significant digits has every bit. With 15 or 16 digits later forces are right to 1e-12 mu N
+// (if reversals were removed, within mslip_state_error), or the state is rejected, because rounding has moved one reversal onto
+// another; with fewer digits it is rejected. Not detected: values that another history leads to, such as a force or a displacement
+// of which one bit has changed. A file needs a checksum of its own against that.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or MSLIP_BAD_STATE.
 //
@@ -522,8 +524,8 @@ int32_t mslip_state_error(size_t state_length,
                           const double *state,
                           double *force_error);
 
-// Advances the contact state to a displacement [m]: force [N], tangent stiffness [N/m], and energy dissipated in this step [J]
-// (Eq. 11, 12). state_new may alias state_old; if NULL, the new state is discarded.
+// Advances the contact state to a displacement [m]: force [N], tangent stiffness [N/m], and energy dissipated in this step
+// [J] (Eq. 11, 12). state_new may alias state_old; if NULL, the new state is discarded.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE or MSLIP_BAD_DISPLACEMENT.
 //
@@ -537,9 +539,9 @@ int32_t mslip_masing_update(const struct mslip_contact *contact,
                             double *stiffness,
                             double *dissipated);
 
-// Advances the contact state through n displacements [m]; force[n] [N], stiffness[n] [N/m] and dissipated[n] [J] are those
-// of each step. state_new receives the last state and may alias state_old. If NULL, the new state is discarded; the path is then
-// evaluated with a capacity of at most 128 nested reversals.
+// Advances the contact state through n displacements [m]; force[n] [N], stiffness[n] [N/m] and dissipated[n] [J] are
+// those of each step. state_new receives the last state and may alias state_old. If NULL, the new state is discarded; the path is
+// then evaluated with a capacity of at most 128 nested reversals.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE or MSLIP_BAD_DISPLACEMENT.
 //
@@ -568,8 +570,8 @@ int32_t mslip_masing_tractions(const struct mslip_contact *contact,
                                double *pressure,
                                double *shear);
 
-// Hysteresis loop of the displacement amplitude cos(t), amplitude in [m]: displacement[n] [m] and force[n] [N] at n uniformly
-// spaced instants of one period, from t = 0.
+// Hysteresis loop of the displacement amplitude cos(t), amplitude in [m]: displacement[n] [m] and force[n] [N] at n
+// uniformly spaced instants of one period, from t = 0.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
 //
@@ -604,8 +606,8 @@ int32_t mslip_complex_stiffness(const struct mslip_contact *contact,
                                 double *dk_real,
                                 double *dk_imag);
 
-// Jenkins element (spring and slider in series) with the same K' and K'' at a displacement amplitude [m]: stiffness [N/m] and slip
-// force [N]. At amplitude 0: the initial stiffness and mu N. Both are 0 if mu N = 0.
+// Jenkins element (spring and slider in series) with the same K' and K'' at a displacement amplitude [m]: stiffness [N/m] and
+// slip force [N]. At amplitude 0: the initial stiffness and mu N. Both are 0 if mu N = 0.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
 //
@@ -641,9 +643,10 @@ size_t mslip_harmonic_workspace_length(size_t harmonics,
 //
 // MSLIP_UNIFORM_SAMPLING evaluates `samples` uniformly spaced instants of a period; its error decreases as samples^-2.
 // MSLIP_EVENT_DRIVEN locates reversals, loop closures and the onset of gross slip, and distributes about `samples` Gauss-Legendre
-// nodes per period between them, at least 8 between two events; three times as many if a layer has an N_c below a quarter of the normal
-// force. Its error decreases exponentially, more slowly for more harmonics: 16 (H+1) nodes have worst measured errors of 2e-6 of mu N
-// in the force and 5e-4 of the initial stiffness in the Jacobian; the energy is exact to rounding. It searches for reversals on a grid of at least `samples` and 16 H instants.
+// nodes per period between them, at least 8 between two events; three times as many if a layer has an N_c below a quarter of the
+// normal force. Its error decreases exponentially, more slowly for more harmonics: 16 (H+1) nodes have worst measured errors of
+// 2e-6 of mu N in the force and 5e-4 of the initial stiffness in the Jacobian; the energy is exact to rounding. It searches for
+// reversals on a grid of at least `samples` and 16 H instants.
 //
 // Returns MSLIP_BAD_RULE, MSLIP_BAD_HARMONICS, MSLIP_BAD_SAMPLES, MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
 //
@@ -674,8 +677,8 @@ size_t mslip_element_workspace_length(int32_t directions,
                                       int32_t rule);
 
 // Initialises a workspace of elements: tables for one (directions, harmonics, samples, rule), and scratch memory. Each thread
-// needs its own. periods is the number of periods that are applied before the returned one, at most 65536. 0 is the default: 4 with
-// two directions; 1 with one, where a larger number changes neither results nor time.
+// needs its own. periods is the number of periods that are applied before the returned one, at most 65536. 0 is the default: 4
+// with two directions; 1 with one, where a larger number changes neither results nor time.
 //
 // Returns MSLIP_BAD_DIRECTIONS, MSLIP_BAD_RULE, MSLIP_NOT_AVAILABLE for MSLIP_EVENT_DRIVEN, MSLIP_BAD_HARMONICS,
 // MSLIP_BAD_SAMPLES, MSLIP_BAD_PERIODS, MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
@@ -706,22 +709,21 @@ int32_t mslip_element_workspace_size(const double *workspace,
 // component, each 2H+1 coefficients [c0, cos1, sin1, cos2, sin2, ...]: with one tangential direction m = 2 components, u [m]
 // and w, T and N [N], with two directions m = 3, u, v [m] and w, Tx, Ty and N [N]. The normal component w of the
 // displacement is the approach [m] or the normal force [N]. jacobian is d force_i / d displacement_j, m(2H+1) x m(2H+1),
-// column-major: the exact derivative of the discrete force, one-sided at corners. dissipated [J] is the work of the tangential force
-// in the returned period, pi sum k (c_k s'_k - s_k c'_k) from the coefficients of force and displacement, over the tangential
-// directions; if rounding makes it negative, 0.
+// column-major: the exact derivative of the discrete force, one-sided at corners. dissipated [J] is the work of the tangential
+// force in the returned period, pi sum k (c_k s'_k - s_k c'_k) from the coefficients of force and displacement, over the
+// tangential directions; if rounding makes it negative, 0.
 //
 // Steady state: at the first sample of the largest normal force the element is pressed without tangential displacement and then
-// displaced at constant normal force. It advances from there through the periods of the workspace and one more, which is returned. The
-// Jacobian is the derivative for a fixed start. If w is constant, any variation of w moves the start to another sample, and the mean
-// tangential force may depend on the start.
+// displaced at constant normal force. It advances from there through the periods of the workspace and one more, which is returned.
+// The Jacobian is the derivative for a fixed start. If w is constant, any variation of w moves the start to another sample, and
+// the mean tangential force may depend on the start.
 //
-// With one direction the returned period is the steady state. With two, a vibration across a mean tangential force reduces that force
-// over many periods. Before the last two, of which the second is returned, the motion advances by 32 samples for each cycle of the highest
-// harmonic, if there are more.
-// With 3 periods or more, the memory after the second is extrapolated by 1.75 times its change in that period.
-// drift estimates the largest difference of the tangential force between the returned period and the steady state, over mu times the
-// largest normal force; 0 with one direction, and for a contact that opens, because that erases its memory. A drift is not an error.
-// While the force drifts, dissipated contains the change of the stored energy.
+// With one direction the returned period is the steady state. With two, a vibration across a mean tangential force reduces that
+// force over many periods. Before the last two, of which the second is returned, the motion advances by 32 samples for each cycle
+// of the highest harmonic, if there are more. With 3 periods or more, the memory after the second is extrapolated by 1.75 times
+// its change in that period. drift estimates the largest difference of the tangential force between the returned period and the
+// steady state, over mu times the largest normal force; 0 with one direction, and for a contact that opens, because that erases
+// its memory. A drift is not an error. While the force drifts, dissipated contains the change of the stored energy.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_WORKSPACE, MSLIP_BAD_DIRECTIONS for the workspace of another number of
 // directions, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE if the normal force of a sample is negative, or
@@ -757,14 +759,14 @@ int32_t mslip_harmonic_force(const struct mslip_contact *contact,
                              double *jacobian,
                              double *dissipated);
 
-// Derivatives of the harmonic force with respect to the parameters at fixed coefficients of the displacement: displacement [m] and
-// force [N] as of mslip_harmonic_force, and sensitivity, (2H+1) x MSLIP_PARAMETER_COUNT, column-major. The derivative of force
-// coefficient i is sensitivity[i + (2H+1) MSLIP_BY_...], in [N] over the unit of the parameter. The parameters are those of
-// mslip_monotonic_sensitivity.
+// Derivatives of the harmonic force with respect to the parameters at fixed coefficients of the displacement: displacement [m]
+// and force [N] as of mslip_harmonic_force, and sensitivity, (2H+1) x MSLIP_PARAMETER_COUNT, column-major. The derivative of
+// force coefficient i is sensitivity[i + (2H+1) MSLIP_BY_...], in [N] over the unit of the parameter. The parameters are those
+// of mslip_monotonic_sensitivity.
 //
-// With MSLIP_UNIFORM_SAMPLING the derivatives are the exact ones of the discrete force, one-sided if a sample is at the onset of gross
-// slip. With MSLIP_EVENT_DRIVEN they are the rule applied to the exact derivatives of the integrals, and converge more slowly than the
-// force.
+// With MSLIP_UNIFORM_SAMPLING the derivatives are the exact ones of the discrete force, one-sided if a sample is at the onset of
+// gross slip. With MSLIP_EVENT_DRIVEN they are the rule applied to the exact derivatives of the integrals, and converge more
+// slowly than the force.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_WORKSPACE or MSLIP_BAD_DISPLACEMENT.
 //
@@ -776,10 +778,10 @@ int32_t mslip_harmonic_sensitivity(const struct mslip_contact *contact,
                                    double *sensitivity);
 
 // Initialises the element of a flat with rounded edges, or of a cylinder. normal_force of the parameters, > 0, is the largest
-// force for which the element is tabulated. Larger ones are exact, but a step takes several times as long, with its energy tens of times,
-// and with two directions it is less accurate. directions is the number of tangential directions, 1 or 2: a displacement is [u, w] or
-// [u, v, w], a force [T, N] or [Tx, Ty, N].
-// normal_input is MSLIP_INPUT_APPROACH, w is the normal approach [m], or MSLIP_INPUT_NORMAL_FORCE, w is the normal force [N].
+// force for which the element is tabulated. Larger ones are exact, but a step takes several times as long, with its energy tens of
+// times, and with two directions it is less accurate. directions is the number of tangential directions, 1 or 2: a displacement is
+// [u, w] or [u, v, w], a force [T, N] or [Tx, Ty, N]. normal_input is MSLIP_INPUT_APPROACH, w is the normal approach
+// [m], or MSLIP_INPUT_NORMAL_FORCE, w is the normal force [N].
 //
 // In a step the contact is open if w is at most 2^-150 of its value under normal_force, with two directions 2^-80. With two
 // directions forces beyond 2^150 and approaches beyond 2^100 times that value are rejected as those of a contact too wide for its
@@ -795,7 +797,8 @@ int32_t mslip_element_init(const struct mslip_parameters *p,
                            struct mslip_element *element);
 
 // Initialises the element of an elliptical Hertz contact; a sphere if both semi-axes are equal. normal_force of the parameters, >
-// 0, is the force of the semi-axes and the largest one for which the element is tabulated, as in mslip_element_init. directions and normal_input are those of mslip_element_init.
+// 0, is the force of the semi-axes and the largest one for which the element is tabulated, as in mslip_element_init. directions
+// and normal_input are those of mslip_element_init.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_INPUT, the code of the first invalid parameter,
 // or MSLIP_OUT_OF_RANGE; the element is unchanged then.
@@ -806,8 +809,8 @@ int32_t mslip_element_init_elliptic(const struct mslip_elliptic_parameters *p,
                                     int32_t normal_input,
                                     struct mslip_element *element);
 
-// Validates an element that was read from a file or a message: its checksum must be that written at initialisation, which detects any
-// single changed bit. Text needs 17 digits; initialise it again instead. Other functions only check a tag.
+// Validates an element that was read from a file or a message: its checksum must be that written at initialisation, which detects
+// any single changed bit. Text needs 17 digits; initialise it again instead. Other functions only check a tag.
 //
 // Returns MSLIP_NULL_POINTER or MSLIP_BAD_ELEMENT.
 //
@@ -880,10 +883,10 @@ int32_t mslip_element_state_init(int32_t directions,
 // Validates the state of an element that was read from a file or a message: all values must be finite and possible, for one
 // direction the pieces nested. Other functions only check a tag and the number of pieces.
 //
-// A state that was decimal text of 17 significant digits has every bit. With 15 or 16 digits later forces of one direction are right to
-// 1e-12 mu N (if pieces were merged, within mslip_element_state_error); two directions need 17 digits unless the contact is open. A state
-// of fewer digits is rejected. Not detected: values that another history leads to, such as a force or a displacement of which one bit has
-// changed. A file needs a checksum of its own against that.
+// A state that was decimal text of 17 significant digits has every bit. With 15 or 16 digits later forces of one direction are
+// right to 1e-12 mu N (if pieces were merged, within mslip_element_state_error); two directions need 17 digits unless the contact
+// is open. A state of fewer digits is rejected. Not detected: values that another history leads to, such as a force or a
+// displacement of which one bit has changed. A file needs a checksum of its own against that.
 //
 // Returns MSLIP_BAD_DIRECTIONS, also for the state of another number of directions, MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or
 // MSLIP_BAD_STATE.
@@ -910,8 +913,9 @@ int32_t mslip_element_state_error(int32_t directions,
 // [T, N] or [Tx, Ty, N], tangent[m m] [N/m] is d force_i / d displacement_j, m x m, column-major, consistent with the step
 // and one-sided at corners, dissipated [J] the energy dissipated in this step. state_new may alias state_old; if NULL, the new
 // state is discarded. Only the used part of the new state is written: initialise both states to store or compare whole arrays.
-// Within a step the path is straight in the tangential displacement and the tangential shift S of the contact size. A step of no length
-// changes neither force nor state; its tangent is with one direction the tangent of the step before, with two that of the stuck contact.
+// Within a step the path is straight in the tangential displacement and the tangential shift S of the contact size. A step of no
+// length changes neither force nor state; its tangent is with one direction the tangent of the step before, with two that of the
+// stuck contact.
 //
 // Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_DIRECTIONS for the state of another number of
 // directions, MSLIP_BAD_STATE, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE, or MSLIP_LENGTH_TOO_SHORT if the contact would be

@@ -78,13 +78,13 @@ pub struct Element {
     /// S of the input.
     shift: Table,
     /// S over U and over N, of which it is the sum with these factors; 0 with a layer, or if the input is the load.
-    shift_per: [f64; 2],
+    shift_coefficients: [f64; 2],
     /// N(S).
     load_of_shift: Table,
     /// M at the middle of each quarter of `load_of_shift`.
     potential: Quarters<f64>,
-    /// For two directions: S along y is `lateral[0]` S + `lateral[1]` N, plus (1 - `lateral[0]`) S of a layer that is not linear.
-    lateral: [f64; 2],
+    /// For two directions: S along y is `shift_y_coefficients[0]` S + `shift_y_coefficients[1]` N, plus (1 - `shift_y_coefficients[0]`) S of a layer that is not linear.
+    shift_y_coefficients: [f64; 2],
     /// Hash of the shape and its load, by which a state detects another element.
     pub(crate) key: f64,
 }
@@ -117,21 +117,21 @@ pub struct NormalPoint {
 
 /// The normal state of a contact that is closed: load, tangential shift, and their derivatives with respect to the input.
 #[derive(Clone, Copy)]
-pub(crate) struct Normal {
+pub(crate) struct NormalState {
     pub load: f64,
     pub shift: f64,
     pub load_slope: f64,
     pub shift_slope: f64,
 }
 
-impl Normal {
-    pub const OPEN: Normal = Normal { load: 0.0, shift: 0.0, load_slope: 0.0, shift_slope: 0.0 };
+impl NormalState {
+    pub const OPEN: NormalState = NormalState { load: 0.0, shift: 0.0, load_slope: 0.0, shift_slope: 0.0 };
 }
 
-impl From<[[f64; 1]; 4]> for Normal {
+impl From<[[f64; 1]; 4]> for NormalState {
     #[inline(always)]
-    fn from([[load], [shift], [load_slope], [shift_slope]]: [[f64; 1]; 4]) -> Normal {
-        Normal { load, shift, load_slope, shift_slope }
+    fn from([[load], [shift], [load_slope], [shift_slope]]: [[f64; 1]; 4]) -> NormalState {
+        NormalState { load, shift, load_slope, shift_slope }
     }
 }
 
@@ -197,9 +197,9 @@ impl Element {
         (self.directions, self.normal_input) = (directions as i32, input as i32);
         (self.tag, self.checksum) = (TAG, 0);
         (self.composite_modulus, self.shape) = (shape.composite_modulus, shape);
-        let [ratio, own] = shape.per_other(2, 1);
+        let [ratio, own] = shape.compliance_in_terms_of(2, 1);
         let per_load = if layer.is_linear() { own + (1.0 - ratio) * layer.compliance(0.0) } else { own };
-        self.lateral = [ratio, per_load];
+        self.shift_y_coefficients = [ratio, per_load];
         self.key = key_of(&[normal_force, friction_coefficient, size, approach, shift, shape.flat, ratio, per_load]);
         self.fill_tables(&shape, input, [normal_force, approach, shift]);
         Ok(())
@@ -223,7 +223,7 @@ impl Element {
             NormalInput::Force => (Quantity::Load, normal_force),
         };
         let is_sum = shape.layer.is_none() && input == NormalInput::Approach;
-        self.shift_per = if is_sum { shape.per_other(1, 0) } else { [0.0; 2] };
+        self.shift_coefficients = if is_sum { shape.compliance_in_terms_of(1, 0) } else { [0.0; 2] };
         Table::fill([&mut self.of_input, &mut self.shift], largest, &mut |x| {
             let [load, approach, shift] = shape.series(shape.size_at(argument, x), argument);
             [if input == NormalInput::Force { approach } else { load }, shift]
@@ -232,9 +232,9 @@ impl Element {
 
     /// S along y and its derivative, from N and S along x and theirs.
     #[inline(always)]
-    pub(crate) fn lateral(&self, normal: &Normal) -> [f64; 2] {
-        let ([ratio, per_load], layer) = (self.lateral, &self.shape.layer);
-        let Normal { load, shift, load_slope, shift_slope } = *normal;
+    pub(crate) fn shift_y(&self, normal: &NormalState) -> [f64; 2] {
+        let ([ratio, per_load], layer) = (self.shift_y_coefficients, &self.shape.layer);
+        let NormalState { load, shift, load_slope, shift_slope } = *normal;
         let linear = [ratio * shift + per_load * load, ratio * shift_slope + per_load * load_slope];
         if layer.is_linear() {
             return linear;
@@ -333,9 +333,9 @@ impl Element {
         check_force(force, self.friction_coefficient * normal_force)
     }
 
-    /// The displacement \[m\] that carries a tangential force \[N\] at a constant normal force \[N\], from the unloaded contact in x (0) or y
-    /// direction (1), and the compliance \[m/N\] there; infinite at mu N if the stick zone shrinks to a point, without friction, and
-    /// without a normal force.
+    /// The displacement \[m\] that carries a tangential force \[N\] at a constant normal force \[N\], from the unloaded contact in
+    /// x (0) or y direction (1), and the compliance \[m/N\] there; infinite at mu N if the stick zone shrinks to a point, without
+    /// friction, and without a normal force.
     pub fn displacement_under(&self, direction: usize, force: f64, normal_force: f64) -> NormalPoint {
         let (size, mu) = (force.abs(), self.friction_coefficient);
         let limit = mu * normal_force;
@@ -365,7 +365,7 @@ impl Element {
             return point;
         }
         let [value, slope] =
-            self.lateral(&Normal { load, shift: point.value, load_slope: 1.0, shift_slope: point.slope });
+            self.shift_y(&NormalState { load, shift: point.value, load_slope: 1.0, shift_slope: point.slope });
         NormalPoint { value, slope }
     }
 
@@ -388,7 +388,8 @@ impl Element {
         load
     }
 
-    /// A scale of the normal component, that of the load of the parameters: derivatives by the component over it remain within range.
+    /// A scale of the normal component, that of the load of the parameters: derivatives by the component over it remain within
+    /// range.
     pub(crate) fn input_scale(&self) -> f64 {
         if self.by_approach() { self.normal_force / self.normal_stiffness } else { self.normal_force }
     }
@@ -433,8 +434,8 @@ impl Element {
         input > self.smallest_input
     }
 
-    /// Where a straight path between two inputs, of which one closes the contact, crosses zero load: the fraction of its length. With the
-    /// normal force as input the contact opens or closes at the open end.
+    /// Where a straight path between two inputs, of which one closes the contact, crosses zero load: the fraction of its length.
+    /// With the normal force as input the contact opens or closes at the open end.
     pub fn crossing(&self, from: f64, to: f64) -> f64 {
         if self.by_approach() {
             from / (from - to)
@@ -447,8 +448,8 @@ impl Element {
 
     /// The normal state at an input that closes the contact.
     #[inline(never)]
-    pub(crate) fn normal(&self, input: f64) -> Normal {
-        Normal::from(self.normals::<true, 1>(&[input]))
+    pub(crate) fn normal(&self, input: f64) -> NormalState {
+        NormalState::from(self.normals::<true, 1>(&[input]))
     }
 
     /// N, S and, if requested, their derivatives at four inputs; zeros for an open contact.
@@ -468,7 +469,7 @@ impl Element {
     /// N, S and, if requested, their derivatives at inputs that close the contact.
     #[inline(always)]
     pub(crate) fn normals<const SLOPES: bool, const L: usize>(&self, input: &[f64; L]) -> [[f64; L]; 4] {
-        let ([per_approach, per_load], is_sum) = (self.shift_per, self.shift_per[0] > 0.0);
+        let ([per_approach, per_load], is_sum) = (self.shift_coefficients, self.shift_coefficients[0] > 0.0);
         let (of_input, shift) = (Some(&self.of_input), Some(&self.shift));
         let outside = |table, quantities| self.one_by_one(table, quantities, *input);
         if !is_sum && !self.by_approach() {

@@ -4,8 +4,8 @@
 //! is here, for the pointers of the caller, and in `fourier/workspace`.
 //!
 //! # Safety
-//! All functions have one contract, the conventions `Memory` and `Aliasing` of the header: each pointer is NULL or valid for what it
-//! stands for, a workspace was initialised, and no output overlaps another argument, but for a new state that is the old one.
+//! All functions have one contract, the conventions `Memory` and `Aliasing` of the header: each pointer is NULL or valid for what
+//! it stands for, a workspace was initialised, and no output overlaps another argument, but for a new state that is the old one.
 
 #![allow(unsafe_code, non_camel_case_types)]
 #![allow(
@@ -97,8 +97,9 @@ pub struct mslip_contact {
     pub reserved: [f64; 373],
 }
 
-/// A friction contact element: the law under a normal force that varies, with separation. Initialised once and only read afterwards;
-/// it serves any number of contact points of its geometry. Plain data of fixed size that may be copied, stored and sent.
+/// A friction contact element: the law under a normal force that varies, with separation. Initialised once and only read
+/// afterwards; it serves any number of contact points of its geometry. Plain data of fixed size that may be copied, stored and
+/// sent.
 #[repr(C)]
 pub struct mslip_element {
     /// E*, Eq. 2 \[Pa\].

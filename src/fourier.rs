@@ -24,8 +24,8 @@ pub struct HarmonicOutput<'a> {
     pub jacobian: Option<&'a mut [f64]>,
     /// Energy dissipated per period \[J\]; of an element the work of the tangential force.
     pub dissipated: Option<&'a mut f64>,
-    /// An estimate of the largest difference of the tangential force between the last period and the steady state, over mu times the
-    /// largest normal force; 0 but for two directions.
+    /// An estimate of the largest difference of the tangential force between the last period and the steady state, over mu times
+    /// the largest normal force; 0 but for two directions.
     pub drift: Option<&'a mut f64>,
 }
 

@@ -92,8 +92,8 @@ pub trait Law: Sized {
     /// Validates a state in full: its values are finite and belong to a possible history. For states from outside the process.
     /// Errors: `StateTooShort`; `BadState` for an array that was not initialised, or whose values no history leads to.
     fn state_check(state: &[f64]) -> Result<(), Error>;
-    /// A bound on the error of the force \[N\] due to merged parts of the history, in a state whose header was checked; 0 while none was
-    /// merged, and again once gross slip or separation has erased the memory.
+    /// A bound on the error of the force \[N\] due to merged parts of the history, in a state whose header was checked; 0 while
+    /// none was merged, and again once gross slip or separation has erased the memory.
     fn force_error(_state: &[f64]) -> f64 {
         0.0
     }

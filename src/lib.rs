@@ -1,11 +1,12 @@
-//! **microslip**: a friction contact law for blade dynamics, the microslip model of Allara (2009) for flat contacts with rounded edges,
-//! cylinders and elliptical Hertz contacts.
+//! **microslip**: a friction contact law for blade dynamics, the microslip model of Allara (2009) for flat contacts with rounded
+//! edges, cylinders and elliptical Hertz contacts.
 //!
 //! - [`Parameters`] or [`EllipticParameters`] define a [`Contact`].
-//! - [`constant_load`]: monotonic curve, hysteresis, dissipated energy, complex stiffness and harmonic force under a constant normal
-//!   force.
+//! - [`constant_load`]: monotonic curve, hysteresis, dissipated energy, complex stiffness and harmonic force under a constant
+//!   normal force.
 //! - [`element`]: the laws of a shape in tables, for a normal force that varies, with separation.
-//! - [`one_direction`], [`two_directions`]: states, steps and harmonic force of an element with one and with two tangential directions.
+//! - [`one_direction`], [`two_directions`]: states, steps and harmonic force of an element with one and with two tangential
+//!   directions.
 //! - [`shape`]: normal and tangential laws of the contact shapes, independent of the load.
 //! - [`ffi`]: the C interface.
 //!

@@ -1,4 +1,5 @@
-//! Limits of inputs: displacements, and products and quotients of parameters whose intermediate results could overflow or underflow.
+//! Limits of inputs: displacements, and products and quotients of parameters whose intermediate results could overflow or
+//! underflow.
 
 use crate::error::{Error, ensure};
 use crate::numerics::fp_class::{abs_le, is_finite};

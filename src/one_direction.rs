@@ -1,5 +1,5 @@
-//! The law for one tangential direction under a normal force that varies, with separation. A displacement is `[u, w]` or `[u, N]`, a
-//! force `[T, N]`.
+//! The law for one tangential direction under a normal force that varies, with separation. A displacement is `[u, w]` or `[u, N]`,
+//! a force `[T, N]`.
 //!
 //! As the load rises and falls the contact runs through its family of sizes. The state is a diagram D(S)
 //! with |D| <= mu over the tangential shifts S of the sizes inside the contact: `T = ∫ D dN` and `u = o + ∫ D dS`. For a path that

@@ -19,18 +19,19 @@ pub struct Material {
     pub poisson_ratio: f64,
 }
 
-/// A compliant layer in series with the contact: roughness, a coating, the body around the contact, the rig. It carries the forces of
-/// the contact. Its compliances are at most 2^40 times those of the contact, and loads of an element with a layer at most 2^40 times the
-/// normal force of the parameters.
+/// A compliant layer in series with the contact: roughness, a coating, the body around the contact, the rig. It carries the forces
+/// of the contact. Its compliances are at most 2^40 times those of the contact, and loads of an element with a layer at most 2^40
+/// times the normal force of the parameters.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Layer {
-    /// Normal compliance c_n >= 0 under the reference load \[m/N\]; 0: none. A contact under a constant normal force does not use it.
+    /// Normal compliance c_n >= 0 under the reference load \[m/N\]; 0: none. A contact under a constant normal force does not use
+    /// it.
     pub normal_compliance: f64,
     /// Tangential compliance c_t >= 0 under the reference load \[m/N\]; 0: none.
     pub tangential_compliance: f64,
-    /// N_c \[N\]: the stiffness grows in proportion to N + N_c, N_c at least 1e-3 of the normal force of the parameters; 0 or infinite:
-    /// the stiffness is constant.
+    /// N_c \[N\]: the stiffness grows in proportion to N + N_c, N_c at least 1e-3 of the normal force of the parameters; 0 or
+    /// infinite: the stiffness is constant.
     pub stiffening_load: f64,
     /// Reference load N_r, 0 <= N_r <= 1e150 \[N\]: the load under which the compliances were measured; 0: the normal force of the
     /// parameters. Under N they are c (N_r + N_c)/(N + N_c).
@@ -43,8 +44,8 @@ impl Layer {
         Layer { normal_compliance: 0.0, tangential_compliance: 0.0, stiffening_load: 0.0, reference_load: 0.0 }
     }
 
-    /// Smallest ratio of N_c to the normal force of the parameters: the curve of a layer has a knee at N_c before gross slip, which the
-    /// polynomials of a contact resolve down to this ratio.
+    /// Smallest ratio of N_c to the normal force of the parameters: the curve of a layer has a knee at N_c before gross slip, which
+    /// the polynomials of a contact resolve down to this ratio.
     const SMALLEST_STIFFENING: f64 = 1e-3;
 }
 
@@ -133,8 +134,8 @@ impl Default for EllipticParameters {
 /// Number of parameters that forces are differentiated by.
 pub const PARAMETERS: usize = 7;
 
-/// Derivatives with respect to the normal force N, the friction coefficient, the half-width a of the flat, the edge radius R, the length
-/// L, E*, and the tangential compliance of the layer, in this order.
+/// Derivatives with respect to the normal force N, the friction coefficient, the half-width a of the flat, the edge radius R, the
+/// length L, E*, and the tangential compliance of the layer, in this order.
 pub type Sensitivity = [f64; PARAMETERS];
 
 /// A multiple.

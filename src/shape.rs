@@ -213,7 +213,7 @@ impl Shape {
     }
 
     /// The compliance of one direction (0: normal, 1: x, 2: y) as a multiple of that of another one and a constant \[m/N\].
-    pub fn per_other(&self, direction: usize, other: usize) -> [f64; 2] {
+    pub fn compliance_in_terms_of(&self, direction: usize, other: usize) -> [f64; 2] {
         let ([scale, offset], [of_other, offset_of_other]) = (self.compliances[direction], self.compliances[other]);
         [scale / of_other, scale * (offset - offset_of_other)]
     }
@@ -282,7 +282,7 @@ impl Shape {
         let size = self.size(leg);
         let load = size.load();
         let ([x, _], [ratio, per_load]) =
-            (self.own_sums(self.compliance_coefficients(Quantity::Shift), &size, load), self.per_other(2, 1));
+            (self.own_sums(self.compliance_coefficients(Quantity::Shift), &size, load), self.compliance_in_terms_of(2, 1));
         let load = self.load_scale * load;
         let layer = self.layer.shift(load);
         [load, x + layer, ratio * x + per_load * load + layer]

@@ -1,8 +1,9 @@
 //! Tags: the first double of each buffer that the library initialises in memory of the calling application.
 //!
-//! A tag encodes the kind of the buffer and the version of its layout, so that uninitialised memory and buffers of other versions are
-//! detected by one comparison. It is a whole number of 15 digits of which the last is not 0: decimal text of 15 significant digits or
-//! more preserves it, and text of fewer digits does not. Counts follow as doubles of their own, which are whole numbers too.
+//! A tag encodes the kind of the buffer and the version of its layout, so that uninitialised memory and buffers of other versions
+//! are detected by one comparison. It is a whole number of 15 digits of which the last is not 0: decimal text of 15 significant
+//! digits or more preserves it, and text of fewer digits does not. Counts follow as doubles of their own, which are whole numbers
+//! too.
 
 /// Version of the layout of contacts, states and workspaces.
 pub(crate) const LAYOUT: u64 = 6;
@@ -34,12 +35,14 @@ impl Kind {
 /// 2^52: the sum with a smaller whole number has this number as its last 52 bits.
 const WHOLE: f64 = f64::from_bits((1023 + 52) << 52);
 
-/// A count as a double. Unsigned integers would be converted by a subtraction, which gives -0 if the rounding direction is downwards.
+/// A count as a double. Unsigned integers would be converted by a subtraction, which gives -0 if the rounding direction is
+/// downwards.
 pub(crate) fn stored(count: usize) -> f64 {
     count.cast_signed() as f64
 }
 
-/// A count that was stored as a double; `None` for what no count is stored as. The nearest whole number if it was changed since then.
+/// A count that was stored as a double; `None` for what no count is stored as. The nearest whole number if it was changed since
+/// then.
 pub(crate) fn count(stored: f64) -> Option<usize> {
     // The bit patterns of negative doubles and NaNs are larger.
     if stored.to_bits() >= WHOLE.to_bits() {

@@ -1,5 +1,5 @@
-//! A smooth, monotone function on (0, ∞) as polynomials on quarters of dyadic intervals, found by the exponent and two leading bits of
-//! the mantissa of the argument: neither a root nor a logarithm is evaluated.
+//! A smooth, monotone function on (0, ∞) as polynomials on quarters of dyadic intervals, found by the exponent and two leading bits
+//! of the mantissa of the argument: neither a root nor a logarithm is evaluated.
 //!
 //! `f(x) = x p(t)` with one polynomial p for each quarter and t in [-1, 1) the position in it. The functions of a contact are
 //! singular at x = 0 only, which lies at least 9 half-lengths from the middle of each quarter: so the Taylor series about the
@@ -47,8 +47,8 @@ pub(crate) struct Table {
 }
 
 impl Table {
-    /// Fills tables of several functions of one argument up to (at least) the argument `largest`, a normal number, from their Taylor
-    /// series about the middle x of each quarter in powers of ε, for the argument x (1 + ε), in the order of the quarters.
+    /// Fills tables of several functions of one argument up to (at least) the argument `largest`, a normal number, from their
+    /// Taylor series about the middle x of each quarter in powers of ε, for the argument x (1 + ε), in the order of the quarters.
     pub fn fill<const K: usize>(
         tables: [&mut Table; K],
         largest: f64,

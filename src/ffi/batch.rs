@@ -108,7 +108,8 @@ impl From<Error> for Failure {
     }
 }
 
-/// The status of a batch of n items. On an error, `failed_item` is the item at fault, or n if the error is not the error of an item.
+/// The status of a batch of n items. On an error, `failed_item` is the item at fault, or n if the error is not the error of an
+/// item.
 unsafe fn call_batch(n: usize, failed_item: *mut size_t, batch: impl FnOnce() -> Result<(), Failure>) -> i32 {
     call(|| {
         let failed_item = optional_output(failed_item)?;

@@ -44,8 +44,8 @@ unsafe fn text_of<P: Copy, W: Iterator<Item = &'static CStr>>(
 }
 
 /// Warning i >= 0 of parameters that are valid but implausible: another unit, an exchanged pair, a contact for which the model is
-/// inaccurate. A static text, NULL if there are no more: for the host to print. Lengths are in m and moduli in Pa, or in mm and MPa if
-/// both moduli are at most 1.3e6. Any value of any parameter is accepted; errors are those of mslip_contact_init.
+/// inaccurate. A static text, NULL if there are no more: for the host to print. Lengths are in m and moduli in Pa, or in mm and MPa
+/// if both moduli are at most 1.3e6. Any value of any parameter is accepted; errors are those of mslip_contact_init.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn mslip_parameters_warning(p: *const Parameters, i: i32) -> *const c_char {
     text_of(p, i, Parameters::warnings)
@@ -90,15 +90,15 @@ pub unsafe extern "C" fn mslip_contact_init_elliptic(p: *const EllipticParameter
 }
 
 /// Divides a face with an uneven pressure along its length into n parts, each with a normal force of its own: parts\[n\] are the
-/// parameters of their contacts or elements, whose forces add up to that of the face. A part is a row of pairs of opposite nodes in the
-/// direction of motion: area \[m2\] and pressure \[Pa\], pairs x n, part after part; an area of 0 fills up a shorter row. weight, pairs x
-/// n, is the share of a pair in its part: the displacements of the part are the sums of those of its pairs times their weights, and a
-/// pair carries its weight times the forces of the part.
+/// parameters of their contacts or elements, whose forces add up to that of the face. A part is a row of pairs of opposite nodes in
+/// the direction of motion: area \[m2\] and pressure \[Pa\], pairs x n, part after part; an area of 0 fills up a shorter row.
+/// weight, pairs x n, is the share of a pair in its part: the displacements of the part are the sums of those of its pairs times
+/// their weights, and a pair carries its weight times the forces of the part.
 ///
 /// p are the parameters of the whole face. Their normal_force is not read: it is the sum of pressures times areas, also for a layer
-/// whose reference_load is 0. A part whose normal force is below 1e-50 is open: its normal_force is 0, its weights are in proportion to
-/// the areas, and it does not count in the length. An element requires a normal_force > 0, the largest in its motion: set that of
-/// each part before mslip_element_init.
+/// whose reference_load is 0. A part whose normal force is below 1e-50 is open: its normal_force is 0, its weights are in
+/// proportion to the areas, and it does not count in the length. An element requires a normal_force > 0, the largest in its motion:
+/// set that of each part before mslip_element_init.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_AREA, MSLIP_BAD_PRESSURE, the code of the first other parameter that is invalid, or
 /// MSLIP_OUT_OF_RANGE.
@@ -120,8 +120,8 @@ pub unsafe extern "C" fn mslip_face_parts(
     })
 }
 
-/// Validates a contact that was read from a file or a message: its checksum must be that written at initialisation, which detects any
-/// single changed bit. Text needs 17 digits; initialise it again instead. Other functions only check a tag.
+/// Validates a contact that was read from a file or a message: its checksum must be that written at initialisation, which detects
+/// any single changed bit. Text needs 17 digits; initialise it again instead. Other functions only check a tag.
 ///
 /// Returns MSLIP_NULL_POINTER or MSLIP_BAD_CONTACT.
 #[unsafe(no_mangle)]
@@ -182,9 +182,9 @@ pub unsafe extern "C" fn mslip_slip(
     })
 }
 
-/// Monotonic (initial loading) curve (Eq. 10), odd in the force: displacement \[m\], compliance \[m/N\] and stick half-width \[m\] at
-/// force\[n\] \[N\]. At mu N the compliance is infinite for a cylinder and an elliptical contact, and the stick half-width is that of
-/// the flat, a.
+/// Monotonic (initial loading) curve (Eq. 10), odd in the force: displacement \[m\], compliance \[m/N\] and stick half-width \[m\]
+/// at force\[n\] \[N\]. At mu N the compliance is infinite for a cylinder and an elliptical contact, and the stick half-width is
+/// that of the flat, a.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_FORCE or MSLIP_FORCE_EXCEEDS_SLIP.
 #[unsafe(no_mangle)]
@@ -211,8 +211,8 @@ pub unsafe extern "C" fn mslip_monotonic_displacement(
 }
 
 /// Inverse of the monotonic curve, odd in the displacement: force \[N\], stiffness \[N/m\] and stick half-width \[m\] at
-/// displacement\[n\] \[m\]. At slip_displacement the stick half-width is a, as at mu N; beyond, the force stays at mu N, and stiffness
-/// and stick half-width are 0.
+/// displacement\[n\] \[m\]. At slip_displacement the stick half-width is a, as at mu N; beyond, the force stays at mu N, and
+/// stiffness and stick half-width are 0.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_DISPLACEMENT.
 #[unsafe(no_mangle)]
@@ -239,13 +239,13 @@ pub unsafe extern "C" fn mslip_monotonic_force(
 
 /// Derivatives of the force of the monotonic curve with respect to the parameters at displacement\[n\] \[m\], which stays fixed:
 /// force\[n\] \[N\] and sensitivity, MSLIP_PARAMETER_COUNT x n, column-major. The derivatives of force i are sensitivity\[7 i +
-/// MSLIP_BY_...\], in \[N\] over the unit of the parameter. Beyond slip_displacement they are those of mu N; so are, one-sided, those of a
-/// contact with mu = 0 or N = 0 at any displacement but 0.
+/// MSLIP_BY_...\], in \[N\] over the unit of the parameter. Beyond slip_displacement they are those of mu N; so are, one-sided,
+/// those of a contact with mu = 0 or N = 0 at any displacement but 0.
 ///
-/// Of an elliptical contact the bodies keep their shapes, so that the ellipse changes with N and E*. The derivative with respect to the
-/// edge radius is that for bodies whose radii of curvature change in proportion, with R = 4 E* semi_axis_x^3/(3 N): of a sphere, its
-/// radius. Those with respect to a and L are 0. A layer is the same body under any N: its compliance under the reference load, and both
-/// its loads, stay fixed. A reference_load of 0 stays at the N of the contact.
+/// Of an elliptical contact the bodies keep their shapes, so that the ellipse changes with N and E*. The derivative with respect to
+/// the edge radius is that for bodies whose radii of curvature change in proportion, with R = 4 E* semi_axis_x^3/(3 N): of a
+/// sphere, its radius. Those with respect to a and L are 0. A layer is the same body under any N: its compliance under the
+/// reference load, and both its loads, stay fixed. A reference_load of 0 stays at the N of the contact.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_ARRAY_SIZE or MSLIP_BAD_DISPLACEMENT.
 #[unsafe(no_mangle)]

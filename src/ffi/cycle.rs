@@ -6,8 +6,8 @@ use crate::ffi::mslip_contact;
 use crate::ffi::pointers::{self, call, each, input, optional_output, output, outputs, set, write};
 use libc::size_t;
 
-/// Hysteresis loop of the displacement amplitude cos(t), amplitude in \[m\]: displacement\[n\] \[m\] and force\[n\] \[N\] at n uniformly
-/// spaced instants of one period, from t = 0.
+/// Hysteresis loop of the displacement amplitude cos(t), amplitude in \[m\]: displacement\[n\] \[m\] and force\[n\] \[N\] at n
+/// uniformly spaced instants of one period, from t = 0.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
 #[unsafe(no_mangle)]
@@ -77,8 +77,8 @@ pub unsafe extern "C" fn mslip_complex_stiffness(
     })
 }
 
-/// Jenkins element (spring and slider in series) with the same K' and K'' at a displacement amplitude \[m\]: stiffness \[N/m\] and slip
-/// force \[N\]. At amplitude 0: the initial stiffness and mu N. Both are 0 if mu N = 0.
+/// Jenkins element (spring and slider in series) with the same K' and K'' at a displacement amplitude \[m\]: stiffness \[N/m\] and
+/// slip force \[N\]. At amplitude 0: the initial stiffness and mu N. Both are 0 if mu N = 0.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT or MSLIP_BAD_AMPLITUDE.
 #[unsafe(no_mangle)]

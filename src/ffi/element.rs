@@ -41,10 +41,10 @@ unsafe fn initialise<P>(
 }
 
 /// Initialises the element of a flat with rounded edges, or of a cylinder. normal_force of the parameters, > 0, is the largest
-/// force for which the element is tabulated. Larger ones are exact, but a step takes several times as long, with its energy tens of times,
-/// and with two directions it is less accurate. directions is the number of tangential directions, 1 or 2: a displacement is \[u, w\] or
-/// \[u, v, w\], a force \[T, N\] or \[Tx, Ty, N\].
-/// normal_input is MSLIP_INPUT_APPROACH, w is the normal approach \[m\], or MSLIP_INPUT_NORMAL_FORCE, w is the normal force \[N\].
+/// force for which the element is tabulated. Larger ones are exact, but a step takes several times as long, with its energy tens of
+/// times, and with two directions it is less accurate. directions is the number of tangential directions, 1 or 2: a displacement is
+/// \[u, w\] or \[u, v, w\], a force \[T, N\] or \[Tx, Ty, N\]. normal_input is MSLIP_INPUT_APPROACH, w is the normal approach
+/// \[m\], or MSLIP_INPUT_NORMAL_FORCE, w is the normal force \[N\].
 ///
 /// In a step the contact is open if w is at most 2^-150 of its value under normal_force, with two directions 2^-80. With two
 /// directions forces beyond 2^150 and approaches beyond 2^100 times that value are rejected as those of a contact too wide for its
@@ -63,7 +63,8 @@ pub unsafe extern "C" fn mslip_element_init(
 }
 
 /// Initialises the element of an elliptical Hertz contact; a sphere if both semi-axes are equal. normal_force of the parameters, >
-/// 0, is the force of the semi-axes and the largest one for which the element is tabulated, as in mslip_element_init. directions and normal_input are those of mslip_element_init.
+/// 0, is the force of the semi-axes and the largest one for which the element is tabulated, as in mslip_element_init. directions
+/// and normal_input are those of mslip_element_init.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_DIRECTIONS, MSLIP_BAD_NORMAL_INPUT, the code of the first invalid parameter,
 /// or MSLIP_OUT_OF_RANGE; the element is unchanged then.
@@ -77,8 +78,8 @@ pub unsafe extern "C" fn mslip_element_init_elliptic(
     initialise(p, directions, normal_input, element, Element::init)
 }
 
-/// Validates an element that was read from a file or a message: its checksum must be that written at initialisation, which detects any
-/// single changed bit. Text needs 17 digits; initialise it again instead. Other functions only check a tag.
+/// Validates an element that was read from a file or a message: its checksum must be that written at initialisation, which detects
+/// any single changed bit. Text needs 17 digits; initialise it again instead. Other functions only check a tag.
 ///
 /// Returns MSLIP_NULL_POINTER or MSLIP_BAD_ELEMENT.
 #[unsafe(no_mangle)]
@@ -196,10 +197,10 @@ pub unsafe extern "C" fn mslip_element_state_init(directions: i32, state_length:
 /// Validates the state of an element that was read from a file or a message: all values must be finite and possible, for one
 /// direction the pieces nested. Other functions only check a tag and the number of pieces.
 ///
-/// A state that was decimal text of 17 significant digits has every bit. With 15 or 16 digits later forces of one direction are right to
-/// 1e-12 mu N (if pieces were merged, within mslip_element_state_error); two directions need 17 digits unless the contact is open. A state
-/// of fewer digits is rejected. Not detected: values that another history leads to, such as a force or a displacement of which one bit has
-/// changed. A file needs a checksum of its own against that.
+/// A state that was decimal text of 17 significant digits has every bit. With 15 or 16 digits later forces of one direction are
+/// right to 1e-12 mu N (if pieces were merged, within mslip_element_state_error); two directions need 17 digits unless the contact
+/// is open. A state of fewer digits is rejected. Not detected: values that another history leads to, such as a force or a
+/// displacement of which one bit has changed. A file needs a checksum of its own against that.
 ///
 /// Returns MSLIP_BAD_DIRECTIONS, also for the state of another number of directions, MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or
 /// MSLIP_BAD_STATE.
@@ -228,8 +229,9 @@ pub unsafe extern "C" fn mslip_element_state_error(
 /// \[T, N\] or \[Tx, Ty, N\], tangent\[m m\] \[N/m\] is d force_i / d displacement_j, m x m, column-major, consistent with the step
 /// and one-sided at corners, dissipated \[J\] the energy dissipated in this step. state_new may alias state_old; if NULL, the new
 /// state is discarded. Only the used part of the new state is written: initialise both states to store or compare whole arrays.
-/// Within a step the path is straight in the tangential displacement and the tangential shift S of the contact size. A step of no length
-/// changes neither force nor state; its tangent is with one direction the tangent of the step before, with two that of the stuck contact.
+/// Within a step the path is straight in the tangential displacement and the tangential shift S of the contact size. A step of no
+/// length changes neither force nor state; its tangent is with one direction the tangent of the step before, with two that of the
+/// stuck contact.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_DIRECTIONS for the state of another number of
 /// directions, MSLIP_BAD_STATE, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE, or MSLIP_LENGTH_TOO_SHORT if the contact would be

@@ -29,9 +29,10 @@ pub extern "C" fn mslip_harmonic_workspace_length(harmonics: size_t, samples: si
 ///
 /// MSLIP_UNIFORM_SAMPLING evaluates `samples` uniformly spaced instants of a period; its error decreases as samples^-2.
 /// MSLIP_EVENT_DRIVEN locates reversals, loop closures and the onset of gross slip, and distributes about `samples` Gauss-Legendre
-/// nodes per period between them, at least 8 between two events; three times as many if a layer has an N_c below a quarter of the normal
-/// force. Its error decreases exponentially, more slowly for more harmonics: 16 (H+1) nodes have worst measured errors of 2e-6 of mu N
-/// in the force and 5e-4 of the initial stiffness in the Jacobian; the energy is exact to rounding. It searches for reversals on a grid of at least `samples` and 16 H instants.
+/// nodes per period between them, at least 8 between two events; three times as many if a layer has an N_c below a quarter of the
+/// normal force. Its error decreases exponentially, more slowly for more harmonics: 16 (H+1) nodes have worst measured errors of
+/// 2e-6 of mu N in the force and 5e-4 of the initial stiffness in the Jacobian; the energy is exact to rounding. It searches for
+/// reversals on a grid of at least `samples` and 16 H instants.
 ///
 /// Returns MSLIP_BAD_RULE, MSLIP_BAD_HARMONICS, MSLIP_BAD_SAMPLES, MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
 #[unsafe(no_mangle)]
@@ -94,8 +95,8 @@ pub extern "C" fn mslip_element_workspace_length(
 }
 
 /// Initialises a workspace of elements: tables for one (directions, harmonics, samples, rule), and scratch memory. Each thread
-/// needs its own. periods is the number of periods that are applied before the returned one, at most 65536. 0 is the default: 4 with
-/// two directions; 1 with one, where a larger number changes neither results nor time.
+/// needs its own. periods is the number of periods that are applied before the returned one, at most 65536. 0 is the default: 4
+/// with two directions; 1 with one, where a larger number changes neither results nor time.
 ///
 /// Returns MSLIP_BAD_DIRECTIONS, MSLIP_BAD_RULE, MSLIP_NOT_AVAILABLE for MSLIP_EVENT_DRIVEN, MSLIP_BAD_HARMONICS,
 /// MSLIP_BAD_SAMPLES, MSLIP_BAD_PERIODS, MSLIP_NULL_POINTER or MSLIP_WORKSPACE_TOO_SHORT.
@@ -148,22 +149,21 @@ pub unsafe extern "C" fn mslip_element_workspace_size(
 /// component, each 2H+1 coefficients \[c0, cos1, sin1, cos2, sin2, ...\]: with one tangential direction m = 2 components, u \[m\]
 /// and w, T and N \[N\], with two directions m = 3, u, v \[m\] and w, Tx, Ty and N \[N\]. The normal component w of the
 /// displacement is the approach \[m\] or the normal force \[N\]. jacobian is d force_i / d displacement_j, m(2H+1) x m(2H+1),
-/// column-major: the exact derivative of the discrete force, one-sided at corners. dissipated \[J\] is the work of the tangential force
-/// in the returned period, pi sum k (c_k s'_k - s_k c'_k) from the coefficients of force and displacement, over the tangential
-/// directions; if rounding makes it negative, 0.
+/// column-major: the exact derivative of the discrete force, one-sided at corners. dissipated \[J\] is the work of the tangential
+/// force in the returned period, pi sum k (c_k s'_k - s_k c'_k) from the coefficients of force and displacement, over the
+/// tangential directions; if rounding makes it negative, 0.
 ///
 /// Steady state: at the first sample of the largest normal force the element is pressed without tangential displacement and then
-/// displaced at constant normal force. It advances from there through the periods of the workspace and one more, which is returned. The
-/// Jacobian is the derivative for a fixed start. If w is constant, any variation of w moves the start to another sample, and the mean
-/// tangential force may depend on the start.
+/// displaced at constant normal force. It advances from there through the periods of the workspace and one more, which is returned.
+/// The Jacobian is the derivative for a fixed start. If w is constant, any variation of w moves the start to another sample, and
+/// the mean tangential force may depend on the start.
 ///
-/// With one direction the returned period is the steady state. With two, a vibration across a mean tangential force reduces that force
-/// over many periods. Before the last two, of which the second is returned, the motion advances by 32 samples for each cycle of the highest
-/// harmonic, if there are more.
-/// With 3 periods or more, the memory after the second is extrapolated by 1.75 times its change in that period.
-/// drift estimates the largest difference of the tangential force between the returned period and the steady state, over mu times the
-/// largest normal force; 0 with one direction, and for a contact that opens, because that erases its memory. A drift is not an error.
-/// While the force drifts, dissipated contains the change of the stored energy.
+/// With one direction the returned period is the steady state. With two, a vibration across a mean tangential force reduces that
+/// force over many periods. Before the last two, of which the second is returned, the motion advances by 32 samples for each cycle
+/// of the highest harmonic, if there are more. With 3 periods or more, the memory after the second is extrapolated by 1.75 times
+/// its change in that period. drift estimates the largest difference of the tangential force between the returned period and the
+/// steady state, over mu times the largest normal force; 0 with one direction, and for a contact that opens, because that erases
+/// its memory. A drift is not an error. While the force drifts, dissipated contains the change of the stored energy.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_ELEMENT, MSLIP_BAD_WORKSPACE, MSLIP_BAD_DIRECTIONS for the workspace of another number of
 /// directions, MSLIP_BAD_DISPLACEMENT, MSLIP_BAD_NORMAL_FORCE if the normal force of a sample is negative, or
@@ -220,14 +220,14 @@ pub unsafe extern "C" fn mslip_harmonic_force(
     mslip_batch_harmonic_force(1, 1, contact, all, all, workspace, displacement, force, jacobian, dissipated, no_item)
 }
 
-/// Derivatives of the harmonic force with respect to the parameters at fixed coefficients of the displacement: displacement \[m\] and
-/// force \[N\] as of mslip_harmonic_force, and sensitivity, (2H+1) x MSLIP_PARAMETER_COUNT, column-major. The derivative of force
-/// coefficient i is sensitivity\[i + (2H+1) MSLIP_BY_...\], in \[N\] over the unit of the parameter. The parameters are those of
-/// mslip_monotonic_sensitivity.
+/// Derivatives of the harmonic force with respect to the parameters at fixed coefficients of the displacement: displacement \[m\]
+/// and force \[N\] as of mslip_harmonic_force, and sensitivity, (2H+1) x MSLIP_PARAMETER_COUNT, column-major. The derivative of
+/// force coefficient i is sensitivity\[i + (2H+1) MSLIP_BY_...\], in \[N\] over the unit of the parameter. The parameters are those
+/// of mslip_monotonic_sensitivity.
 ///
-/// With MSLIP_UNIFORM_SAMPLING the derivatives are the exact ones of the discrete force, one-sided if a sample is at the onset of gross
-/// slip. With MSLIP_EVENT_DRIVEN they are the rule applied to the exact derivatives of the integrals, and converge more slowly than the
-/// force.
+/// With MSLIP_UNIFORM_SAMPLING the derivatives are the exact ones of the discrete force, one-sided if a sample is at the onset of
+/// gross slip. With MSLIP_EVENT_DRIVEN they are the rule applied to the exact derivatives of the integrals, and converge more
+/// slowly than the force.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_BAD_WORKSPACE or MSLIP_BAD_DISPLACEMENT.
 #[unsafe(no_mangle)]

@@ -22,13 +22,13 @@ pub unsafe extern "C" fn mslip_state_init(state_length: size_t, state: *mut f64)
     call(|| ConstantLoad::state_init(memory(state_length, state)?))
 }
 
-/// Validates a state that was read from a file or a message: all values must be finite and the reversals nested. Other functions only
-/// check a tag and the number of reversals.
+/// Validates a state that was read from a file or a message: all values must be finite and the reversals nested. Other functions
+/// only check a tag and the number of reversals.
 ///
-/// A state that was decimal text of 17 significant digits has every bit. With 15 or 16 digits later forces are right to 1e-12 mu N (if
-/// reversals were removed, within mslip_state_error), or the state is rejected, because rounding has moved one reversal onto another;
-/// with fewer digits it is rejected. Not detected: values that another history leads to, such as a force or a displacement of which one
-/// bit has changed. A file needs a checksum of its own against that.
+/// A state that was decimal text of 17 significant digits has every bit. With 15 or 16 digits later forces are right to 1e-12 mu N
+/// (if reversals were removed, within mslip_state_error), or the state is rejected, because rounding has moved one reversal onto
+/// another; with fewer digits it is rejected. Not detected: values that another history leads to, such as a force or a displacement
+/// of which one bit has changed. A file needs a checksum of its own against that.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_STATE_TOO_SHORT or MSLIP_BAD_STATE.
 #[unsafe(no_mangle)]
@@ -44,8 +44,8 @@ pub unsafe extern "C" fn mslip_state_error(state_length: size_t, state: *const f
     call(|| state_error::<ConstantLoad>(state_length, state, force_error))
 }
 
-/// Advances the contact state to a displacement \[m\]: force \[N\], tangent stiffness \[N/m\], and energy dissipated in this step \[J\]
-/// (Eq. 11, 12). state_new may alias state_old; if NULL, the new state is discarded.
+/// Advances the contact state to a displacement \[m\]: force \[N\], tangent stiffness \[N/m\], and energy dissipated in this step
+/// \[J\] (Eq. 11, 12). state_new may alias state_old; if NULL, the new state is discarded.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE or MSLIP_BAD_DISPLACEMENT.
 #[unsafe(no_mangle)]
@@ -65,9 +65,9 @@ pub unsafe extern "C" fn mslip_masing_update(
     })
 }
 
-/// Advances the contact state through n displacements \[m\]; force\[n\] \[N\], stiffness\[n\] \[N/m\] and dissipated\[n\] \[J\] are those
-/// of each step. state_new receives the last state and may alias state_old. If NULL, the new state is discarded; the path is then
-/// evaluated with a capacity of at most 128 nested reversals.
+/// Advances the contact state through n displacements \[m\]; force\[n\] \[N\], stiffness\[n\] \[N/m\] and dissipated\[n\] \[J\] are
+/// those of each step. state_new receives the last state and may alias state_old. If NULL, the new state is discarded; the path is
+/// then evaluated with a capacity of at most 128 nested reversals.
 ///
 /// Returns MSLIP_NULL_POINTER, MSLIP_BAD_CONTACT, MSLIP_STATE_TOO_SHORT, MSLIP_BAD_STATE or MSLIP_BAD_DISPLACEMENT.
 #[unsafe(no_mangle)]

@@ -1,9 +1,9 @@
 //! Conversion of pointers to slices, and of results to status codes.
 //!
 //! # Safety
-//! Each pointer is NULL or valid for its type, times the given number of items, which are not accessed otherwise during the lifetime of
-//! the reference. A workspace is valid for its header, and as a whole if this is the header of an initialised one. All bit
-//! patterns are valid for these types, also those of memory that the application has not initialised.
+//! Each pointer is NULL or valid for its type, times the given number of items, which are not accessed otherwise during the
+//! lifetime of the reference. A workspace is valid for its header, and as a whole if this is the header of an initialised one. All
+//! bit patterns are valid for these types, also those of memory that the application has not initialised.
 
 use super::{MSLIP_OK, mslip_contact, mslip_element};
 use crate::constant_load::contact::Contact;

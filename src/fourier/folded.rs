@@ -2,8 +2,8 @@
 //!
 //! With `t = 2π n/samples`, cosines keep and sines change their sign under n -> samples - n. If their number is even, moreover,
 //! even orders keep and odd orders change their sign under n -> n + samples/2. So four partial series over
-//! the positions 0 <= n <= samples/4 give all samples, and four folded sums of the samples give all Fourier sums. An odd number, and 4,
-//! are not folded. All blocks of four positions are inside the arrays.
+//! the positions 0 <= n <= samples/4 give all samples, and four folded sums of the samples give all Fourier sums. An odd number,
+//! and 4, are not folded. All blocks of four positions are inside the arrays.
 //!
 //! Arrays of samples have [`sample_length`] values: some beyond the period, where they are continued periodically.
 
@@ -140,7 +140,8 @@ impl<'a> FoldedFourier<'a> {
         self.sum(values, sums);
     }
 
-    /// Sums of the samples times 1, cos t, sin t, cos 2t, ..., one for each of `sums`. The first value is repeated after the period.
+    /// Sums of the samples times 1, cos t, sin t, cos 2t, ..., one for each of `sums`. The first value is repeated after the
+    /// period.
     pub fn sum(&mut self, values: &mut [f64], sums: &mut [f64]) {
         if let Some(([first, ..], [next, ..])) = values.split_at_mut_checked(self.samples) {
             *next = *first;

@@ -1,7 +1,7 @@
 //! Rows over the coefficients at uniformly spaced samples, and sums of outer products of rows.
 //!
-//! φ is the row 1, cos t, sin t, cos 2t, ... at a sample. The sum of φ over consecutive samples is a difference of antiderivatives. The
-//! rows of many harmonics are divided into strips whose length is known to the compiler, and that stay in registers.
+//! φ is the row 1, cos t, sin t, cos 2t, ... at a sample. The sum of φ over consecutive samples is a difference of antiderivatives.
+//! The rows of many harmonics are divided into strips whose length is known to the compiler, and that stay in registers.
 
 use super::workspace::{Blocks, Parts};
 use super::{angle, basis};

@@ -64,7 +64,8 @@ pub(crate) trait Layout<'a>: Sized {
     }
 
     /// A size with its number of periods.
-    /// Errors: `BadHarmonics` unless 1 <= H <= 2^24, `BadSamples` unless 2H < samples <= 2^24, `BadPeriods` for more than 65536 periods.
+    /// Errors: `BadHarmonics` unless 1 <= H <= 2^24, `BadSamples` unless 2H < samples <= 2^24, `BadPeriods` for more than 65536
+    /// periods.
     fn check_size(size: SamplingSize) -> Result<SamplingSize, Error> {
         const LARGEST: usize = 1 << 24;
         const MOST_PERIODS: usize = 1 << 16;

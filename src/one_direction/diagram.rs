@@ -11,7 +11,7 @@
 //!
 //! This covers a load that rises, falls or stays, slip of either direction, and its erasure by a falling load.
 
-use crate::element::{Element, Normal};
+use crate::element::{Element, NormalState};
 use crate::fourier::workspace::{record, records_mut};
 use crate::numerics::total::PanicFreeSlice;
 
@@ -80,7 +80,7 @@ struct End {
     friction_coefficient: f64,
     xi: f64,
     eta: f64,
-    normal: Normal,
+    normal: NormalState,
 }
 
 impl End {
@@ -93,7 +93,12 @@ impl End {
 }
 
 /// The step to a closed contact with the given normal state at the displacement u.
-pub(crate) fn step(element: &Element, diagram: &mut impl Diagram, displacement: f64, normal: &Normal) -> DiagramForce {
+pub(crate) fn step(
+    element: &Element,
+    diagram: &mut impl Diagram,
+    displacement: f64,
+    normal: &NormalState,
+) -> DiagramForce {
     let mu = element.friction_coefficient;
     let (xi, eta) = (displacement - mu * normal.shift, displacement + mu * normal.shift);
     let end = End { friction_coefficient: mu, xi, eta, normal: *normal };
@@ -110,7 +115,7 @@ pub(crate) fn step(element: &Element, diagram: &mut impl Diagram, displacement: 
 
 /// Gross slip: one piece of slope ±mu.
 fn slip_grossly(diagram: &mut impl Diagram, displacement: f64, end: &End) -> DiagramForce {
-    let &End { friction_coefficient: mu, xi, eta, normal: Normal { load, load_slope, .. } } = end;
+    let &End { friction_coefficient: mu, xi, eta, normal: NormalState { load, load_slope, .. } } = end;
     let knots = diagram.knots();
     let centre = knots.first().map_or(displacement, |knot| knot.xi);
     // A size below the rounding of displacements keeps the direction of its slip.
@@ -127,13 +132,13 @@ fn slip_grossly(diagram: &mut impl Diagram, displacement: f64, end: &End) -> Dia
 
 /// Everything sticks: a piece with D = Δu/ΔS from the outermost knot `inner`.
 fn stick(element: &Element, diagram: &mut impl Diagram, kept: usize, inner: &Knot, end: &End) -> DiagramForce {
-    let &End { friction_coefficient: mu, xi, eta, normal: Normal { load, shift, load_slope, shift_slope } } = end;
+    let &End { friction_coefficient: mu, xi, eta, normal: NormalState { load, shift, load_slope, shift_slope } } = end;
     let (falling, rising) = (inner.xi - xi, eta - inner.eta);
     let per_shift = 1.0 / (rising + falling);
     let slope = mu * ((rising - falling) * per_shift);
     let rise = element.per_two_mu * (rising + falling);
-    // The secant stiffness is the slope in the middle of the piece up to (rise/distance)²/24, with the distance from the singularities
-    // of N(S), and a difference whose rounding errors are relative to the rise: the better one of both.
+    // The secant stiffness is the slope in the middle of the piece up to (rise/distance)²/24, with the distance from the
+    // singularities of N(S), and a difference whose rounding errors are relative to the rise: the better one of both.
     let extent = inner.xi.abs().max(inner.eta.abs()).max(eta.abs()) * (2.0 * element.per_two_mu);
     let share = rise / shift.min(element.largest_shift - shift).max(rise);
     let secant = if share * share * rise < 24.0 * f64::EPSILON * extent {
@@ -147,7 +152,8 @@ fn stick(element: &Element, diagram: &mut impl Diagram, kept: usize, inner: &Kno
     [end.force, secant, slope * (load_slope - secant * shift_slope)]
 }
 
-/// The piece from `inner` to `outer` leaves the quadrant through one of its sides, where a slip zone cuts it, or through its corner.
+/// The piece from `inner` to `outer` leaves the quadrant through one of its sides, where a slip zone cuts it, or through its
+/// corner.
 fn cut(
     element: &Element,
     diagram: &mut impl Diagram,
@@ -155,7 +161,7 @@ fn cut(
     [inner, outer]: [&Knot; 2],
     end: &End,
 ) -> DiagramForce {
-    let &End { friction_coefficient: mu, xi, eta, normal: Normal { load, load_slope, shift_slope, .. } } = end;
+    let &End { friction_coefficient: mu, xi, eta, normal: NormalState { load, load_slope, shift_slope, .. } } = end;
     let (falling, rising) = (inner.xi - outer.xi, outer.eta - inner.eta);
     let [to_side, to_other] = match (falling > 0.0, rising > 0.0) {
         (true, true) => shares([inner.xi - xi, eta - inner.eta], [falling, rising]),
@@ -261,7 +267,8 @@ impl Polygon<'_> {
         self.used += usize::from(self.knots.set(self.used, knot));
     }
 
-    /// Removes the knot, the centre excepted, whose removal changes later forces least, and returns the change of the force beyond it.
+    /// Removes the knot, the centre excepted, whose removal changes later forces least, and returns the change of the force beyond
+    /// it.
     ///
     /// Without the knot B the pieces A-B and B-C become one: D its mean over S, which keeps the displacement of the diagram.
     /// Tangential forces beyond change by the integral of the change of D over N. This also bounds the change of all later forces:

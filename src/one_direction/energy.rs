@@ -138,7 +138,7 @@ fn mean_load(element: &Element, [from, to]: [f64; 2]) -> f64 {
     }
     if 16.0 * width.abs() < low {
         // Where the compliance of a short contact is about to vanish.
-        return LONGEST_RULE.iter().map(|block| part(squared(*block))).sum();
+        return LARGEST_RULE.iter().map(|block| part(squared(*block))).sum();
     }
     (element.potential_at_shift(to.max(0.0)) - element.potential_at_shift(from.max(0.0))) / width
 }
@@ -213,17 +213,17 @@ impl SlipPiece {
     }
 }
 
-/// Where the compliance of a short contact is about to vanish. The integrand is singular at that distance from the end of the zone, and so, as
-/// a function of the fraction of the path, from both ends: t = z², and z² (3 - 2z) is the fraction.
+/// Where the compliance of a short contact is about to vanish. The integrand is singular at that distance from the end of the zone,
+/// and so, as a function of the fraction of the path, from both ends: t = z², and z² (3 - 2z) is the fraction.
 #[cold]
 #[inline(never)]
 fn rules_near_the_largest_size() -> [[Block; MAX_GAUSS_BLOCKS]; 2] {
-    let path_rule = LONGEST_RULE.map(|block| substituted(block, |z| [z * z * (3.0 - 2.0 * z), 6.0 * z * (1.0 - z)]));
-    [path_rule, LONGEST_RULE.map(squared)]
+    let path_rule = LARGEST_RULE.map(|block| substituted(block, |z| [z * z * (3.0 - 2.0 * z), 6.0 * z * (1.0 - z)]));
+    [path_rule, LARGEST_RULE.map(squared)]
 }
 
 /// Gauss's rule with the most nodes.
-static LONGEST_RULE: [Block; MAX_GAUSS_BLOCKS] = gauss_legendre(MAX_GAUSS_BLOCKS);
+static LARGEST_RULE: [Block; MAX_GAUSS_BLOCKS] = gauss_legendre(MAX_GAUSS_BLOCKS);
 
 /// Gauss's rule with four nodes.
 const PATH_RULE: Block = gauss_legendre(1)[0];
@@ -243,8 +243,8 @@ fn squared(block: Block) -> Block {
     substituted(block, |z| [z * z, 2.0 * z])
 }
 
-/// Distance of an interval to the singularities of N(S): S = 0 and, where the compliance of a short contact vanishes, at least 0.7 % beyond
-/// the largest shift.
+/// Distance of an interval to the singularities of N(S): S = 0 and, where the compliance of a short contact vanishes, at least 0.7
+/// % beyond the largest shift.
 fn room(element: &Element, low: f64, high: f64) -> f64 {
     low.min(1.007 * element.largest_shift - high)
 }
@@ -284,7 +284,8 @@ mod tests {
                         SlipPiece { inner: [c0, c1], outer: [b0, b1] }.integral(&element)
                     };
                     let (whole, parts) = (integral(0, 16), (0..16).map(|k| integral(k, k + 1)).sum::<f64>());
-                    // The load has a few roundings over its logarithmic compliance, here down to 0.02, and a wide zone loses six bits.
+                    // The load has a few roundings over its logarithmic compliance, here down to 0.02, and a wide zone loses six
+                    // bits.
                     assert!(
                         (parts / whole - 1.0).abs() < 1e-11,
                         "{share}, {width}, {growth}: {parts:e}, not {whole:e}"

@@ -1,10 +1,10 @@
 //! Harmonic force of a periodic motion with varying normal force and separation, by uniform sampling.
 //!
 //! The motion is u and the normal component (the approach w or the normal force N), each `a_0 + Σ (a_k cos kt + b_k sin kt)`, at
-//! uniformly spaced instants from t = 0. Between the samples the path is that of a step of the element. Steady state: the element is
-//! pressed by the normal force of the sample at which that is largest (the first such sample) with no tangential displacement, is
-//! displaced to that sample at constant normal force, and advanced along two periods from there; the second one counts. It is known
-//! in closed form at one sample, so one period is evaluated, and half of one if it is half-wave symmetric.
+//! uniformly spaced instants from t = 0. Between the samples the path is that of a step of the element. Steady state: the element
+//! is pressed by the normal force of the sample at which that is largest (the first such sample) with no tangential displacement,
+//! is displaced to that sample at constant normal force, and advanced along two periods from there; the second one counts. It is
+//! known in closed form at one sample, so one period is evaluated, and half of one if it is half-wave symmetric.
 //!
 //! - `samples`: normal states, characteristic coordinates, entry into the steady state;
 //! - `runs`: the memory diagram along the period, without evaluating any force;
@@ -108,12 +108,11 @@ const NORMAL_FORCE_ROUNDING: f64 = 8.0 * f64::EPSILON;
 /// Harmonic force of a periodic motion, given by its 2 (2H + 1) coefficients: those of u \[m\], then those of the normal component,
 /// the approach \[m\] or the normal force \[N\].
 ///
-/// The force has 2 (2H + 1) coefficients \[N\], T then N. The Jacobian has (2 (2H + 1))² entries, column by column: their derivatives
-/// with respect to the coefficients of the motion. It is the exact derivative of the discrete force, one-sided at corners. The energy is
-/// the work of T.
-/// Errors: `BadArraySize` if a length does not agree with the workspace; `BadDisplacement` if a coefficient is not finite or
-/// exceeds 1e150; `BadNormalForce` if a sample of the normal force is negative by more than rounding; `LengthTooShort` if the
-/// contact would become too wide for its length.
+/// The force has 2 (2H + 1) coefficients \[N\], T then N. The Jacobian has (2 (2H + 1))² entries, column by column: their
+/// derivatives with respect to the coefficients of the motion. It is the exact derivative of the discrete force, one-sided at
+/// corners. The energy is the work of T. Errors: `BadArraySize` if a length does not agree with the workspace; `BadDisplacement` if
+/// a coefficient is not finite or exceeds 1e150; `BadNormalForce` if a sample of the normal force is negative by more than
+/// rounding; `LengthTooShort` if the contact would become too wide for its length.
 ///
 /// A vibration while the normal force varies in phase:
 ///

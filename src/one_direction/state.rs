@@ -5,7 +5,7 @@
 //!      ξ, η, N and T of each knot, from the centre outwards]
 //! ```
 
-use crate::element::{Directions, Element, Normal};
+use crate::element::{Directions, Element, NormalState};
 use crate::error::{Error, ensure};
 use crate::fourier::workspace::records;
 use crate::law::{Law, LawStep, Requested, StepResult};
@@ -15,7 +15,7 @@ use crate::numerics::total::PanicFreeSlice;
 use crate::one_direction::OneDirection;
 use crate::one_direction::diagram::{Knot, Polygon};
 use crate::one_direction::harmonic_force::{HarmonicOutput, OneDirectionWorkspace, harmonic_force};
-use crate::one_direction::step::{Header, step};
+use crate::one_direction::step::{StepStart, step};
 use crate::tag::{Kind, count, is_count, stored};
 
 const HEADER: usize = 9;
@@ -32,9 +32,9 @@ pub const fn state_length(pieces: usize) -> usize {
 
 const ERROR: usize = 8;
 
-impl Header {
-    fn read(&[_, _, displacement, input, load, shift, load_slope, shift_slope, error]: &[f64; HEADER]) -> Header {
-        Header { displacement, input, normal: Normal { load, shift, load_slope, shift_slope }, error }
+impl StepStart {
+    fn read(&[_, _, displacement, input, load, shift, load_slope, shift_slope, error]: &[f64; HEADER]) -> StepStart {
+        StepStart { displacement, input, normal: NormalState { load, shift, load_slope, shift_slope }, error }
     }
 }
 
@@ -43,11 +43,11 @@ fn used_knots(&[_, pieces, ..]: &[f64; HEADER]) -> usize {
     count(pieces).unwrap_or(0) + 1
 }
 
-/// Header and knots in use of a state whose header was checked.
-pub(crate) fn read(state: &[f64]) -> (Header, &[Knot]) {
+/// StepStart and knots in use of a state whose header was checked.
+pub(crate) fn read(state: &[f64]) -> (StepStart, &[Knot]) {
     let (header, knots) = state.split_first_chunk().unwrap_or((&[0.0; HEADER], &[]));
     let knots = records(knots);
-    (Header::read(header), knots.get(..used_knots(header)).unwrap_or(knots))
+    (StepStart::read(header), knots.get(..used_knots(header)).unwrap_or(knots))
 }
 
 impl Law for OneDirection {
@@ -89,8 +89,8 @@ impl Law for OneDirection {
 
     fn state_check(state: &[f64]) -> Result<(), Error> {
         OneDirection::check_header(state)?;
-        let (Header { displacement, normal, error, .. }, knots) = read(state);
-        let Normal { load, shift, load_slope, shift_slope } = normal;
+        let (StepStart { displacement, normal, error, .. }, knots) = read(state);
+        let NormalState { load, shift, load_slope, shift_slope } = normal;
         let whole = state.get(1).is_some_and(|pieces| is_count(*pieces));
         let finite = state.iter().take(HEADER + PER_KNOT * knots.len()).all(|value| is_finite(*value));
         if !finite || !whole || error < 0.0 || [load, shift, load_slope, shift_slope].iter().any(|value| *value < 0.0) {
@@ -99,10 +99,10 @@ impl Law for OneDirection {
         let (Some(first), Some(last)) = (knots.first(), knots.last()) else {
             return Err(Error::BadState);
         };
-        // A knot is located by ξ and η, each within two roundings of the larger one: S is within four of them over twice the size. N is of
-        // an exponent of at most 9 in S, with a layer of ln(1+x) (1+1/x) at x = N/N_c, at most 2^40 times 1000: 35. So N is within 70
-        // roundings at both ends of a piece. The tables of N(S) and S(N) are within 1e-13 in every rounding mode; with a layer of the
-        // smallest N_c within 2.5e-10.
+        // A knot is located by ξ and η, each within two roundings of the larger one: S is within four of them over twice the size.
+        // N is of an exponent of at most 9 in S, with a layer of ln(1+x) (1+1/x) at x = N/N_c, at most 2^40 times 1000: 35. So N is
+        // within 70 roundings at both ends of a piece. The tables of N(S) and S(N) are within 1e-13 in every rounding mode; with a
+        // layer of the smallest N_c within 2.5e-10.
         let size = 0.5 * (last.eta - last.xi);
         let rounding = (140.0 * f64::EPSILON * last.xi.abs().max(last.eta.abs()) + 5e-10 * size) * load;
         let allowed = rounding.min(f64::MAX);
@@ -155,8 +155,8 @@ impl Law for OneDirection {
     fn advance(element: &Element, state: &mut [f64], displacement: [f64; 2], requested: Requested) -> LawStep<Self> {
         let Some((header, knots)) = state.split_first_chunk_mut::<HEADER>() else { return StepResult::NONE };
         let mut polygon = Polygon::new(element.friction_coefficient, knots, used_knots(header));
-        let (step, to) = step(element, &Header::read(header), &mut polygon, displacement, requested.energy);
-        let Header { displacement, input, normal: Normal { load, shift, load_slope, shift_slope }, error } = to;
+        let (step, to) = step(element, &StepStart::read(header), &mut polygon, displacement, requested.energy);
+        let StepStart { displacement, input, normal: NormalState { load, shift, load_slope, shift_slope }, error } = to;
         let error = polygon.error + if polygon.anew { 0.0 } else { error };
         let pieces = stored(polygon.used.saturating_sub(1));
         *header = [Kind::ElementState.tag(), pieces, displacement, input, load, shift, load_slope, shift_slope, error];

@@ -1,6 +1,6 @@
 //! A step from a point and its diagram, and the contact that opens or closes in it.
 
-use crate::element::{Element, Normal};
+use crate::element::{Element, NormalState};
 use crate::law::{LawStep, StepResult};
 use crate::one_direction::OneDirection;
 use crate::one_direction::diagram::{self, Diagram, Knot};
@@ -8,10 +8,10 @@ use crate::one_direction::energy::{self, StepPath};
 
 /// The header of a state, from which a step starts: displacements, normal state, and the error from merged pieces.
 #[derive(Clone, Copy)]
-pub(crate) struct Header {
+pub(crate) struct StepStart {
     pub displacement: f64,
     pub input: f64,
-    pub normal: Normal,
+    pub normal: NormalState,
     pub error: f64,
 }
 
@@ -41,17 +41,17 @@ impl Crossing {
 /// A step to a displacement that was checked, from a point and its diagram. Returns the step and the new point.
 pub(crate) fn step(
     element: &Element,
-    from: &Header,
+    from: &StepStart,
     diagram: &mut impl Diagram,
     [displacement, input]: [f64; 2],
     with_energy: bool,
-) -> (LawStep<OneDirection>, Header) {
+) -> (LawStep<OneDirection>, StepStart) {
     if !(element.is_closed(input) && from.normal.load > 0.0 && element.friction_coefficient > 0.0) {
         return opening_or_closing(element, from, diagram, [displacement, input], with_energy);
     }
     let moves = input.to_bits() != from.input.to_bits();
     // Not `normal`: the call would be some per cent of a step.
-    let normal = if moves { Normal::from(element.normals::<true, 1>(&[input])) } else { from.normal };
+    let normal = if moves { NormalState::from(element.normals::<true, 1>(&[input])) } else { from.normal };
     let dissipated = if with_energy {
         let shift = [from.normal.shift, normal.shift];
         energy::dissipated(
@@ -65,22 +65,22 @@ pub(crate) fn step(
     let [force, by_displacement, by_input] = diagram::step(element, diagram, displacement, &normal);
     let tangent = [by_displacement, 0.0, by_input, normal.load_slope];
     let step = StepResult { force: [force, normal.load], tangent, dissipated };
-    (step, Header { displacement, input, normal, error: from.error })
+    (step, StepStart { displacement, input, normal, error: from.error })
 }
 
 /// A step from or to an open contact, and every step without friction: the diagram starts anew.
 #[inline(never)]
 fn opening_or_closing(
     element: &Element,
-    from: &Header,
+    from: &StepStart,
     diagram: &mut impl Diagram,
     [displacement, input]: [f64; 2],
     with_energy: bool,
-) -> (LawStep<OneDirection>, Header) {
+) -> (LawStep<OneDirection>, StepStart) {
     let friction = element.friction_coefficient > 0.0;
     let (was_closed, closed) = (from.normal.load > 0.0, element.is_closed(input));
-    let normal = if closed { element.normal(input) } else { Normal::OPEN };
-    let to = Header { displacement, input, normal, error: 0.0 };
+    let normal = if closed { element.normal(input) } else { NormalState::OPEN };
+    let to = StepStart { displacement, input, normal, error: 0.0 };
     let mut step =
         StepResult { force: [0.0, normal.load], tangent: [0.0, 0.0, 0.0, normal.load_slope], dissipated: 0.0 };
     if !closed || !friction {

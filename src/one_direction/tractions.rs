@@ -8,9 +8,8 @@ use crate::one_direction::OneDirection;
 use crate::one_direction::diagram::Knot;
 use crate::one_direction::state::read;
 
-/// Pressure and shear traction \[Pa\] at the points x \[m\] along the width (elliptical: on the x axis), `q(x) = ∫ D dp(x)` over the
-/// sizes of the contact; 0 outside it.
-/// Errors: `StateTooShort`, `BadState`; `BadPosition` if a point is not finite.
+/// Pressure and shear traction \[Pa\] at the points x \[m\] along the width (elliptical: on the x axis), `q(x) = ∫ D dp(x)` over
+/// the sizes of the contact; 0 outside it. Errors: `StateTooShort`, `BadState`; `BadPosition` if a point is not finite.
 pub fn tractions(
     element: &Element,
     state: &[f64],

@@ -209,7 +209,7 @@ pub fn series(_: &Size, shape: &Shape, leg: f64, argument: Quantity) -> [Series;
     if !by_load {
         shift = identity(shift[0]);
     }
-    let [_, per_load] = shape.per_other(1, 0);
+    let [_, per_load] = shape.compliance_in_terms_of(1, 0);
     let other = |sign: f64| from_fn(|k| shift[k] + sign * per_load * load[k]);
     if argument == Quantity::Approach { [load, shift, other(1.0)] } else { [load, other(-1.0), shift] }
 }
@@ -349,7 +349,7 @@ mod tests {
         {
             let parameters = Parameters { displacement_reference, ..parameters(flat) };
             let shape = parameters.shape().unwrap();
-            let [[x, x_constant], [y, y_constant]] = [1, 2].map(|k| shape.per_other(k, 0));
+            let [[x, x_constant], [y, y_constant]] = [1, 2].map(|k| shape.compliance_in_terms_of(k, 0));
             let chi = Pair::new(&parameters.material).mean(|nu| nu / (1.0 - nu));
             assert!((x + y - (2.0 + chi)).abs() < 1e-15);
             assert!((x_constant + y_constant).abs() < 1e-15 * shape.compliances[0][0], "{displacement_reference}");

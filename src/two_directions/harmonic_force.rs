@@ -20,7 +20,7 @@ use super::nodes::{Nodes, PerAxis, Units, by_axis, length};
 use super::path::ContactPath;
 use super::step::{Displacements, LoadedContact, SolvedStep};
 use super::tangent::{ContactSlopes, ParameterChanges, PerParameter, Propagation, StepTangent};
-use crate::element::{Element, Normal};
+use crate::element::{Element, NormalState};
 use crate::error::Error;
 use crate::fourier::workspace::{Layout, Parts, Record, SamplingSize, doubles_mut, record};
 use crate::fourier::{basis, normalise, work};
@@ -327,7 +327,7 @@ fn integrate_periods(element: &Element, workspace: &mut TwoDirectionsWorkspace, 
     let (mut largest, mut largest_input, mut opens) = (0, f64::MIN, false);
     for (index, sample) in workspace.samples.iter_mut().enumerate() {
         let [.., input] = sample.displacement;
-        let normal = if element.is_closed(input) { element.normal(input) } else { Normal::OPEN };
+        let normal = if element.is_closed(input) { element.normal(input) } else { NormalState::OPEN };
         (sample.load, sample.load_slope, sample.force) = (normal.load, normal.load_slope, [0.0; 2]);
         opens |= normal.load == 0.0;
         if input > largest_input {

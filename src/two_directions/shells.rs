@@ -15,7 +15,7 @@ use super::nodes::{
     FLAT_EDGE, Matrix, NodeValues, Nodes, NodesAndSlopes, PerAxis, Row, SPRINGS, Units, by_axis, monotone_pressure,
     pressure, pressure_at_edge,
 };
-use crate::element::{Element, Normal, SMALLEST_LOAD};
+use crate::element::{Element, NormalState, SMALLEST_LOAD};
 use crate::fourier::workspace::record;
 use crate::numerics::dual::{Dual, Number};
 use crate::numerics::guard::quotient;
@@ -57,13 +57,13 @@ impl ScaledNormalState {
         ScaledNormalState { load: 0.0, shift: [0.0; 2], inside: 0.0, inside_leg_squared: 0.0, inside_shift: [0.0; 2] };
 
     /// The state of a contact that is closed, and its derivatives by the normal component over its scale.
-    pub fn new(element: &Element, units: &Units, input: f64, normal: &Normal) -> [ScaledNormalState; 2] {
+    pub fn new(element: &Element, units: &Units, input: f64, normal: &NormalState) -> [ScaledNormalState; 2] {
         // Products instead of quotients, see `numerics/guard.rs`.
         let [per_load, per_shift, per_leg] = [units.load, units.shift, units.leg].map(f64::recip);
         let (inside, scale) = (element.normal(INSIDE_EDGE * input), element.input_scale());
         let [leg, slope] = element.shape().size_under(inside.load.max(SMALLEST_LOAD * element.normal_force));
         let (leg, slope) = (leg * per_leg, INSIDE_EDGE * slope * inside.load_slope * per_leg * per_leg);
-        let [y, y_inside] = [normal, &inside].map(|normal| element.lateral(normal));
+        let [y, y_inside] = [normal, &inside].map(|normal| element.shift_y(normal));
         let per = [per_load, per_shift, per_shift, per_load, 1.0, per_shift, per_shift];
         let now = [normal.load, normal.shift, y[0], inside.load, leg * leg, inside.shift, y_inside[0]];
         let inner = [inside.load_slope, inside.shift_slope, y_inside[1]].map(|slope| INSIDE_EDGE * slope);

@@ -9,7 +9,7 @@ use super::path::{ContactPath, MAX_MOTION};
 use super::shells::ScaledNormalState;
 use super::step::{Displacements, LoadedContact, SMALLEST_LENGTH, SolvedStep, by_spring};
 use super::tangent::{ContactSlopes, ParameterChanges, PerParameter, Propagation, StepTangent};
-use crate::element::{Directions, Element, Normal};
+use crate::element::{Directions, Element, NormalState};
 use crate::error::{Error, ensure};
 use crate::fourier::workspace::{records, records_mut};
 use crate::law::{Law, LawStep, Requested, StepResult};
@@ -122,7 +122,7 @@ impl State {
         let (closes, was_closed) = (element.is_closed(to[2]), self.normal_force > 0.0);
         if element.friction_coefficient == 0.0 || !(closes || was_closed) {
             // Without friction, or open before and after, only the position changes.
-            let normal = if closes { element.normal(to[2]) } else { Normal::OPEN };
+            let normal = if closes { element.normal(to[2]) } else { NormalState::OPEN };
             let mut result = StepResult::NONE;
             (result.force[2], result.tangent[8]) = (normal.load, normal.load_slope);
             *self = State::open(to);

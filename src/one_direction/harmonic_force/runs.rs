@@ -1,7 +1,7 @@
 //! The memory diagram along a period: runs of samples that change it in the same way.
 //!
-//! Only the characteristic coordinates of the samples are needed. The normal forces at the boundaries of the slip zones are evaluated
-//! afterwards, all at once: the shifts of these boundaries are packed in the order of the samples that slip.
+//! Only the characteristic coordinates of the samples are needed. The normal forces at the boundaries of the slip zones are
+//! evaluated afterwards, all at once: the shifts of these boundaries are packed in the order of the samples that slip.
 
 use crate::element::Element;
 use crate::fourier::workspace::record;
@@ -12,8 +12,8 @@ use crate::one_direction::step::Crossing;
 use core::ops::Range;
 
 record! {
-    /// End of a piece of the diagram: 0 for the centre of the contact; otherwise twice the number of samples up to one, and one more
-    /// for the whole contact than for the boundary of the slip zone.
+    /// End of a piece of the diagram: 0 for the centre of the contact; otherwise twice the number of samples up to one, and one
+    /// more for the whole contact than for the boundary of the slip zone.
     #[derive(PartialEq, Default)]
     pub(super) struct PieceEnd {
         code: u64,
@@ -106,8 +106,8 @@ impl RunKnot {
         RunKnot { xi: displacement, eta: displacement, end: PieceEnd::CENTRE }
     }
 
-    /// The outer end of the core of the contact, which keeps D = 0 throughout the period: beyond the coordinates of all samples, so that
-    /// every slip zone cuts it.
+    /// The outer end of the core of the contact, which keeps D = 0 throughout the period: beyond the coordinates of all samples, so
+    /// that every slip zone cuts it.
     const CORE: RunKnot = RunKnot { xi: -1e200, eta: 1e200, end: PieceEnd::CENTRE };
 }
 
@@ -226,8 +226,8 @@ impl PeriodicPath<'_> {
         // The piece leaves the quadrant through ξ = x unless it crosses η = y first: the quotient is at most 1.
         let is_forward =
             outer.xi <= x && (rising <= 0.0 || inner.eta + rising * ((inner.xi - x) / falling.max(SMALLEST)) <= y);
-        // Coordinates such that slip in either direction is forward slip, and the change of the other coordinate along the piece, which
-        // is 0 for a slip zone.
+        // Coordinates such that slip in either direction is forward slip, and the change of the other coordinate along the piece,
+        // which is 0 for a slip zone.
         let (sign, [moving, other], [inner_x, inner_y], [by, change]) = if is_forward {
             (1.0, [xi, eta], [inner.xi, inner.eta], [falling, rising])
         } else {

@@ -27,8 +27,9 @@ pub(super) struct Samples<'a> {
 pub(super) struct EvaluatedPart {
     /// First sample: one at which the steady state is known.
     pub start: usize,
-    /// Whether the motion is half-wave symmetric, so that half a period is evaluated: u has only odd orders, the normal component only
-    /// even ones, and the number of samples is even. After half a period ξ and -η have changed places, and the tangential force its sign.
+    /// Whether the motion is half-wave symmetric, so that half a period is evaluated: u has only odd orders, the normal component
+    /// only even ones, and the number of samples is even. After half a period ξ and -η have changed places, and the tangential
+    /// force its sign.
     pub half_wave: bool,
     /// Whether some samples are open.
     pub opens: bool,
@@ -70,13 +71,13 @@ impl Samples<'_> {
 
     /// Characteristic coordinates, and the part of the period to evaluate.
     ///
-    /// The definition starts at the sample of largest normal force with D = 0 everywhere and evaluates the second of two periods. With
-    /// X the largest ξ and Y the smallest η, the state is the same at one sample of the first period whatever the history:
+    /// The definition starts at the sample of largest normal force with D = 0 everywhere and evaluates the second of two periods.
+    /// With X the largest ξ and Y the smallest η, the state is the same at one sample of the first period whatever the history:
     ///
     /// - at an open sample: it is empty;
     /// - X > 0: the centre has at most this displacement, so the sample of X is one of gross slip, and o = X; Y < 0 accordingly;
-    /// - otherwise there is no gross slip and o = 0; the part of the diagram with D = 0 that is never reached ends at S = min(-X, Y)/mu.
-    ///   At the sample where that is attained everything beyond is slip zone.
+    /// - otherwise there is no gross slip and o = 0; the part of the diagram with D = 0 that is never reached ends at S = min(-X,
+    ///   Y)/mu. At the sample where that is attained everything beyond is slip zone.
     pub fn enter_steady_state(&mut self, element: &Element, half_wave: bool, least_input: f64) -> EvaluatedPart {
         let mu = element.friction_coefficient;
         let (mut largest, mut smallest) = ([f64::MIN; 4], [f64::MAX; 4]);
