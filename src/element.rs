@@ -16,7 +16,7 @@ use core::array::from_fn;
 pub(crate) use table::Curvature;
 use table::{Quarters, Table};
 
-/// What the normal component of a displacement is: the approach w \[m\], or the normal force N \[N\].
+/// Quantity that the normal component of a displacement gives: the approach w \[m\] or the normal force N \[N\].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NormalInput {
     /// The normal approach; not positive if the contact is open.
@@ -34,7 +34,7 @@ pub enum Directions {
     Two = 2,
 }
 
-/// What a displacement of an element consists of.
+/// Components of a displacement of an element: the number of its tangential directions, and the quantity of its normal component.
 pub(crate) type Components = (Directions, NormalInput);
 
 /// An initialised element: plain data of fixed size that may be copied, stored and sent.
@@ -47,7 +47,8 @@ pub struct Element {
     pub friction_coefficient: f64,
     /// The largest normal force that the tables cover \[N\].
     pub normal_force: f64,
-    /// Half-width at that force \[m\], and so are the following; elliptical: the semi-axis x.
+    /// Half-width under `normal_force` \[m\]; elliptical: the semi-axis x. The approach and both stiffnesses are those under
+    /// `normal_force` too.
     pub half_width: f64,
     /// Normal approach \[m\].
     pub approach: f64,
@@ -73,17 +74,19 @@ pub struct Element {
     /// N, U and S under [`SMALLEST_LOAD`] of the normal force.
     smallest: [f64; 3],
     shape: Shape,
-    /// N(U) or U(N): what the input does not give.
+    /// The quantity of the normal law that is not the input: N(U) or U(N).
     of_input: Table,
-    /// S of the input.
+    /// S as a function of the input.
     shift: Table,
-    /// S over U and over N, of which it is the sum with these factors; 0 with a layer, or if the input is the load.
+    /// Coefficients of U and N in the linear relation that gives S; 0 with a layer, or if the input is the load: S is then
+    /// interpolated in `shift`.
     shift_coefficients: [f64; 2],
     /// N(S).
     load_of_shift: Table,
     /// M at the middle of each quarter of `load_of_shift`.
     potential: Quarters<f64>,
-    /// For two directions: S along y is `shift_y_coefficients[0]` S + `shift_y_coefficients[1]` N, plus (1 - `shift_y_coefficients[0]`) S of a layer that is not linear.
+    /// Coefficients of S along x and of N in the linear relation that gives S along y. If a layer is not linear, the relation
+    /// holds without the shift of the layer, which is the same along x and y.
     shift_y_coefficients: [f64; 2],
     /// Hash of the shape and its load, by which a state detects another element.
     pub(crate) key: f64,
@@ -98,15 +101,15 @@ const MOST_LOAD_WITH_LAYER: f64 = f64::from_bits((1023 + 40) << 52);
 /// below this part of that of the tables counts as open in a step. There squares and products would underflow.
 pub(crate) const SMALLEST_LOAD: f64 = f64::from_bits((1023 - 150) << 52);
 
-/// 2^-80: the same with two directions. There the shell at the edge of a flat, at 1e-8 of the size of the parameters, is 1e8 times
-/// as stiff as the others, and derivatives lose the digits of its square.
+/// 2^-80: the part of the input below which a contact with two directions counts as open. The shell at the edge of a flat, at 1e-8
+/// of the size of the parameters, is 1e8 times as stiff as the others there, and derivatives lose the digits of its square.
 const SMALLEST_OF_SPRINGS: f64 = f64::from_bits((1023 - 80) << 52);
 
 /// 2^100: the largest approach with two directions, relative to that of the parameters; the largest force is 2^150 times theirs.
 /// Squares in the units of the springs do not overflow then.
 const MOST_APPROACH: f64 = f64::from_bits((1023 + 100) << 52);
 
-/// A point of the normal law, given by its normal force or its approach: the other one, and its derivative by the given one.
+/// A point of the normal law: the normal force at a given approach or the approach under a given normal force, and its derivative.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NormalPoint {
     /// The normal force \[N\] at a given approach, the approach \[m\] at a given force.
@@ -170,7 +173,7 @@ impl Element {
         let [[approach, normal_compliance], [shift, tangential_compliance]] =
             [Quantity::Approach, Quantity::Shift].map(|quantity| shape.value_and_compliance(quantity, size));
         for value in [approach, shift, normal_force] {
-            // The element accepts its own load and approach.
+            // The load and the approach of the parameters are valid inputs of the element.
             ensure(in_0_to(MAX_DISPLACEMENT, value), Error::OutOfRange)?;
             in_range(&[value])?;
             if friction_coefficient > 0.0 {
@@ -217,7 +220,7 @@ impl Element {
             let [load, ..] = shape.series(size, Quantity::Shift);
             [load]
         });
-        // The load of the parameters without the rounding error of its size.
+        // The load is that of the parameters, free of the rounding error of a size that is computed from it.
         let (argument, largest) = match input {
             NormalInput::Approach => (Quantity::Approach, regular(approach, self.largest_approach)),
             NormalInput::Force => (Quantity::Load, normal_force),
@@ -243,7 +246,7 @@ impl Element {
         [linear[0] + rest * layer.shift(load), linear[1] + rest * (layer.compliance(load) * load_slope)]
     }
 
-    /// Whether the tag is that of an element initialised by this version.
+    /// Whether this version of the library initialised the element.
     pub(crate) fn is_initialised(&self) -> bool {
         self.tag == TAG
     }
@@ -262,7 +265,7 @@ impl Element {
         if self.directions == Directions::Two as i32 { Directions::Two } else { Directions::One }
     }
 
-    /// Values and slopes of a quantity as a function of an argument, of which some are outside its table.
+    /// Values and slopes of a quantity at several arguments, of which some are outside the table of the quantity.
     #[cold]
     #[inline(never)]
     fn one_by_one<const L: usize>(
@@ -283,7 +286,8 @@ impl Element {
         }
     }
 
-    /// A quantity as a function of an argument >= 0, from the shape. Below the smallest size all are proportional to each other.
+    /// A quantity as a function of another one, the argument x >= 0, from the shape. Below the smallest size N, U and S are
+    /// proportional to each other.
     fn outside(&self, [quantity, argument]: [Quantity; 2], x: f64) -> NormalPoint {
         let shape = self.shape();
         if x > 0.0 && x < self.smallest(argument) {
@@ -291,7 +295,7 @@ impl Element {
             return NormalPoint { value: slope * x, slope };
         }
         if x <= 0.0 && shape.half_width(0.0) <= 0.0 {
-            // A point is infinitely compliant.
+            // A contact without a flat touches at a point, whose compliance is infinite.
             return NormalPoint { value: 0.0, slope: if argument == Quantity::Load { f64::INFINITY } else { 0.0 } };
         }
         let size = if x > 0.0 { shape.size_at(argument, x) } else { 0.0 };
@@ -348,7 +352,8 @@ impl Element {
         let shift = if stuck < 0.75 * normal_force {
             end.value - start.value
         } else {
-            // The difference would lose digits. The singularities of the compliance are at N = 0 and below.
+            // The difference of both shifts would lose digits to cancellation, so the compliance is integrated: its singularities
+            // are at N = 0 and below.
             let consumed = size / mu;
             let nodes = gauss_nodes(2);
             nodes
@@ -388,8 +393,8 @@ impl Element {
         load
     }
 
-    /// A scale of the normal component, that of the load of the parameters: derivatives by the component over it remain within
-    /// range.
+    /// The scale of the normal component of a displacement: N over the normal stiffness, or N, of the parameters. The squares of
+    /// derivatives by the component over this scale are representable.
     pub(crate) fn input_scale(&self) -> f64 {
         if self.by_approach() { self.normal_force / self.normal_stiffness } else { self.normal_force }
     }
@@ -428,14 +433,14 @@ impl Element {
         if self.by_approach() { self.check_approach(input) } else { self.check_normal_force(input) }
     }
 
-    /// Whether an input that was checked closes the contact.
+    /// Whether the contact is closed at an input that was checked.
     #[inline(always)]
     pub(crate) fn is_closed(&self, input: f64) -> bool {
         input > self.smallest_input
     }
 
-    /// Where a straight path between two inputs, of which one closes the contact, crosses zero load: the fraction of its length.
-    /// With the normal force as input the contact opens or closes at the open end.
+    /// The fraction of a straight path between two inputs at which it crosses zero load, if the contact is closed at one of its
+    /// ends. With the normal force as input the contact opens or closes at the open end.
     pub fn crossing(&self, from: f64, to: f64) -> f64 {
         if self.by_approach() {
             from / (from - to)
@@ -455,7 +460,7 @@ impl Element {
     /// N, S and, if requested, their derivatives at four inputs; zeros for an open contact.
     #[inline(always)]
     pub(crate) fn four_normals<const SLOPES: bool>(&self, input: &[f64; 4]) -> [[f64; 4]; 4] {
-        // A closed contact in place of each open one.
+        // Open contacts are evaluated at the smallest argument of the table, and their results are set to 0.
         let substitute = self.of_input.smallest();
         let mut states = self.normals::<SLOPES, 4>(&input.map(|input| if input > 0.0 { input } else { substitute }));
         for values in &mut states {
@@ -480,7 +485,7 @@ impl Element {
         let tabulated = self.of_input.values::<SLOPES, L>(input);
         let (load, slope) = tabulated.unwrap_or_else(|| outside(of_input, [Quantity::Load, Quantity::Approach]));
         if is_sum {
-            // Faster than a second table.
+            // A second table would make a harmonic force 20 % slower.
             let shift = from_fn(|k| per_approach * input[k] + per_load * load[k]);
             return [load, shift, slope, slope.map(|slope| per_approach + per_load * slope)];
         }

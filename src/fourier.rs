@@ -1,4 +1,4 @@
-//! What the harmonic forces of all laws use: outputs, Fourier transforms, and their tables and memory.
+//! Common parts of the harmonic forces of all laws: outputs, Fourier transforms, and their tables and memory.
 //!
 //! - [`workspace`]: header and layout of workspaces;
 //! - `folded`: synthesis and sums over uniformly spaced samples, folded by symmetry;
@@ -41,7 +41,7 @@ impl HarmonicOutput<'_> {
     }
 }
 
-/// The largest of a function of some values, without those beyond the last block of four.
+/// The largest value of a function over an array, without the values beyond its last whole block of four.
 pub(crate) fn largest_of(values: &[f64], of: fn(f64) -> f64) -> f64 {
     let mut lanes = [f64::MIN; 4];
     for block in values.blocks::<4>() {

@@ -1,4 +1,4 @@
-//! What all laws have in common: states, steps, and load histories.
+//! Common interface of all laws: states, steps, and load histories.
 
 use crate::error::Error;
 use crate::fourier::HarmonicOutput;
@@ -74,7 +74,7 @@ pub trait Law: Sized {
 
     /// The least length of a state.
     const STATE_LENGTH: usize;
-    /// Kind of the tag of a state. In the state of a new contact, open or unloaded, the other values are 0.
+    /// Kind of the tag of a state. All other values of a new state, of a contact that is open or unloaded, are 0.
     const STATE: Kind;
     /// Kind of the tag of a state for the other number of directions.
     const OTHER_STATE: Option<Kind> = None;
@@ -97,7 +97,7 @@ pub trait Law: Sized {
     fn force_error(_state: &[f64]) -> f64 {
         0.0
     }
-    /// Copies at least what is in use of a state whose header was checked to one of the same length.
+    /// Copies a state whose header was checked, at least its used part, to another one of the same length.
     fn copy_used(from: &[f64], to: &mut [f64]) {
         to.iter_mut().zip(from).for_each(|(to, from)| *to = *from);
     }

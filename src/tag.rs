@@ -41,8 +41,8 @@ pub(crate) fn stored(count: usize) -> f64 {
     count.cast_signed() as f64
 }
 
-/// A count that was stored as a double; `None` for what no count is stored as. The nearest whole number if it was changed since
-/// then.
+/// The count that a double stores: the nearest whole number if the double was changed since then; `None` if no count is stored as
+/// this double.
 pub(crate) fn count(stored: f64) -> Option<usize> {
     // The bit patterns of negative doubles and NaNs are larger.
     if stored.to_bits() >= WHOLE.to_bits() {

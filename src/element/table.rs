@@ -93,7 +93,7 @@ impl Table {
             let q = (c0 + c1 * t) + t2 * (c2 + c3 * t);
             values[k] = x[k] * q;
             if SLOPES {
-                // d/dt is that of the cubic, plus 4t³ times the value of the other one.
+                // The derivative by t is the derivative of the first cubic plus 4t³ times the second one.
                 let [d0, d1, d2, d3] = by_blocks[k];
                 let by_blocks = (d0 + d1 * t) + t2 * (d2 + d3 * t);
                 let by_cubic = (c1 + (c2 + c2) * t) + 3.0 * (c3 * t2);
@@ -131,7 +131,8 @@ impl Table {
         let number = x.to_bits() >> INDEX_BITS;
         let index = number.wrapping_sub(self.base) as usize;
         let coefficients = self.quarters.0.get(index)?.blocks::<4>();
-        // By the number of the quarter: beside t, an argument in a vector that is raised to powers would overflow.
+        // The middle follows from the number of the quarter, not from x: compilers may raise x to powers in the same vector as t,
+        // which would overflow.
         let ([middle, half_length], t) = (middle_and_half_length(number), position_in(x));
         // Sums of c_k t^k/(k+1) and c_k t^k/(k+2), as two lanes.
         let t2 = t * t;
@@ -152,7 +153,7 @@ fn mantissa(x: f64, bits: u32) -> f64 {
     f64::from_bits((x.to_bits() & ((1 << bits) - 1)) | EXPONENT_OF_1)
 }
 
-/// t.
+/// The position t in the quarter of x.
 #[inline(always)]
 fn position_in(x: f64) -> f64 {
     POSITION * mantissa(x, INDEX_BITS) - (POSITION + 1.0)
@@ -168,7 +169,8 @@ fn middle_and_half_length(number: u64) -> [f64; 2] {
 /// `1/(k+1)` and `1/(k+2)`.
 static INTEGRAL_WEIGHTS: [[f64; 2]; TERMS] = tabulate!(TERMS, |k| [1.0 / (k + 1) as f64, 1.0 / (k + 2) as f64]);
 
-/// y'' on a quarter: `Σ (k+1)(k+2)(c_(k+1) + s c_(k+2)) t^k` over the half-length, with the middle s in half-lengths.
+/// The polynomial of y'' on the quarter that was used last: `Σ (k+1)(k+2)(c_(k+1) + s c_(k+2)) t^k` over the half-length, with the
+/// middle s in half-lengths.
 pub(crate) struct Curvature {
     /// Exponent and leading bits of the mantissa.
     number: u64,
@@ -177,7 +179,7 @@ pub(crate) struct Curvature {
 }
 
 impl Curvature {
-    /// The position in no quarter yet. The sign of the zeros keeps compilers from an instruction that valgrind does not know.
+    /// No quarter yet. With the sign of these zeros compilers do not use an instruction that valgrind does not implement.
     pub const fn new() -> Curvature {
         Curvature { number: 0, powers: [-0.0; TERMS], per_half_length: 0.0 }
     }
@@ -245,7 +247,7 @@ mod tests {
     use crate::constant_load::contact::tests::parameters;
     use crate::shape::{Geometry, LayerCompliance, Quantity};
 
-    /// The largest errors are at the lower end of a quarter, for flats with short edges. They are those that the guide states.
+    /// The largest errors are at the lower end of a quarter, for flats with short edges. The guide states them.
     #[test]
     fn tables_with_layers_lose_digits_for_the_smallest_stiffening_load() {
         let contacts = [0.0, 50e-6, 1e-3, 3e-3].map(|flat| parameters(flat).shape().unwrap());

@@ -138,7 +138,7 @@ impl<'a, T: Copy> Items<'a, T> {
         index: *const i32,
         active: *const i32,
     ) -> Result<Items<'a, T>, Error> {
-        // Of the largest items, before arrays of that length are assumed.
+        // Before the length of any other array is computed from n.
         check_length::<f64>(n)?;
         let optional = |flags: *const i32| if flags.is_null() { Ok(None) } else { input(flags, n).map(Some) };
         Ok(Items { n, laws: input(laws.cast(), n_laws)?, index: optional(index)?, active: optional(active)? })
@@ -220,8 +220,8 @@ fn item_of<T>(output: *mut T, i: usize) -> *mut T {
     if output.is_null() { output } else { output.wrapping_add(i) }
 }
 
-/// Items from the one that is computed, and from the one that is checked, to the one whose state is fetched from main memory: about
-/// as many as an access takes.
+/// Numbers of items between the one that is computed, or checked, and the one whose state is fetched from main memory: an access
+/// takes about the time of as many items.
 const PREFETCH_DISTANCE: usize = 16;
 const CHECKED_AHEAD: usize = 32;
 

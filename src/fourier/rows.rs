@@ -100,7 +100,7 @@ impl<const N: usize> RowStrips<'_, N> {
     }
 }
 
-/// Calls a function for the strips of a row, with their number of blocks as its generic parameter.
+/// Calls a function with the number of blocks in each strip of a row as its generic parameter.
 macro_rules! with_strips {
     ($row_blocks:expr, $object:ident.$function:ident($($argument:expr),*)) => {
         match $row_blocks {

@@ -11,7 +11,7 @@ use crate::numerics::lanes::Lanes;
 use crate::numerics::total::PanicFreeSlice;
 use crate::tag::{Kind, count, stored};
 
-/// Doubles before the tables, which keep the alignment of the workspace.
+/// Length of the header in doubles: a whole number of vectors, so that the tables are aligned as the workspace is.
 pub(crate) const HEADER: usize = 8;
 
 /// Doubles in blocks of four.
@@ -78,7 +78,8 @@ pub(crate) trait Layout<'a>: Sized {
         if size.periods > MOST_PERIODS {
             return Err(Error::BadPeriods);
         }
-        // With 32-bit addresses these sizes may still be too large. The workspace is smaller than eight times `max_rows` rows.
+        // With 32-bit addresses a workspace of an allowed size may still be too large. Its length is less than eight times
+        // `max_rows` rows.
         let doubles = Self::max_rows(size).checked_mul(8 * (2 * harmonics + 8));
         if doubles.is_none_or(|doubles| doubles > isize::MAX as usize / 8) {
             return Err(Error::BadSamples);
@@ -135,7 +136,8 @@ pub(crate) fn padded(length: usize) -> usize {
     (length + 3) & !3
 }
 
-/// Divides the memory of a workspace into [`padded`] parts. Those that do not fit are empty, but counted too.
+/// Divides the memory of a workspace into [`padded`] parts. Parts that do not fit are empty, but counted, so that the length of a
+/// workspace follows from the division of no memory.
 pub(crate) struct Parts<'a> {
     memory: &'a mut [f64],
     /// Doubles of all parts so far.

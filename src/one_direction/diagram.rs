@@ -54,7 +54,7 @@ pub(crate) fn slope(falling: f64, rising: f64) -> f64 {
     }
 }
 
-/// T at the end of a step, ∂T/∂u and ∂T/∂(input).
+/// The results of a step: T, ∂T/∂u and ∂T/∂(input).
 pub(crate) type DiagramForce = [f64; 3];
 
 /// A diagram that a step changes.
@@ -118,7 +118,7 @@ fn slip_grossly(diagram: &mut impl Diagram, displacement: f64, end: &End) -> Dia
     let &End { friction_coefficient: mu, xi, eta, normal: NormalState { load, load_slope, .. } } = end;
     let knots = diagram.knots();
     let centre = knots.first().map_or(displacement, |knot| knot.xi);
-    // A size below the rounding of displacements keeps the direction of its slip.
+    // A contact whose mu S is below the rounding of its displacement slips on in the direction of its last force.
     let before = knots.last().map_or(0.0, |knot| knot.force);
     let (sign, origin) = match (centre <= xi, centre >= eta) {
         (true, true) => (if before == 0.0 { 0.0 } else { mu.copysign(before) }, xi),
@@ -165,7 +165,7 @@ fn cut(
     let (falling, rising) = (inner.xi - outer.xi, outer.eta - inner.eta);
     let [to_side, to_other] = match (falling > 0.0, rising > 0.0) {
         (true, true) => shares([inner.xi - xi, eta - inner.eta], [falling, rising]),
-        // A slip zone, the common case, is parallel to one side: the table that follows need not wait for a division.
+        // A slip zone, the common case, is parallel to one side: no division delays the table.
         (true, false) => [0.0, PAST_END],
         _ => [PAST_END, 0.0],
     };
@@ -182,7 +182,7 @@ fn cut(
     } else {
         (inner.xi - falling * to_other, eta, -mu)
     };
-    // A step to the same displacement changes nothing, to the bit.
+    // A step to the same displacement changes no bit of the diagram.
     let at_outer = if sign > 0.0 { outer.xi == xi } else { outer.eta == eta };
     let (cut_xi, cut_eta) = if at_outer { (outer.xi, outer.eta) } else { (cut_xi, cut_eta) };
     let cut_shift = (element.per_two_mu * (cut_eta - cut_xi)).max(0.0);
@@ -202,14 +202,16 @@ fn cut(
     [end.force, cut_stiffness, sign * (load_slope - cut_stiffness * shift_slope)]
 }
 
-/// Beyond the end of a piece.
+/// A share that means: beyond the end of the piece.
 const PAST_END: f64 = 2.0;
 
-/// Shares of a piece up to both sides of the quadrant, by its lengths in both coordinates.
+/// The shares of a piece up to both sides of the quadrant, from the distances of the sides and the lengths of the piece in both
+/// coordinates.
 #[cold]
 #[inline(never)]
 fn shares(distances: [f64; 2], lengths: [f64; 2]) -> [f64; 2] {
-    // Compilers may divide before they compare, so what is divided is chosen: a distance over a subnormal length overflows.
+    // Numerator and divisor are selected before the division, because compilers divide before they compare (`numerics/guard.rs`),
+    // and a distance over a subnormal length overflows.
     let share = |distance: f64, length: f64| {
         let (numerator, denominator) = if length >= distance { (distance, length) } else { (PAST_END, 1.0) };
         numerator / denominator
@@ -222,11 +224,11 @@ pub(crate) struct Polygon<'a> {
     friction_coefficient: f64,
     knots: &'a mut [Knot],
     pub used: usize,
-    /// Whether no piece of the old diagram is left.
+    /// Whether the last step has replaced all knots.
     pub anew: bool,
-    /// Change of the force beyond merged pieces.
+    /// Sum of the changes of the force at the knots beyond merged pieces.
     change: f64,
-    /// Sum of the magnitudes of these changes.
+    /// Sum of the magnitudes of these changes: the bound on the error of the force.
     pub error: f64,
 }
 

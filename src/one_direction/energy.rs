@@ -19,7 +19,7 @@ use crate::one_direction::diagram::Knot;
 #[derive(Clone, Copy)]
 pub(crate) struct StepPath {
     pub shift: [f64; 2],
-    /// Displacement covered.
+    /// Change of the displacement.
     pub displacement: f64,
 }
 
@@ -40,7 +40,7 @@ impl StepPath {
         let excess = if grows { self.displacement } else { self.displacement - slope * contact_rate };
         let sticks = excess == 0.0 || (grows && excess.abs() <= mu * contact_rate);
         let sign = mu.copysign(excess);
-        // The edge of a slip zone is faster than the contact size, but for rounding.
+        // A slip zone exists if its boundary recedes faster than the contact size; rounding must not start one.
         let slips = !sticks && (slope == sign || contact_rate >= 0.0 || self.rate(slope, sign) < contact_rate);
         slips.then_some(sign)
     }
@@ -71,7 +71,8 @@ pub(crate) fn dissipated(element: &Element, knots: &[Knot], path: &StepPath) -> 
         let (slope, lowest) = (above.slope_from(&below, mu), below.shift(mu));
         direction = direction.or_else(|| path.direction_of_slip(mu, slope));
         let Some(sign) = direction else {
-            // The contact recedes through the piece without slip, grows or stays; rounding may place a piece beyond its size.
+            // Nothing slips in this piece: the contact grows, stays, or recedes through it. Rounding may place a piece beyond the
+            // size.
             if contact_rate >= 0.0 || end >= lowest {
                 return energy;
             }
@@ -81,13 +82,13 @@ pub(crate) fn dissipated(element: &Element, knots: &[Knot], path: &StepPath) -> 
             continue;
         };
         if slope == sign {
-            // In slip in this direction already: the boundary jumps to the end of the piece.
+            // The piece is a slip zone of this direction: the boundary jumps to its inner end.
             inner = inner.min(lowest);
             last -= 1;
             continue;
         }
         let rate = path.rate(slope, sign).min(0.0);
-        // Fraction until a distance is covered, if that is within a step.
+        // Fraction of the path until a distance is covered; infinite if that exceeds the whole path.
         let to = |distance: f64, rate: f64| {
             if rate < 0.0 && distance > rate { (distance.min(0.0) / rate).max(0.0) } else { f64::INFINITY }
         };
@@ -137,7 +138,7 @@ fn mean_load(element: &Element, [from, to]: [f64; 2]) -> f64 {
         return part(PATH_RULE);
     }
     if 16.0 * width.abs() < low {
-        // Where the compliance of a short contact is about to vanish.
+        // Near the size at which the compliance of a short contact vanishes.
         return LARGEST_RULE.iter().map(|block| part(squared(*block))).sum();
     }
     (element.potential_at_shift(to.max(0.0)) - element.potential_at_shift(from.max(0.0))) / width
@@ -213,8 +214,9 @@ impl SlipPiece {
     }
 }
 
-/// Where the compliance of a short contact is about to vanish. The integrand is singular at that distance from the end of the zone,
-/// and so, as a function of the fraction of the path, from both ends: t = z², and z² (3 - 2z) is the fraction.
+/// Rules for the path and for the slip zone near the size at which the compliance of a short contact vanishes. N'' is singular at
+/// that size, just beyond the outer end of the zone: the substitution t = z² moves nodes there. As a function of the fraction of
+/// the path the integral is then singular just beyond both ends of the path: the fraction z² (3 - 2z) moves nodes to both.
 #[cold]
 #[inline(never)]
 fn rules_near_the_largest_size() -> [[Block; MAX_GAUSS_BLOCKS]; 2] {
@@ -222,13 +224,13 @@ fn rules_near_the_largest_size() -> [[Block; MAX_GAUSS_BLOCKS]; 2] {
     [path_rule, LARGEST_RULE.map(squared)]
 }
 
-/// Gauss's rule with the most nodes.
+/// Gauss's rule with the largest number of nodes.
 static LARGEST_RULE: [Block; MAX_GAUSS_BLOCKS] = gauss_legendre(MAX_GAUSS_BLOCKS);
 
 /// Gauss's rule with four nodes.
 const PATH_RULE: Block = gauss_legendre(1)[0];
 
-/// The rule for `∫ f(t) dt` from one for z, by t and dt/dz.
+/// The rule for `∫ f(t) dt` from one for z and the substitution t(z), given by t and dt/dz.
 fn substituted([nodes, weights]: Block, of: impl Fn(f64) -> [f64; 2]) -> Block {
     let mut rule = [[0.0; 4]; 2];
     for k in 0..4 {

@@ -20,7 +20,7 @@ use crate::tag::{Kind, count, is_count, stored};
 
 const HEADER: usize = 9;
 const PER_KNOT: usize = 4;
-/// Pieces that every state holds.
+/// The least capacity of a state.
 const MIN_PIECES: usize = 4;
 
 /// Number of doubles in a state that holds `pieces` pieces of the diagram exactly; fewer than 4 count as 4.
@@ -99,10 +99,11 @@ impl Law for OneDirection {
         let (Some(first), Some(last)) = (knots.first(), knots.last()) else {
             return Err(Error::BadState);
         };
-        // A knot is located by ξ and η, each within two roundings of the larger one: S is within four of them over twice the size.
-        // N is of an exponent of at most 9 in S, with a layer of ln(1+x) (1+1/x) at x = N/N_c, at most 2^40 times 1000: 35. So N is
-        // within 70 roundings at both ends of a piece. The tables of N(S) and S(N) are within 1e-13 in every rounding mode; with a
-        // layer of the smallest N_c within 2.5e-10.
+        // N may fall from one knot to the next by rounding only. ξ and η of a knot each have an error of two roundings of the
+        // larger coordinate, so that the error of S is at most 2 roundings times the largest coordinate over the size. The exponent
+        // of N in S is at most 9; with a layer, of ln(1+x) (1+1/x) at x = N/N_c, at most 2^40 times 1000, it is at most 35. So the
+        // error of N is at most 70 roundings at both ends of a piece. The tables of N(S) and S(N) have an error of 1e-13 in every
+        // rounding mode, with a layer of the smallest N_c of 2.5e-10.
         let size = 0.5 * (last.eta - last.xi);
         let rounding = (140.0 * f64::EPSILON * last.xi.abs().max(last.eta.abs()) + 5e-10 * size) * load;
         let allowed = rounding.min(f64::MAX);
@@ -113,7 +114,7 @@ impl Law for OneDirection {
             _ => true,
         };
         let centred = first.xi == first.eta && first.load == 0.0 && last.load <= load;
-        // A frictionless or an open contact is its centre.
+        // The diagram of an open or frictionless contact is its centre.
         let complete = knots.len() == 1 || (last.load == load && last.xi <= displacement && last.eta >= displacement);
         ensure(centred && complete && knots.windows(2).all(monotone), Error::BadState)
     }
@@ -129,7 +130,7 @@ impl Law for OneDirection {
         }
     }
 
-    /// The copy is as long, but for at most 256 pieces.
+    /// The copy has the capacity of the state, but at most 256 pieces.
     #[inline(never)]
     fn in_copy(element: &Element, state: &[f64], steps: impl FnOnce(&mut [f64])) {
         let mut copy = [0.0; COPY_LENGTH];
@@ -164,5 +165,5 @@ impl Law for OneDirection {
     }
 }
 
-/// Length of a state for a path whose new state is discarded.
+/// Length of the copy of a state that a path uses if its new state is discarded.
 const COPY_LENGTH: usize = state_length(256);

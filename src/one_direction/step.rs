@@ -1,4 +1,4 @@
-//! A step from a point and its diagram, and the contact that opens or closes in it.
+//! A step from the current displacement and its diagram; the contact may open or close in it.
 
 use crate::element::{Element, NormalState};
 use crate::law::{LawStep, StepResult};
@@ -6,7 +6,8 @@ use crate::one_direction::OneDirection;
 use crate::one_direction::diagram::{self, Diagram, Knot};
 use crate::one_direction::energy::{self, StepPath};
 
-/// The header of a state, from which a step starts: displacements, normal state, and the error from merged pieces.
+/// The point from which a step starts, as the header of a state stores it: displacements, normal state, and the bound on the error
+/// of the force from merged pieces.
 #[derive(Clone, Copy)]
 pub(crate) struct StepStart {
     pub displacement: f64,
@@ -18,10 +19,12 @@ pub(crate) struct StepStart {
 /// Where a straight path crosses zero load.
 pub(crate) struct Crossing {
     pub displacement: f64,
-    /// Parts of the path before and after it: by these it moves with the end and with the start of the path.
+    /// Fractions of the path before and after the crossing: the derivatives of its displacement by those of the end and of the
+    /// start of the path.
     pub before: f64,
     pub after: f64,
-    /// Change of the displacement over that of the approach; 0 with the force as input, at whose open end the crossing is.
+    /// Change of the displacement along the path over the change of the approach. It is 0 with the normal force as input, where the
+    /// crossing is at the open end of the path.
     pub slope: f64,
 }
 
@@ -50,7 +53,7 @@ pub(crate) fn step(
         return opening_or_closing(element, from, diagram, [displacement, input], with_energy);
     }
     let moves = input.to_bits() != from.input.to_bits();
-    // Not `normal`: the call would be some per cent of a step.
+    // Inlined, unlike `Element::normal`: the call would take some per cent of a step.
     let normal = if moves { NormalState::from(element.normals::<true, 1>(&[input])) } else { from.normal };
     let dissipated = if with_energy {
         let shift = [from.normal.shift, normal.shift];
@@ -68,7 +71,7 @@ pub(crate) fn step(
     (step, StepStart { displacement, input, normal, error: from.error })
 }
 
-/// A step from or to an open contact, and every step without friction: the diagram starts anew.
+/// A step from or to an open contact, or without friction: the diagram starts anew.
 #[inline(never)]
 fn opening_or_closing(
     element: &Element,
@@ -102,7 +105,7 @@ fn opening_or_closing(
     }
     let [force, mut by_displacement, mut by_input] = diagram::step(element, &mut touching, displacement, &normal);
     if touching.sticks {
-        // The start of the path moves with its end.
+        // The displacement at which the contact closes, and sticks, moves with the end of the path.
         by_input += by_displacement * crossing.slope * crossing.before;
         by_displacement *= crossing.after;
     }
@@ -111,7 +114,7 @@ fn opening_or_closing(
     (step, to)
 }
 
-/// The diagram at first touch: its centre, not yet in the diagram that it replaces.
+/// The diagram of a contact that has just closed: one knot, which is not yet stored in the diagram of the state.
 struct Touching<'a, D> {
     knots: [Knot; 1],
     /// Whether the contact sticks to the displacement at which it closed.

@@ -12,7 +12,7 @@ pub(super) struct Forces<'a> {
     /// N at the packed boundaries of the slip zones, and 1/K_t.
     pub cut_load: &'a mut [f64],
     pub cut_stiffness: &'a mut [f64],
-    /// D of the pieces that samples made by sticking.
+    /// D of the pieces that were loaded between two samples while everything stuck.
     pub slope: &'a mut [f64],
     /// N and T at the boundary of the slip zone at the last sample of a run.
     pub last_cut: &'a mut [[f64; 2]],
@@ -29,7 +29,7 @@ impl Forces<'_> {
         }
     }
 
-    /// Evaluates the forces of all runs, from the shifts at the boundaries, and what their derivatives need if `SLOPES`.
+    /// Evaluates the forces of all runs from the shifts at the boundaries of the slip zones; if `SLOPES`, also 1/K_t there.
     pub fn evaluate<const SLOPES: bool>(
         &mut self,
         element: &Element,

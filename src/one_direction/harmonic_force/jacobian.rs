@@ -33,9 +33,9 @@ record! {
     /// A piece of the diagram, and its weights for the later samples.
     #[derive(Default)]
     pub(super) struct Piece {
-        /// [`Piece::CORE`] and so on: how it was made.
+        /// [`Piece::CORE`], [`Piece::FORWARDS`] and so on: how the piece was made.
         made: u64,
-        /// The sample that made it.
+        /// The sample that made the piece.
         sample: u64,
         /// Weights of the constant part and of the linear part for samples from `since` on, counted along the path.
         weights: [f64; 2],
@@ -72,13 +72,13 @@ fn weights_of_stuck(
     [stiffness - stiffness_i, ((shift - s_i) * stiffness - (load - n_i)) * inverse_width]
 }
 
-/// Tables and memory.
+/// Tables and scratch memory of the Jacobian.
 pub(super) struct JacobianMemory<'a> {
     pub rows: Rows<'a>,
     pub pieces: &'a mut [Piece],
     /// Sums of φ times both weights of pieces that were cut, up to the last cut.
     pub stored: &'a mut Blocks,
-    /// Term of each sample among the outer products, or -1.
+    /// Index of the term of each sample among the outer products, or -1 without one.
     pub places: &'a mut [f64],
     /// Rows Y by u and by the input.
     pub outer: OuterProducts<'a>,
@@ -94,7 +94,7 @@ pub(super) struct Context<'c> {
     pub cut_shifts: &'c [f64],
     pub cut_loads: &'c [f64],
     pub cut_stiffnesses: &'c [f64],
-    /// D of the pieces that samples made by sticking.
+    /// D of the pieces that were loaded between two samples while everything stuck.
     pub slopes: &'c [f64],
 }
 
@@ -176,7 +176,7 @@ impl Pieces<'_> {
         let mut inner = context.contact_at(samples.before(range.start));
         for (since, sample) in (now..).zip(range) {
             let outer = context.contact_at(sample);
-            // S rises, or rounding made two values equal.
+            // S rises between samples that stick, but rounding may make both values equal.
             let parameter = quotient(1.0, outer[0] - inner[0]);
             let weights = weights_of_stuck(parameter, inner, outer);
             let (sample, since) = (sample as u64, since as u64);
@@ -306,7 +306,7 @@ impl<const N: usize> Gathering<'_, N> {
         add_scaled(&mut difference, -1.0, constant);
         let (before, slope) = (samples.before(sample), slopes.or_zero(sample));
         let own = (sample, linear, [-1.0, slope * shift_slope]);
-        // One call in a loop: the function is long, and inlined.
+        // The parts are added in a loop, so that the compiler inlines `add` once: it is long.
         let (parts, count) = if !piece.is_stuck() {
             let mu = element.friction_coefficient * if made == Piece::FORWARDS { 1.0 } else { -1.0 };
             ([(sample, constant, [-1.0, mu * shift_slope]), own, own], 1)

@@ -48,11 +48,11 @@ record! {
     /// Consecutive samples that change the diagram in the same way.
     #[derive(Default)]
     pub(super) struct Run {
-        /// [`Run::OPEN`] and so on: what the samples do.
+        /// [`Run::OPEN`], [`Run::STUCK`], [`Run::SLIP`] or [`Run::GROSS_SLIP`].
         pub kind: u64,
         first: u64,
         count: u64,
-        /// Number of knots that stay, and the last of these.
+        /// Number of knots that remain, and the last of these.
         kept: u64,
         pub inner: PieceEnd,
         /// Slip: index of the first packed boundary.
@@ -81,7 +81,7 @@ impl Run {
         values.part(self.samples())
     }
 
-    /// Slip: the packed boundaries.
+    /// The places of the boundaries of the slip zones of a run of slip among all packed ones.
     pub fn cuts(&self) -> Range<usize> {
         self.packed as usize..(self.packed + self.count) as usize
     }
@@ -121,7 +121,7 @@ pub(super) struct PeriodicPath<'a> {
 }
 
 impl PeriodicPath<'_> {
-    /// Starts anew from the displacement of the centre.
+    /// Replaces the diagram by its centre at a displacement.
     fn restart(&mut self, displacement: f64) {
         self.knots.depth = 0;
         self.knots.push(RunKnot::centre(displacement));
@@ -202,7 +202,7 @@ impl PeriodicPath<'_> {
         }
     }
 
-    /// Samples of gross slip in one direction, from an empty stack that still holds the centre in its memory.
+    /// Samples of gross slip in one direction. The stack is empty, but its memory still holds the centre.
     fn slip_grossly(&mut self, first: usize, x: f64, [xi, eta, inputs]: [&[f64]; 3]) -> Run {
         let (sign, moving) = if self.knot(0).xi <= x { (1.0, xi) } else { (-1.0, eta) };
         let later = |values| <[f64]>::get(values, first + 1..).unwrap_or(&[]).iter();
@@ -263,7 +263,7 @@ impl PeriodicPath<'_> {
     }
 }
 
-/// Lower bound of divisors: compilers may divide before they compare.
+/// Lower bound of divisors, which keeps quotients of displacements finite (`numerics/guard.rs`).
 const SMALLEST: f64 = 1e-150;
 
 impl PeriodicPath<'_> {
@@ -292,7 +292,7 @@ impl PeriodicPath<'_> {
     }
 }
 
-/// Where the path from the open sample before a sample closes the contact.
+/// The crossing of zero load on the path from the open sample before a sample.
 pub(super) fn closing(samples: &Samples, element: &Element, sample: usize) -> Crossing {
     let motion = |sample| [samples.displacement.or_zero(sample), samples.input.or_zero(sample)];
     Crossing::between(element, motion(samples.before(sample)), motion(sample))
