@@ -160,18 +160,14 @@ impl SlipPiece {
         let width = widest - c1;
         if 2.5 * width < widest {
             let room = room(element, c1, widest);
-            let longest;
-            let mut rules: Option<[&[Block]; 2]> = None;
+            let rule = |length: f64| gauss_rule(if 16.0 * length < room { 1 } else { 2 });
             if 1.5 * width < room {
-                let path_rule = gauss_rule(if 16.0 * swept.max(growth.abs()) < room { 1 } else { 2 });
-                rules = Some([path_rule, gauss_rule(if 16.0 * width < room { 1 } else { 2 })]);
-            } else if 8.0 * width < widest {
-                // A wider zone loses few digits, because N'' is large there.
-                longest = rules_near_the_largest_size();
-                rules = Some([&longest[0], &longest[1]]);
+                return self.integral_of_curvature(element, [rule(swept.max(growth.abs())), rule(width)]);
             }
-            if let Some(rules) = rules {
-                return self.integral_of_curvature(element, rules);
+            if 8.0 * width < widest {
+                // A wider zone loses few digits, because N'' is large there.
+                let [path_rule, zone_rule] = &rules_near_the_largest_size();
+                return self.integral_of_curvature(element, [path_rule, zone_rule]);
             }
         }
         let inner = if 16.0 * swept < room(element, c1, c0) {
