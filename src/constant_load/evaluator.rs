@@ -55,6 +55,8 @@ impl Contact {
         (load, compliance - self.zones.small_load.compliance)
     }
 
+    /// Force, 1 - τ and stiffness at one displacement. Not inlined: steps and harmonic forces would take longer.
+    #[inline(never)]
     fn at_one(&self, Complement { consumed, remaining }: Complement) -> [f64; 3] {
         let roots = self.roots(Lanes([remaining]));
         self.on_piece::<1, true>(piece_of(roots[0]), roots, Lanes([consumed]), Lanes([remaining])).map(|value| value[0])

@@ -57,8 +57,7 @@ impl SmallLoadSeries {
         first
     }
 
-    /// `Σ c_m f_m τᵐ`. Not inlined: the evaluation of the interpolant, which is used more often, would not be inlined any more.
-    #[inline(never)]
+    /// `Σ c_m f_m τᵐ`.
     fn sum(&self, factors: &SeriesTerms, tau: f64) -> f64 {
         polynomial::value(&self.terms(factors), tau)
     }
