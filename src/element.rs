@@ -174,7 +174,7 @@ impl Element {
             [Quantity::Approach, Quantity::Shift].map(|quantity| shape.value_and_compliance(quantity, size));
         for value in [approach, shift, normal_force] {
             // The load and the approach of the parameters are valid inputs of the element.
-            ensure(in_0_to(MAX_DISPLACEMENT, value), Error::OutOfRange)?;
+            ensure(in_0_to(value, MAX_DISPLACEMENT), Error::OutOfRange)?;
             in_range(&[value])?;
             if friction_coefficient > 0.0 {
                 in_range(&[value, friction_coefficient])?;
@@ -423,7 +423,7 @@ impl Element {
     /// too wide for its length.
     #[inline(always)]
     pub fn check_normal_force(&self, normal_force: f64) -> Result<(), Error> {
-        ensure(in_0_to(MAX_DISPLACEMENT, normal_force), Error::BadNormalForce)?;
+        ensure(in_0_to(normal_force, MAX_DISPLACEMENT), Error::BadNormalForce)?;
         ensure(le(normal_force, self.largest_load), Error::LengthTooShort)
     }
 

@@ -30,7 +30,7 @@ pub fn divide(
     weight: &mut [f64],
 ) -> Result<(), Error> {
     for (values, error) in [(area, Error::BadArea), (pressure, Error::BadPressure)] {
-        ensure(values.iter().all(|value| in_0_to(LARGEST, *value)), error)?;
+        ensure(values.iter().all(|value| in_0_to(*value, LARGEST)), error)?;
     }
     let pairs = pairs.max(1);
     // Areas and forces of the pairs of a part, with their sums.

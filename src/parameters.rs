@@ -145,12 +145,12 @@ pub(crate) fn times(factor: f64, sensitivity: Sensitivity) -> Sensitivity {
 
 /// `Ok` if `value` is finite and >= 0.
 pub(crate) fn not_negative(value: f64, error: Error) -> Result<(), Error> {
-    ensure(in_0_to(f64::MAX, value), error)
+    ensure(in_0_to(value, f64::MAX), error)
 }
 
 /// `Ok` if `value` is finite and > 0.
 pub(crate) fn positive(value: f64, error: Error) -> Result<(), Error> {
-    ensure(in_0_to(f64::MAX, value) && !abs_le(value, 0.0), error)
+    ensure(in_0_to(value, f64::MAX) && !abs_le(value, 0.0), error)
 }
 
 /// The parameters that all shapes have.
@@ -169,18 +169,18 @@ impl Common {
         not_negative(self.friction_coefficient, Error::BadFrictionCoefficient)?;
         for body in &self.material {
             positive(body.young_modulus, Error::BadYoungModulus)?;
-            ensure(in_0_to(0.5, body.poisson_ratio), Error::BadPoissonRatio)?;
+            ensure(in_0_to(body.poisson_ratio, 0.5), Error::BadPoissonRatio)?;
         }
         let layer = &self.layer;
         not_negative(layer.normal_compliance, Error::BadNormalCompliance)?;
         not_negative(layer.tangential_compliance, Error::BadTangentialCompliance)?;
         let smallest = Layer::SMALLEST_STIFFENING * self.normal_force;
         let too_small = layer.stiffening_load > 0.0 && layer.stiffening_load < smallest;
-        if too_small || !in_0_to(f64::INFINITY, layer.stiffening_load) {
+        if too_small || !in_0_to(layer.stiffening_load, f64::INFINITY) {
             return Err(Error::BadStiffeningLoad);
         }
         // The bound keeps N_r/N_c and its products with compliances representable.
-        if in_0_to(1e150, layer.reference_load) { Ok(self) } else { Err(Error::BadReferenceLoad) }
+        if in_0_to(layer.reference_load, 1e150) { Ok(self) } else { Err(Error::BadReferenceLoad) }
     }
 
     /// E* of parameters that were checked.

@@ -37,7 +37,7 @@ const EDGE: f64 = 0.25;
 /// The warning if a valid number is outside the range. Invalid numbers have errors.
 fn check(value: f64, unit: f64, (range, text): &Plausible) -> Option<&'static CStr> {
     let plausible = (unit * range.start()).to_bits()..=(unit * range.end()).to_bits();
-    let is_outside = in_0_to(f64::MAX, value) && !plausible.contains(&value.abs().to_bits());
+    let is_outside = in_0_to(value, f64::MAX) && !plausible.contains(&value.abs().to_bits());
     is_outside.then_some(text)
 }
 
@@ -52,7 +52,7 @@ fn warnings<P, const K: usize, const M: usize>(
     related: fn(&P) -> [Option<&'static CStr>; M],
     metre: Option<f64>,
 ) -> impl Iterator<Item = &'static CStr> + use<P, K, M> {
-    let is_mm = || material.iter().all(|body| in_0_to(1.3e6, body.young_modulus));
+    let is_mm = || material.iter().all(|body| in_0_to(body.young_modulus, 1.3e6));
     let metre = metre.unwrap_or_else(|| if is_mm() { 1e3 } else { 1.0 });
     let single = dimensions.map(|(value, rule)| check(value, metre, rule));
     let modulus = material.iter().find_map(|body| check(body.young_modulus, 1.0 / (metre * metre), &MODULUS));

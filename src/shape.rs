@@ -281,8 +281,10 @@ impl Shape {
     pub fn load_and_shifts(&self, leg: f64) -> [f64; 3] {
         let size = self.size(leg);
         let load = size.load();
-        let ([x, _], [ratio, per_load]) =
-            (self.own_sums(self.compliance_coefficients(Quantity::Shift), &size, load), self.compliance_in_terms_of(2, 1));
+        let ([x, _], [ratio, per_load]) = (
+            self.own_sums(self.compliance_coefficients(Quantity::Shift), &size, load),
+            self.compliance_in_terms_of(2, 1),
+        );
         let load = self.load_scale * load;
         let layer = self.layer.shift(load);
         [load, x + layer, ratio * x + per_load * load + layer]

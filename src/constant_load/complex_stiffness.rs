@@ -193,7 +193,7 @@ impl Contact {
 }
 
 pub(crate) fn check_amplitude(amplitude: f64) -> Result<(), Error> {
-    ensure(in_0_to(MAX_DISPLACEMENT, amplitude), Error::BadAmplitude)
+    ensure(in_0_to(amplitude, MAX_DISPLACEMENT), Error::BadAmplitude)
 }
 
 impl Contact {

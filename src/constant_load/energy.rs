@@ -21,7 +21,7 @@ impl Contact {
     }
 
     pub(crate) fn check_force_amplitude(&self, force_amplitude: f64) -> Result<(), Error> {
-        ensure(in_0_to(f64::MAX, force_amplitude), Error::BadForceAmplitude)?;
+        ensure(in_0_to(force_amplitude, f64::MAX), Error::BadForceAmplitude)?;
         self.check_force(force_amplitude)
     }
 

@@ -17,7 +17,7 @@ pub(crate) fn is_finite(value: f64) -> bool {
 
 /// Whether `0 <= value <= bound`; -0 is accepted.
 #[inline(always)]
-pub(crate) fn in_0_to(bound: f64, value: f64) -> bool {
+pub(crate) fn in_0_to(value: f64, bound: f64) -> bool {
     abs_le(value, bound) && value.to_bits() <= (-0.0f64).to_bits()
 }
 

@@ -10,7 +10,7 @@ use crate::numerics::guard::{TINY, quotient, root};
 /// without that at the edge.
 ///
 /// A spring contributes `k (v_c + v)·(v* - v)/2`. v_c is the first point of the straight path from v_0 to v* with |v| =
-/// m l: the limit moves evenly from its value at the start to that at the end, and m_squared = |v|/l at the end of the
+/// m l: the limit moves evenly from its value at the start to that at the end, and m = |v|/l at the end of the
 /// step, less than 1 if neighbours turn the tractions. Towards gross slip v_c is blended, by `gross_slip`, with v: the
 /// spring slips in its final direction from the beginning.
 #[inline(never)]

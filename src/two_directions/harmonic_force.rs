@@ -1,7 +1,7 @@
 //! Harmonic force of a periodic motion in two tangential directions, by uniform sampling.
 //!
 //! The motion is u, v and the normal component (the approach w or the normal force N), each
-//! `c0 + Σ (a_k cos kt + b_k sin kt)`, at N uniformly spaced instants from t = 0. Between the samples the path is that
+//! `c0 + Σ (a_k cos kt + b_k sin kt)`, at uniformly spaced samples from t = 0. Between the samples the path is that
 //! of a step of the element. Steady state: the contact is first pressed by the largest normal force of the samples (the
 //! first such sample), without tangential displacement, and then displaced to that sample under constant load. From
 //! there it is advanced along a number of periods, and along one more that is evaluated. The nodes are those of the
@@ -166,8 +166,8 @@ impl<'a> TwoDirectionsWorkspace<'a> {
     }
 }
 
-/// Harmonic force of a periodic motion, given by its 3 (2H + 1) coefficients: those of u, of v \[m_squared\], and of
-/// the normal component, the approach \[m_squared\] or the normal force \[N\].
+/// Harmonic force of a periodic motion, given by its 3 (2H + 1) coefficients: those of u, of v \[m\], and of
+/// the normal component, the approach \[m\] or the normal force \[N\].
 ///
 /// The force has 3 (2H + 1) coefficients \[N\], Tx, Ty, N. The Jacobian has (3 (2H + 1))² entries, column by column:
 /// their derivatives with respect to the coefficients of the motion. The energy is the work of the tangential forces in

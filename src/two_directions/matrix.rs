@@ -8,8 +8,8 @@ use crate::numerics::total::PanicFreeSlice;
 /// Σ x_m A_m, with the rows A_m of a matrix in a range.
 pub(super) fn times(matrix: &Matrix, [first, end]: [usize; 2], x: &Row) -> Row {
     let mut y = Row::ZERO;
-    for m_squared in first..end.min(SPRINGS) {
-        y += x[m_squared] * matrix[m_squared];
+    for m in first..end.min(SPRINGS) {
+        y += x[m] * matrix[m];
     }
     y
 }
@@ -27,11 +27,11 @@ pub(super) fn eliminate(matrix: &mut Matrix, i: usize, [first, end]: [usize; 2])
     let pivot = matrix[i][i];
     let per_pivot = 1.0 / if pivot.abs() > TINY { pivot } else { TINY };
     let row = per_pivot * matrix[i];
-    for m_squared in first..end.min(SPRINGS) {
-        let x = matrix[m_squared][i];
-        if m_squared != i {
-            matrix[m_squared] -= x * row;
-            matrix[m_squared][i] = x * per_pivot;
+    for m in first..end.min(SPRINGS) {
+        let x = matrix[m][i];
+        if m != i {
+            matrix[m] -= x * row;
+            matrix[m][i] = x * per_pivot;
         }
     }
     matrix[i] = row;
@@ -46,8 +46,8 @@ pub(super) fn times_symmetric<const L: usize>(
 ) -> [Lanes<L>; SPRINGS] {
     let mut y = [Lanes::ZERO; SPRINGS];
     for i in first..end.min(SPRINGS) {
-        for m_squared in first..end.min(SPRINGS) {
-            y[i] += rows[i][m_squared] * x[m_squared];
+        for m in first..end.min(SPRINGS) {
+            y[i] += rows[i][m] * x[m];
         }
     }
     y
@@ -57,8 +57,8 @@ pub(super) fn times_symmetric<const L: usize>(
 pub(super) fn times_upper<const L: usize>(rows: &Matrix, [first, end]: [usize; 2], x: &mut [Lanes<L>; SPRINGS]) {
     for i in first..end.min(SPRINGS) {
         let mut sum = Lanes::ZERO;
-        for m_squared in i..end.min(SPRINGS) {
-            sum += rows[i][m_squared] * x[m_squared];
+        for m in i..end.min(SPRINGS) {
+            sum += rows[i][m] * x[m];
         }
         x[i] = sum;
     }
@@ -72,8 +72,8 @@ pub(super) fn times_upper_transposed<const L: usize>(
 ) {
     for i in (first..end).rev().map(|i| i.min(SPRINGS - 1)) {
         let mut sum = Lanes::ZERO;
-        for m_squared in first..(i + 1).min(end) {
-            sum += rows[m_squared][i] * x[m_squared];
+        for m in first..(i + 1).min(end) {
+            sum += rows[m][i] * x[m];
         }
         x[i] = sum;
     }

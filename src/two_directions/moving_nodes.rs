@@ -32,7 +32,7 @@ const WORTH_NEW_NODES: f64 = 1e-3;
 pub(super) const ALL_DIGITS: f64 = 1_000.000_000_000_000_5;
 
 record! {
-    /// What is known of a contact between two steps; it is open if the normal force is 0.
+    /// The state of a contact between two steps; the contact is open if the normal force is 0.
     pub(super) struct State {
         pub tag: f64,
         pub normal_force: f64,

@@ -201,12 +201,12 @@ impl Points {
     pub fn invert(&self, inverse: &mut Matrix, metric: &PerAxis<Matrix>, range: [usize; 2]) {
         let [x, y] = [self.slips * self.e[0], self.slips * self.e[1]];
         let diagonal = self.slips * self.along() + (1.0 - self.slips);
-        for m_squared in range[0]..range[1].min(SPRINGS) {
-            inverse[m_squared] = x * (x[m_squared] * metric[1][m_squared]) + y * (y[m_squared] * metric[0][m_squared]);
-            inverse[m_squared][m_squared] += diagonal[m_squared];
+        for m in range[0]..range[1].min(SPRINGS) {
+            inverse[m] = x * (x[m] * metric[1][m]) + y * (y[m] * metric[0][m]);
+            inverse[m][m] += diagonal[m];
         }
-        for m_squared in range[0]..range[1] {
-            eliminate(inverse, m_squared, range);
+        for m in range[0]..range[1] {
+            eliminate(inverse, m, range);
         }
     }
 
@@ -309,21 +309,21 @@ fn points_above(values: &Row, limits: &Row) -> PointSet {
 
 /// Sets `K = C⁻¹'k C⁻¹` of the springs from one on.
 fn set_full_metric(metric: &mut PerAxis<Matrix>, springs: &Springs, first: usize) {
-    for m_squared in first..springs.shells.range().end {
+    for m in first..springs.shells.range().end {
         let mut rows = [Row::ZERO; 2];
-        for j in first..=m_squared {
+        for j in first..=m {
             for axis in 0..2 {
                 let inverse = &springs.inverse[axis][j];
-                rows[axis] += (springs.stiffness[axis][j] * inverse[m_squared]) * *inverse;
+                rows[axis] += (springs.stiffness[axis][j] * inverse[m]) * *inverse;
             }
         }
         for axis in 0..2 {
-            metric[axis][m_squared] = rows[axis];
+            metric[axis][m] = rows[axis];
         }
     }
 }
 
-/// Sets K of a set of beyond points, the innermost of which is the first of a range. Points of the range that stick
+/// Sets K of a set of slipping points, the innermost of which is the first of a range. Points of the range that stick
 /// are eliminated.
 pub(crate) fn set_metric(metric: &mut PerAxis<Matrix>, springs: &Springs, [first, end]: [usize; 2], set: PointSet) {
     set_full_metric(metric, springs, first);
