@@ -8,7 +8,7 @@ use crate::limits::{MAX_DISPLACEMENT, check_force, in_range};
 use crate::numerics::fp_class::{abs_le, in_0_to, le};
 use crate::numerics::guard::quotient;
 use crate::numerics::quadrature::gauss_nodes;
-use crate::numerics::total::PanicFreeSlice;
+use crate::numerics::slices::PanicFreeSlice;
 use crate::parameters::{Common, EllipticParameters, Parameters};
 use crate::shape::{Geometry, LARGEST, LayerCompliance, Quantity, Shape};
 use crate::tag::LAYOUT;
@@ -101,8 +101,9 @@ const MOST_LOAD_WITH_LAYER: f64 = f64::from_bits((1023 + 40) << 52);
 /// below this part of that of the tables counts as open in a step. There squares and products would underflow.
 pub(crate) const SMALLEST_LOAD: f64 = f64::from_bits((1023 - 150) << 52);
 
-/// 2^-80: the part of the input below which a contact with two directions counts as open. The shell at the edge of a flat, at 1e-8
-/// of the size of the parameters, is 1e8 times as stiff as the others there, and derivatives lose the digits of its square.
+/// 2^-80: the part of the input below which a contact with two directions counts as open. At 1e-8 of the size of the parameters the
+/// shell at the edge of a flat is 1e8 times as stiff as the others, and derivatives, which contain its square, would lose 16
+/// digits.
 const SMALLEST_OF_SPRINGS: f64 = f64::from_bits((1023 - 80) << 52);
 
 /// 2^100: the largest approach with two directions, relative to that of the parameters; the largest force is 2^150 times theirs.
@@ -215,7 +216,7 @@ impl Element {
         let regular = |value: f64, largest: f64| value.min(largest / 2.25);
         let mut potentials = self.potential.0.iter_mut();
         Table::fill([&mut self.load_of_shift], regular(shift, self.largest_shift), &mut |x| {
-            let size = shape.size_at(Quantity::Shift, x);
+            let size = shape.leg_at(Quantity::Shift, x);
             potentials.next().into_iter().for_each(|value| *value = shape.potential(size));
             let [load, ..] = shape.series(size, Quantity::Shift);
             [load]
@@ -228,7 +229,7 @@ impl Element {
         let is_sum = shape.layer.is_none() && input == NormalInput::Approach;
         self.shift_coefficients = if is_sum { shape.compliance_in_terms_of(1, 0) } else { [0.0; 2] };
         Table::fill([&mut self.of_input, &mut self.shift], largest, &mut |x| {
-            let [load, approach, shift] = shape.series(shape.size_at(argument, x), argument);
+            let [load, approach, shift] = shape.series(shape.leg_at(argument, x), argument);
             [if input == NormalInput::Force { approach } else { load }, shift]
         });
     }
@@ -298,7 +299,7 @@ impl Element {
             // A contact without a flat touches at a point, whose compliance is infinite.
             return NormalPoint { value: 0.0, slope: if argument == Quantity::Load { f64::INFINITY } else { 0.0 } };
         }
-        let size = if x > 0.0 { shape.size_at(argument, x) } else { 0.0 };
+        let size = if x > 0.0 { shape.leg_at(argument, x) } else { 0.0 };
         let [value, compliance] = shape.value_and_compliance(quantity, size);
         NormalPoint { value, slope: compliance / shape.compliance(argument, size) }
     }
@@ -506,7 +507,7 @@ impl Element {
     pub(crate) fn four_curvatures(&self, shift: &[f64; 4], quarter: &mut Curvature) -> [f64; 4] {
         let outside = |shift: f64| {
             // N and S are proportional to each other below the smallest size.
-            let size = self.shape.size_at(Quantity::Shift, shift);
+            let size = self.shape.leg_at(Quantity::Shift, shift);
             if shift <= self.smallest(Quantity::Shift) { 0.0 } else { self.shape.load_curvature(size) }
         };
         self.load_of_shift.four_curvatures(shift, quarter).unwrap_or_else(|| shift.map(outside))
@@ -518,7 +519,7 @@ impl Element {
         match self.load_of_shift.integral_from_middle(shift) {
             Some((quarter, integral)) => self.potential.0.or_zero(quarter) + integral,
             None if shift <= self.smallest(Quantity::Shift) => 0.5 * self.load_under(shift) * shift,
-            None => self.shape.potential(self.shape.size_at(Quantity::Shift, shift)),
+            None => self.shape.potential(self.shape.leg_at(Quantity::Shift, shift)),
         }
     }
 }

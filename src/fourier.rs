@@ -12,7 +12,7 @@ pub(crate) mod workspace;
 
 use crate::error::Error;
 use crate::limits::check_coefficients;
-use crate::numerics::total::PanicFreeSlice;
+use crate::numerics::slices::PanicFreeSlice;
 use core::f64::consts::PI;
 
 /// Outputs: the coefficients of the force, its Jacobian (column-major) and the energy; `None` is not computed.

@@ -82,7 +82,7 @@ pub trait Law: Sized {
     /// Checks that a contact or an element is initialised, and belongs to this law.
     fn check(item: &Self::Item) -> Result<(), Error>;
     /// Whether a state with a valid tag is as long as its counts require.
-    fn contains_counted(_state: &[f64]) -> bool {
+    fn fits_its_counts(_state: &[f64]) -> bool {
         true
     }
     /// Checks the end of a step.
@@ -147,7 +147,7 @@ pub trait Law: Sized {
     fn check_header(state: &[f64]) -> Result<(), Error> {
         let has_tag_of = |kind: Kind| state.first().is_some_and(|tag| kind.is_tag(*tag));
         let is_short = state.len() < Self::STATE_LENGTH;
-        if !is_short && has_tag_of(Self::STATE) && Self::contains_counted(state) {
+        if !is_short && has_tag_of(Self::STATE) && Self::fits_its_counts(state) {
             Ok(())
         } else if Self::OTHER_STATE.is_some_and(has_tag_of) {
             Err(Error::BadDirections)

@@ -10,4 +10,4 @@ pub(crate) mod lanes;
 pub(crate) mod polynomial;
 pub(crate) mod quadrature;
 pub(crate) mod roots;
-pub(crate) mod total;
+pub(crate) mod slices;

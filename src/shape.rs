@@ -79,9 +79,9 @@ of_shapes! {
     gamma(load: f64) -> f64;
     /// The size of the same flat that carries a load: the inverse of g.
     at_load(load: f64) -> Size;
-    /// An estimate of the leg of the size with a certain shift, given that shift over the compliance Λ of a size close to it. Exact
+    /// An estimate of the leg at which S has a value. `load` is this value over the compliance Λ of a size close to it. Exact
     /// for a power law if Λ is that of the size leg = 1.
-    near_shift(load: f64) -> f64;
+    estimated_leg(load: f64) -> f64;
     /// Taylor series of N, U and S without a layer about a size with leg > 0, as functions of one of the three.
     series(shape: &Shape, leg: f64, argument: Quantity) -> [Series; 3];
     /// Pressure that the sizes between two legs add, in units of g/(4π) over an area; `legs` are both legs and the difference of
@@ -253,8 +253,8 @@ impl Shape {
         [value, compliance]
     }
 
-    /// d²N/dS² \[N/m²\] at a size > 0: the decrease of the compliance with the load, over the cube of the compliance. The
-    /// compliance of a layer decreases by itself over N + N_c.
+    /// d²N/dS² \[N/m²\] at a size > 0: the decrease of the compliance with the load, over the cube of the compliance. For a layer
+    /// it is C/(N + N_c).
     pub fn load_curvature(&self, leg: f64) -> f64 {
         let size = self.size(leg);
         let shift = self.compliance_coefficients(Quantity::Shift);
@@ -307,25 +307,25 @@ impl Shape {
     }
 
     /// The size under a normal force \[N\], and d(leg²)/dN \[m²/N\].
-    pub fn size_under(&self, load: f64) -> [f64; 2] {
+    pub fn leg_and_slope_under(&self, load: f64) -> [f64; 2] {
         let size = self.any_size().at_load(load / self.load_scale);
         [self.unit * size.leg, quotient(0.5, self.load_scale * size.psi) * self.unit * self.unit]
     }
 
     /// The size under a normal force \[N\].
     pub fn at_load(&self, load: f64) -> f64 {
-        self.size_under(load)[0]
+        self.leg_and_slope_under(load)[0]
     }
 
     /// The size at which N, U or S has a value: Newton's method in the logarithms. The size at which the contact alone has the
     /// value and that at which the layer alone has it are both too large; at the smaller one of both the sum is at most twice the
     /// value.
-    pub fn size_at(&self, quantity: Quantity, value: f64) -> f64 {
+    pub fn leg_at(&self, quantity: Quantity, value: f64) -> f64 {
         if quantity == Quantity::Load || value <= 0.0 {
             return self.at_load(value.max(0.0));
         }
         let (coefficients, size) = (self.compliance_coefficients(quantity), self.any_size());
-        let near = |compliance: f64| self.unit * size.near_shift(value / (self.load_scale * compliance));
+        let near = |compliance: f64| self.unit * size.estimated_leg(value / (self.load_scale * compliance));
         let unloaded = self.layer.unloaded(quantity);
         if size.is_power_law() && unloaded <= 0.0 {
             return near(coefficients[0]);

@@ -1,8 +1,8 @@
 //! Every call of the C interface, by a table, with memory of exact length: each array is an allocation of its own, and outputs are
 //! uninitialised.
 //!
-//! No call raises a floating-point exception that an application may trap. Under Miri (`tools/miri.sh`) every access outside an array, read of uninitialised memory, misaligned access and use of
-//! an invalidated reference is an error.
+//! No call raises a floating-point exception that an application may trap. Under Miri (`tools/miri.sh`) every access outside an
+//! array, read of uninitialised memory, misaligned access and use of an invalidated reference is an error.
 
 #![allow(
     clippy::undocumented_unsafe_blocks,
@@ -30,8 +30,8 @@ fn is_available(call: &Call, law: &Law) -> bool {
     !(call.flat && law.is_elliptic || call.one_direction && law.directions == 2)
 }
 
-/// Each call with the first law of each number of directions and rule of a workspace: what is rejected depends on no more. Under Miri with
-/// the first one.
+/// Each call with the first law of each number of directions and rule of a workspace: what is rejected depends on no more. Under
+/// Miri with the first one.
 fn for_each_call(test: impl Fn(&Call, &Law, Arguments)) {
     for call in CALLS {
         let laws = Law::all(call);
@@ -69,8 +69,8 @@ fn take_failed_item(call: &Call, arguments: &Arguments) -> Option<usize> {
     Some(failed)
 }
 
-/// The failed item of a batch that was rejected is rejected alone, and those before it are accepted. It is n if the call is rejected
-/// without any item.
+/// The failed item of a batch that was rejected is rejected alone, and those before it are accepted. It is n if the call is
+/// rejected without any item.
 fn check_failed_item(call: &Call, arguments: &Arguments, failed: usize, status: i32, what: &str) {
     let [active, output, count] = [Active, FailedItem, Count].map(|kind| call.place(kind).expect("an argument"));
     let (start, n) = (arguments.memory(output).start, arguments.slots[count].get::<usize>());

@@ -1,5 +1,5 @@
-//! Properties of histories and cycles, of every kind of contact and element, with a layer and without: a comparison with exact values does
-//! not show them. `verification/verify` compares values.
+//! Properties of histories and cycles, of every kind of contact and element, with a layer and without: a comparison with exact
+//! values does not show them. `verification/verify` compares values.
 //!
 //! Random numbers have the seed `MICROSLIP_SEED`, or 1.
 
@@ -116,8 +116,8 @@ fn complex_stiffness_is_the_force_of_one_harmonic() {
 }
 
 /// The errors that the guide states for 16 (H + 1) nodes, over motions of all harmonics, which decrease with the order, and of a
-/// mean and the highest one with a tenth of the others: with layers, too. The seed is fixed, as the worst error of all motions is not
-/// known.
+/// mean and the highest one with a tenth of the others: with layers, too. The seed is fixed, as the worst error of all motions is
+/// not known.
 #[test]
 fn sixteen_nodes_for_each_harmonic_are_enough() {
     let mut random = Random(1);
@@ -198,8 +198,8 @@ fn second_period(element: &Element, u: &[f64], w: &[f64]) -> (Vec<f64>, Vec<f64>
     (force, load, energy)
 }
 
-/// u over mu S, mean and swing of the normal component over the largest: microslip, separation, gross slip, both, beyond the tables,
-/// open throughout, almost no motion, constant.
+/// u over mu S, mean and swing of the normal component over the largest: microslip, separation, gross slip, both, beyond the
+/// tables, open throughout, almost no motion, constant.
 const SCENES: [[f64; 3]; 10] = [
     [0.3, 0.5, 0.3],
     [0.05, 0.5, 0.4],
@@ -213,7 +213,8 @@ const SCENES: [[f64; 3]; 10] = [
     [3.0, 0.7, 0.0],
 ];
 
-/// The definition: the second of two periods, step by step. The Jacobian by differences. Every third motion is half-wave symmetric; the normal component of one is 1 + cos t, which is 0 at a sample.
+/// The definition: the second of two periods, step by step. The Jacobian by differences. Every third motion is half-wave symmetric;
+/// the normal component of one is 1 + cos t, which is 0 at a sample.
 #[test]
 fn harmonic_forces_of_elements_of_the_second_period() {
     let (mut random, mut columns, mut corners) = (Random(1), 0, 0);
@@ -278,8 +279,8 @@ fn harmonic_forces_of_elements_of_the_second_period() {
                     let (plus, minus) = (at(step), at(-step));
                     plus.into_iter().zip(minus).map(move |(plus, minus)| (plus - minus) / (2.0 * step))
                 };
-                // Extrapolated to order four. Rarely a corner lies between the points of a difference. Beside a symmetric motion the
-                // second derivative jumps: two samples are equally far.
+                // Extrapolated to order four. Rarely a corner lies between the points of a difference. Beside a symmetric motion
+                // the second derivative jumps: two samples are equally far.
                 let exact = difference(4e-6).zip(difference(2e-6)).map(|(coarse, fine)| (4.0 * fine - coarse) / 3.0);
                 let derivatives = exact.zip(&jacobian[2 * k * column..]);
                 let off = |(exact, derivative): (f64, &f64)| (exact - derivative * unit).abs() / NORMAL_FORCE;
@@ -314,8 +315,8 @@ fn negative_normal_forces_are_rejected_but_for_rounding() {
     }
 }
 
-/// Under static forces in each direction an element has the curve of a contact under that normal force, also under less load than that of
-/// its layer.
+/// Under static forces in each direction an element has the curve of a contact under that normal force, also under less load than
+/// that of its layer.
 #[test]
 fn static_displacements_of_elements_are_those_of_contacts() {
     let static_forces = |element: &Element, direction: usize, contact: &Contact, normal_force: f64| {
@@ -473,8 +474,8 @@ fn tractions_integrate_to_the_forces() {
     }
 }
 
-/// A path of displacements over that of gross slip, which it ends beyond: the forces by states that do not hold all reversals differ
-/// by no more than the reported errors.
+/// A path of displacements over that of gross slip, which it ends beyond: the forces by states that do not hold all reversals
+/// differ by no more than the reported errors.
 fn check_bounded(contact: &Contact, path: &[f64]) {
     let (mut exact, mut short) = (unloaded(path.len()), (2..=8).map(unloaded).collect::<Vec<_>>());
     for displacement in path {
@@ -513,7 +514,8 @@ fn bounded_states_in_random_histories() {
         for number in 0..3000 {
             let mut random = Random(seed().wrapping_add(number));
             let (steps, mut path) = (20 + random.below(100), Vec::new());
-            // Any reversals, nested, nearly nested, at the limit of gross slip, beside the one before the last; in some after gross slip.
+            // Any reversals, nested, nearly nested, at the limit of gross slip, beside the one before the last; in some after gross
+            // slip.
             let (mut low, mut high, mut far) = (-1.0, 1.0, 0.0);
             if random.below(2) == 0 {
                 path.push(3.0 * random.signed());

@@ -1,5 +1,5 @@
-//! Imports only go down: the table of `docs/architecture.md` has the modules that each module of `src/` imports, all of them above it
-//! there, and no files of a module import each other in a circle. Test modules are not read.
+//! Imports only go down: the table of `docs/architecture.md` has the modules that each module of `src/` imports, all of them above
+//! it there, and no files of a module import each other in a circle. Test modules are not read.
 
 #[path = "common/sources.rs"]
 mod sources;

@@ -1,4 +1,5 @@
-//! Two tangential directions with rough layers: gross slip, energy of long steps, stiffness of a stuck contact, continuity of the force.
+//! Two tangential directions with rough layers: gross slip, energy of long steps, stiffness of a stuck contact, continuity of the
+//! force.
 
 mod common;
 
@@ -15,8 +16,8 @@ fn between(random: &mut Random, low: f64, high: f64) -> f64 {
     low * (high / low).powf(random.next())
 }
 
-/// A flat of a/b from 0 to 0.999 or an ellipse under 1000 N, and its layer: compliances of 0.01 to 100 times those of the contact, N_c of
-/// 1 N to 1e6 N, one in four without.
+/// A flat of a/b from 0 to 0.999 or an ellipse under 1000 N, and its layer: compliances of 0.01 to 100 times those of the contact,
+/// N_c of 1 N to 1e6 N, one in four without.
 fn element(random: &mut Random, poisson_ratio: f64) -> Element {
     let (material, friction_coefficient) = ([Material { poisson_ratio, ..STEEL }; 2], 0.5);
     let build = |flat_half_width: f64, ratio: f64, layer: Layer| {
@@ -77,8 +78,8 @@ fn long_slides_carry_the_friction_force_and_dissipate_their_work() {
             let error = missing(&step).abs();
             let of_energy = (step.dissipated / fine.along(from, to, 64) - 1.0).abs();
             assert!(error < 1e-12 && of_energy < 0.07, "{start} {length:e}: {error:e} {of_energy:e}, {element:?}");
-            // Unless both directions are equally stiff, the points, whose shares of the force differ between them, turn apart: a shorter
-            // slide carries less, by the second order of the angles.
+            // Unless both directions are equally stiff, the points, whose shares of the force differ between them, turn apart: a
+            // shorter slide carries less, by the second order of the angles.
             if from[1] == 0.0 {
                 let part = 3.0 * slip_displacement(&element, load) / length;
                 let error = missing(&short.to([part * (to[0] - from[0]), part * to[1], load]));
@@ -109,8 +110,8 @@ fn the_stiffness_of_a_stuck_contact_is_that_of_the_curve() {
     }
 }
 
-/// The largest jump on a line from 0 to 1, of which values and derivatives are given: an interval is halved until the derivatives at its
-/// ends explain the difference of the values to 3e-7.
+/// The largest jump on a line from 0 to 1, of which values and derivatives are given: an interval is halved until the derivatives
+/// at its ends explain the difference of the values to 3e-7.
 fn jump(mut of: impl FnMut(f64) -> [[f64; 2]; 2]) -> f64 {
     let (mut largest, mut halvings) = (0.0f64, 0);
     let mut intervals = vec![[(0.0, of(0.0)), (1.0, of(1.0))]];
@@ -131,7 +132,8 @@ fn jump(mut of: impl FnMut(f64) -> [[f64; 2]; 2]) -> f64 {
     largest
 }
 
-/// The largest jump of the force of a step over mu N, on lines from displacements of random histories; with loads that differ by a part.
+/// The largest jump of the force of a step over mu N, on lines from displacements of random histories; with loads that differ by a
+/// part.
 fn jumps(random: &mut Random, elements: usize, by_load: f64) -> f64 {
     let mut largest = 0.0f64;
     for _ in 0..elements {
@@ -161,9 +163,9 @@ fn jumps(random: &mut Random, elements: usize, by_load: f64) -> f64 {
     largest
 }
 
-/// Where the middle of a step begins to slip while its end sticks, where a contact that sticks exceeds Coulomb's bound, where Newton's
-/// method needs sweeps, and where springs are released: with these seeds, all are met. From one load to the next the force jumps where the
-/// size inside the edge, under a load that is smaller by 8e-6, passes a node.
+/// Where the middle of a step begins to slip while its end sticks, where a contact that sticks exceeds Coulomb's bound, where
+/// Newton's method needs sweeps, and where springs are released: with these seeds, all are met. From one load to the next the force
+/// jumps where the size inside the edge, under a load that is smaller by 8e-6, passes a node.
 #[test]
 fn the_force_does_not_jump() {
     for (seed, elements) in [(15, 8), (23, 48), (1096, 8), (3220, 8)] {
@@ -178,8 +180,8 @@ fn the_force_does_not_jump() {
     }
 }
 
-/// The largest jump of the harmonic force, that in phase, over μ times the mean load, on a line of coefficients along which the load grows
-/// or turns its phase.
+/// The largest jump of the harmonic force, that in phase, over μ times the mean load, on a line of coefficients along which the
+/// load grows or turns its phase.
 fn jump_of_harmonic_force(random: &mut Random, periods: usize, turns: bool) -> f64 {
     let poisson_ratio = 0.5 * random.next();
     let element = element(random, poisson_ratio);

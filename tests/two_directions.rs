@@ -1,5 +1,5 @@
-//! The law for two tangential directions: symmetries, Jacobians, separation, drift. `verification/validation` compares its values with those
-//! of one direction, of a slow solution and of boundary elements.
+//! The law for two tangential directions: symmetries, Jacobians, separation, drift. `verification/validation` compares its values
+//! with those of one direction, of a slow solution and of boundary elements.
 
 mod common;
 
@@ -217,8 +217,9 @@ fn by_approach_and_force() -> Vec<Element> {
     vec![flat(1e-4, NormalInput::Approach), ellipse(3.0, Layer::none(), NormalInput::Force)]
 }
 
-/// A mean displacement along x beside a vibration across it, under a normal input that swings up to that of the tables: with the largest
-/// load of a period the springs of the harmonic force are aligned, with a power of 1.25 times that of the tables those of steps.
+/// A mean displacement along x beside a vibration across it, under a normal input that swings up to that of the tables: with the
+/// largest load of a period the springs of the harmonic force are aligned, with a power of 1.25 times that of the tables those of
+/// steps.
 fn shaken(element: &Element, swing: f64) -> [f64; COEFFICIENTS] {
     let (u, normal) = (unit(element), |share: f64| normal_input(element, share));
     [0.8 * u, 0.02 * u, 0.0, 0.0, 0.2 * u, 0.05 * u, normal(1.0 - swing), normal(1.0) - normal(1.0 - swing), 0.0]
@@ -243,8 +244,8 @@ fn walked(element: &Element, periods: usize, motion: &[f64; COEFFICIENTS]) -> Ve
     forces
 }
 
-/// Static shear is shaken out: the drift is at least half the distance from the steady state, and falls with the periods. Below 1e-3 μN it
-/// has the error of the longer steps of earlier periods.
+/// Static shear is shaken out: the drift is at least half the distance from the steady state, and falls with the periods. Below
+/// 1e-3 μN it has the error of the longer steps of earlier periods.
 #[test]
 fn the_drift_says_what_is_left_and_falls_with_the_periods() {
     for element in by_approach_and_force() {
@@ -348,8 +349,8 @@ fn jacobians_of_random_motions_are_derivatives() {
                 let error = |i| (high[i] - low[i]) / h - jacobian[i + COEFFICIENTS * j] * scale;
                 (0..COEFFICIENTS).all(|i: usize| error(i).abs() < bound * slip_force)
             };
-            // Corners beside the motion are avoided by smaller differences, whose rounding errors are 1e-14 over h; N_c far below N makes
-            // the force as curved as a corner.
+            // Corners beside the motion are avoided by smaller differences, whose rounding errors are 1e-14 over h; N_c far below N
+            // makes the force as curved as a corner.
             let is_central = |bound: f64| {
                 [1e-5, 1e-4, 1e-6, 1e-7, 1e-8].into_iter().any(|h| is_within(bound, &moved(h), &moved(-h), 2.0 * h))
             };
@@ -381,7 +382,8 @@ fn jacobians_of_random_motions_are_derivatives() {
     assert!(beyond * 200 < columns, "{beyond} of {columns} columns");
 }
 
-/// Flats of a/b from 0 to 0.999 with layers 0.01 to 100 times as compliant as the contact, and N_c from 1e-3 to 1e3 times the normal force.
+/// Flats of a/b from 0 to 0.999 with layers 0.01 to 100 times as compliant as the contact, and N_c from 1e-3 to 1e3 times the
+/// normal force.
 fn rough_flats(input: NormalInput) -> Vec<Element> {
     let of = |flat_half_width, layer| flat_with(flat_half_width, layer, input);
     let shares = [0.01, 1.0, 100.0].map(|share| [1e-3, 0.03, 1.0, 1e3].map(|ratio| (share, ratio)));

@@ -1,5 +1,5 @@
-//! The command `history`: a table of displacements, from the unloaded contact on, in one tangential direction or two, under a constant
-//! normal force or a varying one.
+//! The command `history`: a table of displacements, from the unloaded contact on, in one tangential direction or two, under a
+//! constant normal force or a varying one.
 
 use crate::args::History;
 use crate::columns::{ColumnSpec, InputTable, parse_columns, read_table};

@@ -57,8 +57,8 @@ pub fn layer(options: &LayerOptions, spec: &ContactSpec) -> Result<Report> {
     Ok(report.with_remark(&format!("p%layer = mslip_layer({})", numbers.join(", "))))
 }
 
-/// Measured is the stiffness of contact and layer together: the layer has the compliance that the smooth contact lacks under the same
-/// load. Two loads give the stiffness of the layer twice, and N_c by its growth in proportion to N + N_c.
+/// Measured is the stiffness of contact and layer together: the layer has the compliance that the smooth contact lacks under the
+/// same load. Two loads give the stiffness of the layer twice, and N_c by its growth in proportion to N + N_c.
 fn measured(options: &LayerOptions, spec: &ContactSpec, normal_force: f64, ratio: f64) -> Result<Layer> {
     let mut loads = options.at.clone();
     if loads.is_empty() {

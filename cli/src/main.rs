@@ -1,7 +1,7 @@
 //! The command line program of microslip: properties, curves and hysteresis of a contact, as CSV and as pictures.
 //!
-//! `args` defines the command line, `contact_spec` and `columns` read the input, `commands`, `varying_load`, `history`, `fit` and `layer` compute, `plot`
-//! draws, and `files` reads and writes.
+//! `args` defines the command line, `contact_spec` and `columns` read the input, `commands`, `varying_load`, `history`, `fit` and
+//! `layer` compute, `plot` draws, and `files` reads and writes.
 
 mod args;
 mod canvas;

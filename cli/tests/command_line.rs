@@ -1,5 +1,5 @@
-//! The program as its users call it, from a shell: results, messages, pictures and files. `expected` has commands with their tables, `cases`
-//! commands and tables with the messages that they get.
+//! The program as its users call it, from a shell: results, messages, pictures and files. `expected` has commands with their
+//! tables, `cases` commands and tables with the messages that they get.
 
 use microslip::Error;
 use serde::de::DeserializeOwned;
@@ -113,7 +113,8 @@ fn is_same(found: &str, expected: &str) -> bool {
     found.len() == expected.len() && found.into_iter().zip(expected).all(|(one, other)| is_near(one, other))
 }
 
-/// The files of `expected`: commands, and the table that each of them gives. With `MICROSLIP_WRITE` set, tables that differ are written.
+/// The files of `expected`: commands, and the table that each of them gives. With `MICROSLIP_WRITE` set, tables that differ are
+/// written.
 #[test]
 fn results_are_those_expected() {
     let shell = Shell::new("results");

@@ -47,8 +47,8 @@ class Tractions(NamedTuple):
 
 class HarmonicForce(NamedTuple):
     """Coefficients of the force [N], jacobian[..., i, j] = d force_i / d displacement_j [N/m] (None if not requested), energy
-    dissipated per period [J] (of an element the work of the tangential force, at least 0), and drift: the largest difference of the
-    tangential force between the last period and the one before, over mu times the largest normal force. It is 0 but for elements of
+    dissipated per period [J] (of an element the work of the tangential force, at least 0), and drift: an estimate of the
+    largest difference of the tangential force from the steady state, over mu times the largest normal force; 0 but for elements of
     two directions.
     """
 

@@ -95,7 +95,7 @@ fn sum<B>(blocks: impl Iterator<Item = B>, at: impl Fn(B) -> [Lanes<4>; 2]) -> [
         let [terms, rates] = at(block);
         sums = [sums[0] + terms, sums[1] + 0.5 * rates];
     }
-    sums.map(Lanes::total)
+    sums.map(Lanes::sum)
 }
 
 /// Whether K' and K'', or their derivatives, are requested.

@@ -15,7 +15,7 @@ use crate::law::{Law, LawStep, Requested, StepResult};
 use crate::limits::{check_coefficients, check_displacement};
 use crate::numerics::fp_class::is_finite;
 use crate::numerics::lanes::Lanes;
-use crate::numerics::total::PanicFreeSlice;
+use crate::numerics::slices::PanicFreeSlice;
 use crate::tag::{Kind, is_count};
 
 impl Branch {
@@ -71,7 +71,7 @@ impl Branch {
 }
 
 /// Relative change of a displacement by decimal text of 15 digits, at most.
-const TEXT: f64 = 1e-14;
+const TEXT_ROUNDING: f64 = 1e-14;
 
 /// The transition and the result of a step, with the energy if requested; state and displacement \[m\] are checked.
 fn step(contact: &Contact, state: &[f64], displacement: f64, has_energy: bool) -> (Transition, LawStep<ConstantLoad>) {
@@ -83,7 +83,7 @@ fn step(contact: &Contact, state: &[f64], displacement: f64, has_energy: bool) -
         }
     });
     let mut is_full = transition.reversed && state::is_full(state);
-    if is_full && (displacement - memory.now.displacement).abs() <= TEXT * displacement.abs() {
+    if is_full && (displacement - memory.now.displacement).abs() <= TEXT_ROUNDING * displacement.abs() {
         // A step of no length but for rounding: it continues the present branch, so that no reversals are removed.
         let branch = memory.branch(contact, memory.depth(), -transition.branch.direction);
         (transition, is_full) = (Transition { branch, reversed: false }, false);
@@ -109,7 +109,7 @@ impl Law for ConstantLoad {
         contact.check()
     }
 
-    fn contains_counted(state: &[f64]) -> bool {
+    fn fits_its_counts(state: &[f64]) -> bool {
         state::depth(state).is_some_and(|depth| depth <= state.len().saturating_sub(HEADER) / PER_REVERSAL)
     }
 

@@ -11,7 +11,7 @@
 //! the force of the branch that leaves this reversal; it is 0 unless the stack was full (see [`Merge`]).
 
 use crate::constant_load::contact::Contact;
-use crate::numerics::total::PanicFreeSlice;
+use crate::numerics::slices::PanicFreeSlice;
 
 /// A point of a load history.
 #[derive(Clone, Copy, Default)]

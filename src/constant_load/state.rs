@@ -13,7 +13,7 @@ use crate::constant_load::contact::Contact;
 use crate::constant_load::memory::{InitialCurve, Memory, Point, Reversal, push};
 use crate::error::Error;
 use crate::law::Law;
-use crate::numerics::total::PanicFreeSlice;
+use crate::numerics::slices::PanicFreeSlice;
 use crate::tag::{Kind, count, stored};
 
 pub(crate) const HEADER: usize = 6;

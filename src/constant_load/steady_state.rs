@@ -4,7 +4,7 @@ use crate::constant_load::contact::Contact;
 use crate::constant_load::energy::Dissipation;
 use crate::constant_load::evaluator::Response;
 use crate::constant_load::memory::{Branch, InitialCurve, Memory, Point, Reversal, push};
-use crate::numerics::total::PanicFreeSlice;
+use crate::numerics::slices::PanicFreeSlice;
 use crate::parameters::{Sensitivity, times};
 
 /// A contact with friction under a constant normal force in the steady state of a periodic displacement.

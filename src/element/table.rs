@@ -9,7 +9,7 @@
 use crate::numerics::chebyshev::monic_powers;
 use crate::numerics::const_math::tabulate;
 use crate::numerics::lanes::Lanes;
-use crate::numerics::total::PanicFreeSlice;
+use crate::numerics::slices::PanicFreeSlice;
 use crate::shape::series::{ORDER, Series};
 
 /// Coefficients of a quarter.
@@ -265,7 +265,7 @@ mod tests {
                 (both.layer, _) = LayerCompliance::new(&layer, 150.0).unwrap();
                 let largest = both.value(Quantity::Approach, shape.at_load(150.0));
                 let mut table = Table::default();
-                let at = |x: f64| both.size_at(Quantity::Approach, x);
+                let at = |x: f64| both.leg_at(Quantity::Approach, x);
                 Table::fill([&mut table], largest, &mut |x| [both.series(at(x), Quantity::Approach)[0]]);
                 let mut x = largest;
                 while let Some(([load], _)) = table.values::<true, 1>(&[x]) {

@@ -12,7 +12,7 @@ use crate::element::{Directions, Element};
 use crate::error::Error;
 use crate::fourier::workspace::Layout;
 use crate::law::{Law, Requested};
-use crate::numerics::total::PanicFreeSlice;
+use crate::numerics::slices::PanicFreeSlice;
 use core::{ptr, slice};
 use libc::size_t;
 
@@ -25,7 +25,7 @@ type Outputs = [*mut f64; 3];
 /// Evaluates one step with checked arguments, and writes it as item i of the outputs.
 #[inline(always)]
 unsafe fn step<L: Law>(
-    law: &L::Item,
+    item: &L::Item,
     (state_length, state_old, state_new): States,
     displacement: &L::Vector,
     [force, tangent, dissipated]: Outputs,
@@ -34,13 +34,13 @@ unsafe fn step<L: Law>(
     let requested = Requested { tangent: !tangent.is_null(), energy: !dissipated.is_null() };
     // No reference to the old state is left when the new one, which may be the same memory, is written.
     let step = if state_new.is_null() {
-        L::trial(law, slice::from_raw_parts(state_old, state_length), *displacement, requested)
+        L::trial(item, slice::from_raw_parts(state_old, state_length), *displacement, requested)
     } else {
         let state = slice::from_raw_parts_mut(state_new, state_length);
         if !ptr::eq(state_old, state_new) {
             L::copy_used(slice::from_raw_parts(state_old, state_length), state);
         }
-        L::advance(law, state, *displacement, requested)
+        L::advance(item, state, *displacement, requested)
     };
     set(item_of(force.cast::<L::Vector>(), i).as_mut(), || step.force);
     set(item_of(tangent.cast::<L::Tangent>(), i).as_mut(), || step.tangent);
@@ -58,7 +58,7 @@ pub(super) unsafe fn state_error<L: Law>(n: usize, state: *const f64, error: *mu
 /// Advances the state of a contact or element, which is checked, along a path.
 #[inline(always)]
 pub(super) unsafe fn path<L: Law>(
-    law: &L::Item,
+    item: &L::Item,
     (state_length, state_old, state_new): States,
     n: usize,
     displacement: *const f64,
@@ -69,29 +69,29 @@ pub(super) unsafe fn path<L: Law>(
     check_alignment(state_new)?;
     outputs.iter().try_for_each(|output| check_alignment(*output))?;
     L::check_header(state_input(state_length, state_old)?)?;
-    path.iter().try_for_each(|displacement| L::check_step(law, displacement))?;
+    path.iter().try_for_each(|displacement| L::check_step(item, displacement))?;
     let states = (state_length, state_old, state_new);
     match path {
-        [displacement] => step::<L>(law, states, displacement, outputs, 0),
+        [displacement] => step::<L>(item, states, displacement, outputs, 0),
         [] if state_new.is_null() => {}
         [] => ptr::copy(state_old, state_new, state_length),
         _ if state_new.is_null() => {
             let state = slice::from_raw_parts(state_old, state_length);
-            L::in_copy(law, state, |copy| {
-                steps::<L>(law, (copy.len(), copy.as_ptr(), copy.as_mut_ptr()), path, outputs);
+            L::in_copy(item, state, |copy| {
+                steps::<L>(item, (copy.len(), copy.as_ptr(), copy.as_mut_ptr()), path, outputs);
             });
         }
-        _ => steps::<L>(law, states, path, outputs),
+        _ => steps::<L>(item, states, path, outputs),
     }
     Ok(())
 }
 
 /// Steps along a path with checked arguments.
 #[inline(never)]
-unsafe fn steps<L: Law>(law: &L::Item, states: States, path: &[L::Vector], outputs: Outputs) {
+unsafe fn steps<L: Law>(item: &L::Item, states: States, path: &[L::Vector], outputs: Outputs) {
     let (state_length, mut state_old, state_new) = states;
     for (i, displacement) in path.iter().enumerate() {
-        step::<L>(law, (state_length, state_old, state_new), displacement, outputs, i);
+        step::<L>(item, (state_length, state_old, state_new), displacement, outputs, i);
         state_old = state_new;
     }
 }
@@ -124,7 +124,7 @@ unsafe fn call_batch(n: usize, failed_item: *mut size_t, batch: impl FnOnce() ->
 #[derive(Clone, Copy)]
 struct Items<'a, T> {
     n: usize,
-    laws: &'a [T],
+    objects: &'a [T],
     index: Option<&'a [i32]>,
     active: Option<&'a [i32]>,
 }
@@ -133,27 +133,27 @@ impl<'a, T: Copy> Items<'a, T> {
     #[inline(never)]
     unsafe fn new<P>(
         n: usize,
-        n_laws: usize,
-        laws: *const P,
+        n_objects: usize,
+        objects: *const P,
         index: *const i32,
         active: *const i32,
     ) -> Result<Items<'a, T>, Error> {
         // Before the length of any other array is computed from n.
         check_length::<f64>(n)?;
         let optional = |flags: *const i32| if flags.is_null() { Ok(None) } else { input(flags, n).map(Some) };
-        Ok(Items { n, laws: input(laws.cast(), n_laws)?, index: optional(index)?, active: optional(active)? })
+        Ok(Items { n, objects: input(objects.cast(), n_objects)?, index: optional(index)?, active: optional(active)? })
     }
 
     /// Checks the contacts or elements of all active items, and with each the other arguments of the item.
     fn check<L: Law<Item = T>>(self, mut check: impl FnMut(usize, &T) -> Result<(), Error>) -> Result<(), Failure> {
-        let mut check_item = |i, law: Option<&T>| {
-            let law = law.ok_or(Error::BadIndex)?;
-            L::check(law)?;
-            check(i, law)
+        let mut check_item = |i, item: Option<&T>| {
+            let item = item.ok_or(Error::BadIndex)?;
+            L::check(item)?;
+            check(i, item)
         };
-        self.active().try_for_each(|(i, law)| {
+        self.active().try_for_each(|(i, item)| {
             // The length is the same for all states.
-            check_item(i, law).map_err(|error| Failure { error, item: (error != Error::StateTooShort).then_some(i) })
+            check_item(i, item).map_err(|error| Failure { error, item: (error != Error::StateTooShort).then_some(i) })
         })
     }
 
@@ -161,14 +161,14 @@ impl<'a, T: Copy> Items<'a, T> {
     fn active(self) -> impl Iterator<Item = (usize, Option<&'a T>)> {
         let is_active = move |i: &usize| self.active.is_none_or(|active| active.get(*i).is_none_or(|flag| *flag != 0));
         (0..self.n).filter(is_active).map(move |i| match self.index {
-            None => (i, self.laws.get(i)),
-            Some(index) => (i, index.get(i).and_then(|law| self.laws.get(usize::try_from(*law).ok()?))),
+            None => (i, self.objects.get(i)),
+            Some(index) => (i, index.get(i).and_then(|item| self.objects.get(usize::try_from(*item).ok()?))),
         })
     }
 
     /// The active items that were checked: number, and contact or element.
     fn checked(self) -> impl Iterator<Item = (usize, &'a T)> {
-        self.active().filter_map(|(i, law)| Some((i, law?)))
+        self.active().filter_map(|(i, item)| Some((i, item?)))
     }
 }
 
@@ -199,18 +199,18 @@ unsafe fn update<L: Law>(
     {
         // The reference ends before the new states, which may be the same memory, are written.
         let states = input(states_old, length)?;
-        items.check::<L>(|i, law| {
+        items.check::<L>(|i, item| {
             prefetch::<1>(states_old.wrapping_add((i + CHECKED_AHEAD) * state_length));
             L::check_header(states.part(i * state_length..(i + 1) * state_length))?;
-            displacement.get(i).map_or(Ok(()), |displacement| L::check_step(law, displacement))
+            displacement.get(i).map_or(Ok(()), |displacement| L::check_step(item, displacement))
         })?;
     }
-    for (i, law) in items.checked() {
+    for (i, item) in items.checked() {
         let Some(displacement) = displacement.get(i) else { break };
         let state_old = states_old.wrapping_add(i * state_length);
         prefetch::<4>(state_old.wrapping_add(PREFETCH_DISTANCE * state_length));
         let states = (state_length, state_old, item_of(states_new, i * state_length));
-        step::<L>(law, states, displacement, outputs, i);
+        step::<L>(item, states, displacement, outputs, i);
     }
     Ok(())
 }
@@ -250,15 +250,15 @@ unsafe fn harmonic_forces<L: Law>(
     check_input(displacement, items.n)?;
     // The arrays of an element with another number of directions are shorter: its coefficients are referenced after its check.
     let displacement_of = |i: usize| slice::from_raw_parts(displacement.wrapping_add(i * one), one);
-    items.check::<L>(|i, law| L::check_motion(law, workspace, displacement_of(i)))?;
-    items.checked().try_for_each(|(i, law)| {
+    items.check::<L>(|i, item| L::check_motion(item, workspace, displacement_of(i)))?;
+    items.checked().try_for_each(|(i, item)| {
         let output = HarmonicOutput {
             force: requested(item_of(force, i * one), one),
             jacobian: requested(item_of(jacobian, i * one * one), one * one),
             dissipated: item_of(dissipated, i).as_mut(),
             drift: item_of(drift, i).as_mut(),
         };
-        Ok(L::harmonic_force(law, workspace, displacement_of(i), output)?)
+        Ok(L::harmonic_force(item, workspace, displacement_of(i), output)?)
     })
 }
 

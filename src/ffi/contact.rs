@@ -6,7 +6,7 @@ use crate::face::divide;
 use crate::ffi::mslip_contact;
 use crate::ffi::pointers::{self, call, each, input, item, optional_output, output, outputs, set, sum, write};
 use crate::limits::{check_displacement, check_positions};
-use crate::numerics::total::PanicFreeSlice;
+use crate::numerics::slices::PanicFreeSlice;
 use crate::parameters::PARAMETERS;
 use crate::parameters::{EllipticParameters, Parameters};
 use core::ffi::{CStr, c_char};

@@ -10,7 +10,7 @@
 use super::angle;
 use super::workspace::{Blocks, Parts, padded};
 use crate::numerics::lanes::Lanes;
-use crate::numerics::total::PanicFreeSlice;
+use crate::numerics::slices::PanicFreeSlice;
 
 /// Values of four orders, or at four positions.
 type Four = Lanes<4>;
@@ -154,7 +154,7 @@ impl<'a> FoldedFourier<'a> {
         for [_, _, even_cosines, _] in folded.iter() {
             total += Lanes(*even_cosines);
         }
-        *constant = total.total();
+        *constant = total.sum();
         for (quad, sums) in sums.chunks_mut(SYMMETRIES).enumerate() {
             let mut totals = [Four::ZERO; SYMMETRIES];
             for (folded, rows) in folded.iter().zip(quads.part(quad..).iter().step_by(stride)) {
@@ -162,7 +162,7 @@ impl<'a> FoldedFourier<'a> {
                     *total += Lanes(*folded) * Lanes(*row);
                 }
             }
-            sums.iter_mut().zip(totals).for_each(|(sum, total)| *sum = total.total());
+            sums.iter_mut().zip(totals).for_each(|(sum, total)| *sum = total.sum());
         }
     }
 

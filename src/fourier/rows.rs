@@ -6,7 +6,7 @@
 use super::workspace::{Blocks, Parts};
 use super::{angle, basis};
 use crate::numerics::lanes::Lanes;
-use crate::numerics::total::PanicFreeSlice;
+use crate::numerics::slices::PanicFreeSlice;
 use core::f64::consts::PI;
 
 /// Blocks of four in a row over the coefficients 1, cos t, sin t, cos 2t, ...

@@ -12,7 +12,7 @@
 use super::rows::{OuterProducts, row_blocks};
 use super::workspace::{Blocks, Parts};
 use crate::numerics::lanes::Lanes;
-use crate::numerics::total::PanicFreeSlice;
+use crate::numerics::slices::PanicFreeSlice;
 
 pub(crate) struct Assembly<'a> {
     harmonics: usize,

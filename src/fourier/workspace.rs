@@ -8,7 +8,7 @@
 
 use crate::error::{Error, ensure};
 use crate::numerics::lanes::Lanes;
-use crate::numerics::total::PanicFreeSlice;
+use crate::numerics::slices::PanicFreeSlice;
 use crate::tag::{Kind, count, stored};
 
 /// Length of the header in doubles: a whole number of vectors, so that the tables are aligned as the workspace is.
@@ -248,9 +248,9 @@ macro_rules! record {
         {
         }
 
-        impl $(<$parameter: $crate::numerics::total::Zero>)? $crate::numerics::total::Zero for $name $(<$parameter>)? {
+        impl $(<$parameter: $crate::numerics::slices::Zero>)? $crate::numerics::slices::Zero for $name $(<$parameter>)? {
             fn zero() -> Self {
-                $name { $($field: $crate::numerics::total::Zero::zero()),+ }
+                $name { $($field: $crate::numerics::slices::Zero::zero()),+ }
             }
         }
     };

@@ -3,7 +3,7 @@
 
 use super::const_math::{cosine, tabulate};
 use crate::numerics::polynomial::PolynomialRows;
-use crate::numerics::total::PanicFreeSlice;
+use crate::numerics::slices::PanicFreeSlice;
 
 /// Number of coefficients of a polynomial, and largest number of interpolation points.
 pub(crate) const TERMS: usize = 20;

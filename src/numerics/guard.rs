@@ -46,8 +46,8 @@ impl<const L: usize> Guarded for Lanes<L> {
     }
 }
 
-/// A quotient by a divisor >= 0, which is limited below by `TINY`. Where the divisor may be 0, the numerator is not NaN and its size
-/// at most 1e8.
+/// A quotient by a divisor >= 0, which is limited below by `TINY`. Where the divisor may be 0, the numerator is not NaN and its
+/// size at most 1e8.
 #[inline(always)]
 pub(crate) fn quotient<A: Div<X, Output = X>, X: Guarded>(numerator: A, divisor: X) -> X {
     numerator / divisor.at_least(TINY)

@@ -44,7 +44,7 @@ impl<const L: usize> Lanes<L> {
 impl Lanes<4> {
     /// The sum of all lanes.
     #[inline(always)]
-    pub fn total(self) -> f64 {
+    pub fn sum(self) -> f64 {
         let [a, b, c, d] = self.0;
         (a + c) + (b + d)
     }

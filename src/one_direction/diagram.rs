@@ -13,7 +13,7 @@
 
 use crate::element::{Element, NormalState};
 use crate::fourier::workspace::{record, records_mut};
-use crate::numerics::total::PanicFreeSlice;
+use crate::numerics::slices::PanicFreeSlice;
 
 record! {
     /// A knot of the diagram.
@@ -120,14 +120,14 @@ fn slip_grossly(diagram: &mut impl Diagram, displacement: f64, end: &End) -> Dia
     let centre = knots.first().map_or(displacement, |knot| knot.xi);
     // A contact whose mu S is below the rounding of its displacement slips on in the direction of its last force.
     let before = knots.last().map_or(0.0, |knot| knot.force);
-    let (sign, origin) = match (centre <= xi, centre >= eta) {
+    let (slip_slope, origin) = match (centre <= xi, centre >= eta) {
         (true, true) => (if before == 0.0 { 0.0 } else { mu.copysign(before) }, xi),
         (true, false) => (mu, xi),
         _ => (-mu, eta),
     };
-    let force = sign * load;
+    let force = slip_slope * load;
     diagram.replace(0, [Knot::centre(origin), Knot { xi, eta, load, force }]);
-    [force, 0.0, sign * load_slope]
+    [force, 0.0, slip_slope * load_slope]
 }
 
 /// Everything sticks: a piece with D = Δu/ΔS from the outermost knot `inner`.
@@ -177,13 +177,13 @@ fn cut(
         diagram.replace(kept, [end]);
         return [end.force, load_slope / shift_slope, 0.0];
     }
-    let (cut_xi, cut_eta, sign) = if to_side < to_other {
+    let (cut_xi, cut_eta, slip_slope) = if to_side < to_other {
         (xi, inner.eta + rising * to_side, mu)
     } else {
         (inner.xi - falling * to_other, eta, -mu)
     };
     // A step to the same displacement changes no bit of the diagram.
-    let at_outer = if sign > 0.0 { outer.xi == xi } else { outer.eta == eta };
+    let at_outer = if slip_slope > 0.0 { outer.xi == xi } else { outer.eta == eta };
     let (cut_xi, cut_eta) = if at_outer { (outer.xi, outer.eta) } else { (cut_xi, cut_eta) };
     let cut_shift = (element.per_two_mu * (cut_eta - cut_xi)).max(0.0);
     let ([cut_load], [cut_stiffness]) = element.loads_at::<true, 1>(&[cut_shift]);
@@ -193,13 +193,13 @@ fn cut(
         let force = inner.force + slope * (cut_load - inner.load);
         Knot { xi: cut_xi, eta: cut_eta, load: cut_load, force }
     };
-    let end = end.knot(cut.force + sign * (load - cut.load));
+    let end = end.knot(cut.force + slip_slope * (load - cut.load));
     if cut.xi > xi || cut.eta < eta {
         diagram.replace(kept, [cut, end]);
     } else {
         diagram.replace(kept, [end]);
     }
-    [end.force, cut_stiffness, sign * (load_slope - cut_stiffness * shift_slope)]
+    [end.force, cut_stiffness, slip_slope * (load_slope - cut_stiffness * shift_slope)]
 }
 
 /// A share that means: beyond the end of the piece.

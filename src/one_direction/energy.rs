@@ -29,8 +29,8 @@ impl StepPath {
     }
 
     /// Rate of the boundary of a slip zone through a piece of slope D, of slip in the direction ±mu.
-    fn rate(&self, slope: f64, sign: f64) -> f64 {
-        (self.displacement - sign * self.contact_rate()) / (slope - sign)
+    fn rate(&self, slope: f64, slip_slope: f64) -> f64 {
+        (self.displacement - slip_slope * self.contact_rate()) / (slope - slip_slope)
     }
 
     /// The direction ±mu in which slip starts at the edge of a piece of slope D; `None` if it does not.
@@ -39,10 +39,11 @@ impl StepPath {
         let grows = contact_rate > 0.0;
         let excess = if grows { self.displacement } else { self.displacement - slope * contact_rate };
         let sticks = excess == 0.0 || (grows && excess.abs() <= mu * contact_rate);
-        let sign = mu.copysign(excess);
+        let slip_slope = mu.copysign(excess);
         // A slip zone exists if its boundary recedes faster than the contact size; rounding must not start one.
-        let slips = !sticks && (slope == sign || contact_rate >= 0.0 || self.rate(slope, sign) < contact_rate);
-        slips.then_some(sign)
+        let slips =
+            !sticks && (slope == slip_slope || contact_rate >= 0.0 || self.rate(slope, slip_slope) < contact_rate);
+        slips.then_some(slip_slope)
     }
 }
 
@@ -70,7 +71,7 @@ pub(crate) fn dissipated(element: &Element, knots: &[Knot], path: &StepPath) -> 
         };
         let (slope, lowest) = (above.slope_from(&below, mu), below.shift(mu));
         direction = direction.or_else(|| path.direction_of_slip(mu, slope));
-        let Some(sign) = direction else {
+        let Some(slip_slope) = direction else {
             // Nothing slips in this piece: the contact grows, stays, or recedes through it. Rounding may place a piece beyond the
             // size.
             if contact_rate >= 0.0 || end >= lowest {
@@ -81,13 +82,13 @@ pub(crate) fn dissipated(element: &Element, knots: &[Knot], path: &StepPath) -> 
             last -= 1;
             continue;
         };
-        if slope == sign {
+        if slope == slip_slope {
             // The piece is a slip zone of this direction: the boundary jumps to its inner end.
             inner = inner.min(lowest);
             last -= 1;
             continue;
         }
-        let rate = path.rate(slope, sign).min(0.0);
+        let rate = path.rate(slope, slip_slope).min(0.0);
         // Fraction of the path until a distance is covered; infinite if that exceeds the whole path.
         let to = |distance: f64, rate: f64| {
             if rate < 0.0 && distance > rate { (distance.min(0.0) / rate).max(0.0) } else { f64::INFINITY }
@@ -98,7 +99,7 @@ pub(crate) fn dissipated(element: &Element, knots: &[Knot], path: &StepPath) -> 
         let next_inner = if step == to_piece_end { lowest } else { (inner + rate * step).max(lowest) };
         let next_outer = if step == 1.0 - fraction { end } else { outer + contact_rate * step };
         let slip = SlipPiece { inner: [inner, next_inner], outer: [outer, next_outer.max(next_inner)] };
-        energy += mu * (mu - slope * sign.signum()) * slip.integral(element);
+        energy += mu * (mu - slope * slip_slope.signum()) * slip.integral(element);
         fraction += step;
         (inner, outer) = (next_inner, next_outer);
         if fraction >= 1.0 {
@@ -118,8 +119,8 @@ pub(crate) fn dissipated(element: &Element, knots: &[Knot], path: &StepPath) -> 
 /// Gross slip, from a fraction of the path and a size of the contact to the end of the path.
 fn gross_slip(element: &Element, path: &StepPath, direction: Option<f64>, fraction: f64, outer: f64) -> f64 {
     let mu = element.friction_coefficient;
-    let sign = direction.unwrap_or(mu.copysign(path.displacement));
-    let slip = (path.displacement - sign * path.contact_rate()) * sign.signum();
+    let slip_slope = direction.unwrap_or(mu.copysign(path.displacement));
+    let slip = (path.displacement - slip_slope * path.contact_rate()) * slip_slope.signum();
     mu * slip.max(0.0) * (1.0 - fraction) * mean_load(element, [outer, path.shift[1]]).max(0.0)
 }
 
@@ -132,9 +133,9 @@ fn mean_load(element: &Element, [from, to]: [f64; 2]) -> f64 {
     let (low, high) = (from.min(to), from.max(to));
     let part = |[places, weights]: Block| {
         let (loads, _) = element.loads_at::<false, 4>(&places.map(|t| high - t * (high - low)));
-        (Lanes(weights) * Lanes(loads)).total()
+        (Lanes(weights) * Lanes(loads)).sum()
     };
-    if 16.0 * width.abs() < room(element, low, high) {
+    if 16.0 * width.abs() < distance_to_singularity(element, low, high) {
         return part(PATH_RULE);
     }
     if 16.0 * width.abs() < low {
@@ -159,9 +160,9 @@ impl SlipPiece {
         let widest = b0.max(b1);
         let width = widest - c1;
         if 2.5 * width < widest {
-            let room = room(element, c1, widest);
-            let rule = |length: f64| gauss_rule(if 16.0 * length < room { 1 } else { 2 });
-            if 1.5 * width < room {
+            let distance_to_singularity = distance_to_singularity(element, c1, widest);
+            let rule = |length: f64| gauss_rule(if 16.0 * length < distance_to_singularity { 1 } else { 2 });
+            if 1.5 * width < distance_to_singularity {
                 return self.integral_of_curvature(element, [rule(swept.max(growth.abs())), rule(width)]);
             }
             if 8.0 * width < widest {
@@ -170,10 +171,10 @@ impl SlipPiece {
                 return self.integral_of_curvature(element, [path_rule, zone_rule]);
             }
         }
-        let inner = if 16.0 * swept < room(element, c1, c0) {
+        let inner = if 16.0 * swept < distance_to_singularity(element, c1, c0) {
             let [nodes, weights] = PATH_RULE;
             let (loads, slopes) = element.loads_at::<true, 4>(&nodes.map(|node| c0 - node * swept));
-            (Lanes(weights) * (Lanes(loads) + Lanes(slopes) * self.width(Lanes(nodes)))).total()
+            (Lanes(weights) * (Lanes(loads) + Lanes(slopes) * self.width(Lanes(nodes)))).sum()
         } else {
             let at = |s: f64, width: f64| element.load_under(s) * width;
             let ends = at(c0, b0 - c0) - at(c1, b1 - c1);
@@ -204,7 +205,7 @@ impl SlipPiece {
                     remainders += (*t * *part) * curvatures.max(0.0);
                 }
             }
-            sum += (weights * remainders).total();
+            sum += (weights * remainders).sum();
         }
         (self.inner[0] - self.inner[1]) * sum
     }
@@ -243,7 +244,7 @@ fn squared(block: Block) -> Block {
 
 /// Distance of an interval to the singularities of N(S): S = 0 and, where the compliance of a short contact vanishes, at least 0.7
 /// % beyond the largest shift.
-fn room(element: &Element, low: f64, high: f64) -> f64 {
+fn distance_to_singularity(element: &Element, low: f64, high: f64) -> f64 {
     low.min(1.007 * element.largest_shift - high)
 }
 

@@ -26,7 +26,7 @@ use crate::fourier::sampled_jacobian::Assembly;
 use crate::fourier::workspace::{Layout, Parts, SamplingSize};
 use crate::fourier::{largest_of, normalise, work};
 use crate::limits::check_coefficients;
-use crate::numerics::total::{PanicFreeSlice, Stack};
+use crate::numerics::slices::{PanicFreeSlice, Stack};
 use crate::tag::Kind;
 use forces::Forces;
 use jacobian::{Context, JacobianMemory};
@@ -51,7 +51,7 @@ pub struct OneDirectionWorkspace<'a> {
     samples: Samples<'a>,
     path: PeriodicPath<'a>,
     forces: Forces<'a>,
-    sensitivity: JacobianMemory<'a>,
+    jacobian_memory: JacobianMemory<'a>,
     assembly: Assembly<'a>,
 }
 
@@ -73,7 +73,7 @@ impl<'a> Layout<'a> for OneDirectionWorkspace<'a> {
 
     fn fill(&mut self) {
         self.fourier.fill();
-        self.sensitivity.rows.fill();
+        self.jacobian_memory.rows.fill();
     }
 
     fn take(size: SamplingSize, parts: &mut Parts<'a>) -> OneDirectionWorkspace<'a> {
@@ -97,8 +97,8 @@ impl<'a> Layout<'a> for OneDirectionWorkspace<'a> {
         let stored = parts.take_blocks(2 * row_blocks(harmonics) * capacity);
         let outer = OuterProducts::take(parts, harmonics, count, 2);
         let assembly = Assembly::take(parts, harmonics, 1.0 / count as f64);
-        let sensitivity = JacobianMemory { rows, pieces, stored, places, outer, own: [by_u, by_input] };
-        OneDirectionWorkspace { size, fourier, samples, path, forces, sensitivity, assembly }
+        let jacobian_memory = JacobianMemory { rows, pieces, stored, places, outer, own: [by_u, by_input] };
+        OneDirectionWorkspace { size, fourier, samples, path, forces, jacobian_memory, assembly }
     }
 }
 
@@ -156,7 +156,7 @@ pub fn harmonic_force(
     let HarmonicOutput { force, jacobian, dissipated, drift } = output;
     let (tangential, input) = displacement.split_at_checked(coefficients).unwrap_or((&[], &[]));
     let least_input = workspace.press(element, input, jacobian.is_some())?;
-    let OneDirectionWorkspace { fourier, samples, path, forces, sensitivity, .. } = workspace;
+    let OneDirectionWorkspace { fourier, samples, path, forces, jacobian_memory, .. } = workspace;
     fourier.synthesise(tangential, samples.displacement);
     let has = |coefficients: &[f64], parity: usize| {
         coefficients.iter().enumerate().any(|(c, value)| c.div_ceil(2) % 2 == parity && *value != 0.0)
@@ -177,7 +177,7 @@ pub fn harmonic_force(
             cut_stiffnesses: forces.cut_stiffness,
             slopes: forces.slope,
         };
-        sensitivity.gather(&context, runs);
+        jacobian_memory.gather(&context, runs);
     }
     if let Some(drift) = drift {
         *drift = 0.0;
@@ -244,15 +244,15 @@ impl OneDirectionWorkspace<'_> {
     }
 
     fn write_jacobian(&mut self, element: &Element, part: &EvaluatedPart, jacobian: &mut [f64]) {
-        let OneDirectionWorkspace { size, fourier, samples, sensitivity, assembly, .. } = self;
+        let OneDirectionWorkspace { size, fourier, samples, jacobian_memory, assembly, .. } = self;
         let coefficients = size.coefficients();
         let (by_displacement, by_input) =
             jacobian.split_at_mut_checked(2 * coefficients * coefficients).unwrap_or((&mut [], &mut []));
         let parts = [(&mut *by_displacement, 1.0), (&mut *by_input, -1.0)];
-        for (index, ((columns, sign), own)) in parts.into_iter().zip(&mut sensitivity.own).enumerate() {
+        for (index, ((columns, sign), own)) in parts.into_iter().zip(&mut jacobian_memory.own).enumerate() {
             let symmetry = part.half_wave.then_some(sign);
             fourier.sum_half_wave(part.start, symmetry, own, assembly.sums);
-            assembly.set_products(&sensitivity.outer, index);
+            assembly.set_products(&jacobian_memory.outer, index);
             assembly.write(symmetry, columns, 2 * coefficients);
             for column in columns.chunks_exact_mut(2 * coefficients) {
                 column.iter_mut().skip(coefficients).for_each(|value| *value = 0.0);

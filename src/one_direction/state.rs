@@ -11,7 +11,7 @@ use crate::fourier::workspace::records;
 use crate::law::{Law, LawStep, Requested, StepResult};
 use crate::limits::check_displacement;
 use crate::numerics::fp_class::is_finite;
-use crate::numerics::total::PanicFreeSlice;
+use crate::numerics::slices::PanicFreeSlice;
 use crate::one_direction::OneDirection;
 use crate::one_direction::diagram::{Knot, Polygon};
 use crate::one_direction::harmonic_force::{HarmonicOutput, OneDirectionWorkspace, harmonic_force};
@@ -64,7 +64,7 @@ impl Law for OneDirection {
         element.check_directions(Directions::One)
     }
 
-    fn contains_counted(state: &[f64]) -> bool {
+    fn fits_its_counts(state: &[f64]) -> bool {
         let pieces = state.get(1).copied().and_then(count);
         pieces.is_some_and(|pieces| pieces < state.len().saturating_sub(HEADER) / PER_KNOT)
     }

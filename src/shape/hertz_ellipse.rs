@@ -106,7 +106,7 @@ pub fn at_load(size: &Size, load: f64) -> Size {
     size.resized(load.cbrt())
 }
 
-pub fn near_shift(_: &Size, load: f64) -> f64 {
+pub fn estimated_leg(_: &Size, load: f64) -> f64 {
     (load / 1.5).sqrt()
 }
 

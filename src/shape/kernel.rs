@@ -29,17 +29,17 @@ impl Kernel {
     }
 
     /// The increase of the kernel from s = 1 down to s, given s and 1 - s².
-    pub fn increase(self, half_width: f64, squares: f64) -> f64 {
+    pub fn increase(self, half_width: f64, square_difference: f64) -> f64 {
         let square = half_width * half_width;
         match self {
             Kernel::Line if square < 0.5 => -0.5 * square.max(TINY).ln(),
-            Kernel::Line => -0.5 * (-squares).max(-0.5).ln_1p(),
+            Kernel::Line => -0.5 * (-square_difference).max(-0.5).ln_1p(),
             Kernel::Point => quotient(1.0, half_width) - 1.0,
         }
     }
 
     /// 1 - s² at a given increase of the kernel: the inverse of `increase`.
-    pub fn squares(self, increase: f64) -> f64 {
+    pub fn square_difference(self, increase: f64) -> f64 {
         match self {
             Kernel::Line => -(-2.0 * increase).exp_m1(),
             Kernel::Point => {

@@ -47,16 +47,16 @@ impl LayerCompliance {
         let is_linear = stiffening_load == 0.0 || stiffening_load > 2f64.powi(200) * normal_force.max(reference);
         let stiffening = if is_linear { 0.0 } else { 1.0 / stiffening_load };
         let unloaded = 1.0 + stiffening * reference;
-        let under_load = unloaded / (1.0 + stiffening * normal_force);
-        if under_load > MOST_COMPLIANT {
+        let compliance_under_load = unloaded / (1.0 + stiffening * normal_force);
+        if compliance_under_load > MOST_COMPLIANT {
             return Err(Error::BadReferenceLoad);
         }
         for (compliance, error) in
             [(normal_compliance, Error::BadNormalCompliance), (tangential_compliance, Error::BadTangentialCompliance)]
         {
             if compliance > 0.0 {
-                in_range(&[compliance, under_load]).map_err(|_| error)?;
-                in_range(&[compliance, under_load, normal_force]).map_err(|_| error)?;
+                in_range(&[compliance, compliance_under_load]).map_err(|_| error)?;
+                in_range(&[compliance, compliance_under_load, normal_force]).map_err(|_| error)?;
             }
         }
         let layer = LayerCompliance {
@@ -64,7 +64,7 @@ impl LayerCompliance {
             tangential: tangential_compliance * unloaded,
             stiffening,
         };
-        Ok((layer, under_load))
+        Ok((layer, compliance_under_load))
     }
 
     pub fn is_none(&self) -> bool {
@@ -162,7 +162,7 @@ impl LayerCompliance {
         stiffness_scale: f64,
         of_contact: f64,
     ) -> Result<(LayerCompliance, f64), Error> {
-        let (LayerCompliance { tangential, stiffening, .. }, under_load) =
+        let (LayerCompliance { tangential, stiffening, .. }, compliance_under_load) =
             LayerCompliance::new(parameters, normal_force)?;
         if tangential > 0.0 {
             in_range(&[tangential, stiffness_scale]).map_err(|_| Error::BadTangentialCompliance)?;
@@ -172,7 +172,7 @@ impl LayerCompliance {
         if relative.compliance(1.0) > MOST_COMPLIANT * of_contact {
             return Err(Error::BadTangentialCompliance);
         }
-        Ok((relative, under_load))
+        Ok((relative, compliance_under_load))
     }
 
     /// The load z under which the layer alone has the consumed shift.

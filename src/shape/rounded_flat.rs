@@ -23,7 +23,7 @@ use crate::limits::{LARGEST_EXPONENT, exponent_of, in_range, quotient_in_range};
 use crate::numerics::const_math::tabulate;
 use crate::numerics::guard::{TINY, quotient};
 use crate::numerics::polynomial::{self, PolynomialRows, rows};
-use crate::numerics::total::PanicFreeSlice;
+use crate::numerics::slices::PanicFreeSlice;
 use crate::parameters::{CENTRE_POINT, Common, Pair, Parameters, RIGID_STRIP, not_negative, positive};
 use crate::shape::series::{ORDER, Series, add_quotient_term, identity, product_term};
 use crate::shape::size::Size;
@@ -144,7 +144,7 @@ pub fn gamma(size: &Size, load: f64) -> f64 {
 
 /// The size under a load, from an initial guess with an error of at most 3 %. Each iteration raises the error to its fourth power.
 pub fn at_load(size: &Size, load: f64) -> Size {
-    let mut now = size.resized(near_shift(size, load));
+    let mut now = size.resized(estimated_leg(size, load));
     for _ in 0..4 {
         let found = now.load();
         let inverse = now.inverse(found, quotient(now.load_slope(), found), now.rates(), [0.0; 2]);
@@ -159,7 +159,7 @@ pub fn at_load(size: &Size, load: f64) -> Size {
 
 /// An estimate of the leg under a load g, with an error of at most 3 %: the cube root of the sum of the cubes of both limits,
 /// `sqrt(g/π)` of the cylinder and `(3ag/4)^(1/3)` of the flat.
-pub fn near_shift(size: &Size, load: f64) -> f64 {
+pub fn estimated_leg(size: &Size, load: f64) -> f64 {
     let load = load.max(0.0);
     let hertz = load / PI;
     (hertz * hertz.sqrt() + 0.75 * size.flat * load).cbrt()

@@ -1,6 +1,6 @@
 //! N, U and S as Taylor series of one of them about a size, for the tables of elements.
 
-use crate::numerics::total::PanicFreeSlice;
+use crate::numerics::slices::PanicFreeSlice;
 use crate::shape::{Quantity, Shape};
 
 /// Number of Taylor coefficients in a [`Series`].

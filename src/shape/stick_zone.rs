@@ -115,11 +115,11 @@ impl StickZones {
 
     /// Compliance increase λ of a stick zone without the layer, accurate also for c close to b.
     fn increase_of(&self, size: &Size) -> f64 {
-        let squares = (self.contact.leg - size.leg) * (self.contact.leg + size.leg);
-        self.contact.kernel().increase(size.half_width, squares)
+        let square_difference = (self.contact.leg - size.leg) * (self.contact.leg + size.leg);
+        self.contact.kernel().increase(size.half_width, square_difference)
     }
 
-    /// Curvature `h'' = dλ/dτ` at a stick zone without the layer: the rates of λ and of τ with ln leg, divided.
+    /// Curvature `h'' = dλ/dτ` at a stick zone without the layer: g_b times -dΛ/dg.
     fn curvature_of(&self, size: &Size) -> f64 {
         self.load * size.decrease_with_load()
     }
@@ -144,12 +144,12 @@ impl StickZones {
         self.contact.at_load(remaining * self.load)
     }
 
-    /// The size with `1 - τ = remaining`, given λ of contact and layer to the rounding of Λ + λ, and its load g.
+    /// The size with `1 - τ = remaining`, and its g. The λ of contact and layer must be accurate to the rounding of Λ + λ.
     fn size_near(&self, remaining: f64, compliance_increase: f64) -> (Size, f64) {
         let load = remaining * self.load;
         let own = compliance_increase - self.layer.increase(Complement::of_remaining(remaining));
         let square = self.contact.leg * self.contact.leg;
-        let leg = (square - self.contact.kernel().squares(own)).max(0.25 * square * remaining).sqrt();
+        let leg = (square - self.contact.kernel().square_difference(own)).max(0.25 * square * remaining).sqrt();
         (self.contact.resized(leg).at_load_near(load), load)
     }
 
@@ -193,7 +193,7 @@ impl StickZones {
             let of_layer = self.layer.load_of_extent(remaining / self.layer.tangential);
             own = own.min(slip_shift * of_layer.sqrt()).max(f64::MIN_POSITIVE);
         }
-        let near = |compliance: f64| self.contact.near_shift(own / compliance * self.load);
+        let near = |compliance: f64| self.contact.estimated_leg(own / compliance * self.load);
         let leg = near(self.small_load_without_layer.compliance);
         if self.contact.is_power_law() {
             return self.contact.resized(leg);
@@ -288,8 +288,9 @@ impl StickZones {
         let (punch, load_c) = self.size_near(remaining, compliance_increase);
         let (beta, gamma) = (punch.beta(load_c), punch.gamma(load_c));
         let increase = self.increase_of(&punch);
-        let squares = self.gamma - remaining * remaining * gamma;
-        let energy = 4.0 * ((1.0 + remaining) * (self.beta - remaining * beta) - remaining * increase - squares);
+        let square_difference = self.gamma - remaining * remaining * gamma;
+        let energy =
+            4.0 * ((1.0 + remaining) * (self.beta - remaining * beta) - remaining * increase - square_difference);
         let slope = 4.0 * (increase - self.beta + remaining * beta);
         if !self.has_layer() {
             return (energy, slope);
@@ -306,8 +307,13 @@ impl StickZones {
         let tau = load.consumed;
         let (increase, first, complement, leg_difference) = if tau <= 0.5 {
             let [increase, first] = self.small_load_without_layer.moments(tau);
-            let squares = -(-2.0 * increase).exp_m1();
-            (increase, first, increase - first, squares / (leg + (leg * leg - squares).max(0.0).sqrt()))
+            let square_difference = -(-2.0 * increase).exp_m1();
+            (
+                increase,
+                first,
+                increase - first,
+                square_difference / (leg + (leg * leg - square_difference).max(0.0).sqrt()),
+            )
         } else {
             let (punch, load_c) = self.size_near(load.remaining, compliance_increase);
             let increase = self.increase_of(&punch);
@@ -330,7 +336,7 @@ impl StickZones {
     }
 
     /// leg² of a stick zone, and `leg_b² - leg²` free of cancellation.
-    fn squares(&self, zone: &StickZone) -> [f64; 2] {
+    fn square_difference(&self, zone: &StickZone) -> [f64; 2] {
         if let Some(leg) = zone.leg {
             return [leg * leg, (self.contact.leg - leg) * (self.contact.leg + leg)];
         }
@@ -339,19 +345,19 @@ impl StickZones {
         } else {
             zone.compliance_increase
         };
-        let squares = self.contact.kernel().squares(increase);
-        [(self.contact.leg * self.contact.leg - squares).max(0.0), squares]
+        let square_difference = self.contact.kernel().square_difference(increase);
+        [(self.contact.leg * self.contact.leg - square_difference).max(0.0), square_difference]
     }
 
     /// c/b.
     pub fn size(&self, zone: &StickZone) -> f64 {
-        let [square, _] = self.squares(zone);
+        let [square, _] = self.square_difference(zone);
         (self.contact.flat * self.contact.flat + square).sqrt().max(self.contact.flat)
     }
 
     /// Pressure of the contact less the pressure of a smaller size, given `[leg², leg_b² - leg²]` of the latter.
-    fn pressure_beyond(&self, [square, squares]: [f64; 2], point: &SurfacePoint) -> f64 {
-        let legs = [square.sqrt(), self.contact.leg, squares];
+    fn pressure_beyond(&self, [square, square_difference]: [f64; 2], point: &SurfacePoint) -> f64 {
+        let legs = [square.sqrt(), self.contact.leg, square_difference];
         self.contact.pressure(legs, point) * self.traction_scale() / PI
     }
 
@@ -368,12 +374,12 @@ impl StickZones {
     /// Shear traction over μ in those units under a monotonically increased force: the pressure of b less that of the stick zone
     /// (Eq. 21).
     pub fn shear(&self, point: &SurfacePoint, zone: &StickZone) -> f64 {
-        self.pressure_beyond(self.squares(zone), point)
+        self.pressure_beyond(self.square_difference(zone), point)
     }
 
     /// Relative slip (Eq. 15) in units of shift; `None` for an ellipse, for which there is no closed form.
     pub fn slip(&self, point: &SurfacePoint, zone: &StickZone) -> Option<f64> {
-        let [square, _] = self.squares(zone);
+        let [square, _] = self.square_difference(zone);
         let slip = self.contact.resized(square.sqrt()).slip(point);
         (!slip.is_nan()).then_some(slip * self.traction_scale())
     }

@@ -46,16 +46,16 @@ pub(crate) fn pressure(size: &Size, [from, to, squares]: [f64; 3], point: &Surfa
     if edge >= to {
         return 0.0;
     }
-    let (upper, upper_size) = antiderivative(size, to, point);
+    let (upper, upper_magnitude) = antiderivative(size, to, point);
     // The antiderivative is 0 if the integral starts at leg = 0 or at c' = |x|.
-    let (start, lower, lower_size) = if from > edge {
+    let (start, lower, lower_magnitude) = if from > edge {
         let (lower, size) = antiderivative(size, from, point);
         (from, lower, size)
     } else {
         (edge, 0.0, 0.0)
     };
     let closed = upper - lower;
-    if closed.abs() >= CANCELLATION_LIMIT * (upper_size + lower_size) {
+    if closed.abs() >= CANCELLATION_LIMIT * (upper_magnitude + lower_magnitude) {
         return closed;
     }
     let root_inside = |leg: f64| root(leg * leg - outside);

@@ -27,7 +27,7 @@ use crate::fourier::{basis, normalise, work};
 use crate::limits::check_coefficients;
 use crate::numerics::guard::quotient;
 use crate::numerics::lanes::Lanes;
-use crate::numerics::total::{PanicFreeSlice, Zero};
+use crate::numerics::slices::{PanicFreeSlice, Zero};
 use crate::tag::Kind;
 use core::iter;
 
@@ -250,7 +250,7 @@ impl PeriodIntegration<'_> {
     fn open(&mut self, to: [f64; 3]) {
         (self.contacts[1], self.slopes) = (LoadedContact::default(), [None; 2]);
         let State { displacement, springs, normal_force, load_slope, .. } = &mut self.state;
-        (*displacement, *springs, *normal_force, *load_slope) = (to, Displacements::NONE, 0.0, 0.0);
+        (*displacement, *springs, *normal_force, *load_slope) = (to, Displacements::ZERO, 0.0, 0.0);
     }
 
     /// The change of the force from other springs, over its bound.
@@ -345,9 +345,9 @@ fn integrate_periods(element: &Element, workspace: &mut TwoDirectionsWorkspace, 
         state: State::open([0.0, 0.0, largest_input]),
         node_slopes: Nodes::zero(),
         contacts: [LoadedContact::default(); 2],
-        solved: SolvedStep::NONE,
+        solved: SolvedStep::ZERO,
         slopes: [None; 2],
-        tangent: StepTangent::NONE,
+        tangent: StepTangent::ZERO,
     };
     let load = element.normal(largest_input).load;
     integration.state.set_nodes(element, load);

@@ -3,7 +3,7 @@
 use super::nodes::{Matrix, Row, SPRINGS};
 use crate::numerics::guard::TINY;
 use crate::numerics::lanes::Lanes;
-use crate::numerics::total::PanicFreeSlice;
+use crate::numerics::slices::PanicFreeSlice;
 
 /// Σ x_m A_m, with the rows A_m of a matrix in a range.
 pub(super) fn times(matrix: &Matrix, [first, end]: [usize; 2], x: &Row) -> Row {

@@ -13,7 +13,7 @@ use crate::element::Element;
 use crate::fourier::workspace::record;
 use crate::numerics::dual::Number;
 use crate::numerics::guard::quotient;
-use crate::numerics::total::Zero;
+use crate::numerics::slices::Zero;
 use crate::tag::Kind;
 use core::ops::Range;
 

@@ -32,7 +32,7 @@ use crate::fourier::workspace::{doubles_mut, record};
 use crate::numerics::dual::{Dual, Number};
 use crate::numerics::guard::{TINY, quotient};
 use crate::numerics::lanes::Lanes;
-use crate::numerics::total::Zero;
+use crate::numerics::slices::Zero;
 
 /// Number of springs: one for each shell. The first one is that of the flat.
 pub(crate) const SPRINGS: usize = 16;
@@ -137,7 +137,7 @@ impl Units {
     /// under this normal component.
     pub fn logarithmic_slope(element: &Element, input: f64) -> f64 {
         let normal = element.normal(input);
-        let [leg, slope] = element.shape().size_under(normal.load);
+        let [leg, slope] = element.shape().leg_and_slope_under(normal.load);
         element.input_scale() * quotient(0.5 * slope * normal.load_slope, leg * leg)
     }
 }

@@ -36,7 +36,7 @@ record! {
 
 impl Default for ScaledNormalState {
     fn default() -> ScaledNormalState {
-        ScaledNormalState::NONE
+        ScaledNormalState::ZERO
     }
 }
 
@@ -53,7 +53,7 @@ const THINNEST: f64 = 1e-9;
 const LEAST_STIFFNESS: f64 = 1e-12;
 
 impl ScaledNormalState {
-    pub const NONE: ScaledNormalState =
+    pub const ZERO: ScaledNormalState =
         ScaledNormalState { load: 0.0, shift: [0.0; 2], inside: 0.0, inside_leg_squared: 0.0, inside_shift: [0.0; 2] };
 
     /// The state of a contact that is closed, and its derivatives by the normal component over its scale.
@@ -61,7 +61,7 @@ impl ScaledNormalState {
         // Products instead of quotients, see `numerics/guard.rs`.
         let [per_load, per_shift, per_leg] = [units.load, units.shift, units.leg].map(f64::recip);
         let (inside, scale) = (element.normal(INSIDE_EDGE * input), element.input_scale());
-        let [leg, slope] = element.shape().size_under(inside.load.max(SMALLEST_LOAD * element.normal_force));
+        let [leg, slope] = element.shape().leg_and_slope_under(inside.load.max(SMALLEST_LOAD * element.normal_force));
         let (leg, slope) = (leg * per_leg, INSIDE_EDGE * slope * inside.load_slope * per_leg * per_leg);
         let [y, y_inside] = [normal, &inside].map(|normal| element.shift_y(normal));
         let per = [per_load, per_shift, per_shift, per_load, 1.0, per_shift, per_shift];
@@ -110,7 +110,7 @@ pub(crate) struct Shells {
 }
 
 impl Shells {
-    pub const NONE: Shells = Shells {
+    pub const ZERO: Shells = Shells {
         first: 0,
         last: 0,
         delta_load: [Row::ZERO; 2],
@@ -129,7 +129,7 @@ impl Shells {
 
     /// The shells from one to the one before the last one, which do not depend on the load; 0 without tables of nodes.
     fn whole(nodes: Option<&Nodes>, first: usize, last: usize) -> Shells {
-        let mut shells = Shells { first, last: last.min(SPRINGS - 1), ..Shells::NONE };
+        let mut shells = Shells { first, last: last.min(SPRINGS - 1), ..Shells::ZERO };
         if let Some(nodes) = nodes {
             for j in 0..shells.last {
                 for axis in 0..2 {
@@ -178,7 +178,7 @@ impl Shells {
 
     /// The contact in the middle of a step: the means of the shells at both ends.
     pub fn middle([from, to]: [&Shells; 2]) -> Shells {
-        let mut middle = Shells { first: to.first, last: from.last.max(to.last), ..Shells::NONE };
+        let mut middle = Shells { first: to.first, last: from.last.max(to.last), ..Shells::ZERO };
         for axis in 0..2 {
             middle.delta_load[axis] = 0.5 * (from.delta_load[axis] + to.delta_load[axis]);
             middle.delta_shift[axis] = 0.5 * (from.delta_shift[axis] + to.delta_shift[axis]);
@@ -273,8 +273,8 @@ pub(crate) struct Springs {
 }
 
 impl Springs {
-    pub const NONE: Springs = Springs {
-        shells: Shells::NONE,
+    pub const ZERO: Springs = Springs {
+        shells: Shells::ZERO,
         pressure: [Row::ZERO; SPRINGS],
         per_pressure: Row::ZERO,
         per_delta_shift: [Row::ZERO; 2],

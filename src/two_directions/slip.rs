@@ -71,7 +71,7 @@ pub(crate) struct Metric {
 impl Metric {
     /// The load of a K that is not used again: it equals no load.
     pub const NEVER_REUSED: f64 = f64::NAN;
-    pub const NONE: Metric =
+    pub const ZERO: Metric =
         Metric { matrices: [[Row::ZERO; SPRINGS]; 2], computed_for: (0, 0.0), inverse: [Row::ZERO; SPRINGS] };
 }
 
@@ -94,7 +94,7 @@ impl Slip {
         [self.points.first.min(SPRINGS), springs.shells.range().end.min(SPRINGS)]
     }
 
-    pub const NONE: Slip = {
+    pub const ZERO: Slip = {
         let rows = [Row::ZERO; 2];
         let points = Points { set: 0, first: 0, slips: Row::ZERO, e: rows, q: rows, r: rows, v: rows };
         Slip { points, trial: rows, rotation_guess: Row::ZERO }

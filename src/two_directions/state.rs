@@ -155,7 +155,7 @@ impl State {
             // Springs that close in a step all carry the same part of it, at any nodes.
             self.set_nodes(element, load);
         }
-        let mut solved = SolvedStep::NONE;
+        let mut solved = SolvedStep::ZERO;
         solved.slips.iter_mut().zip(self.rotation_guess).for_each(|(slip, guess)| slip.rotation_guess = guess);
         let Step { path, force: [x, y] } = self.step_at_nodes(element, &mut contacts, to, &mut solved);
         let (contacts, unit) = (contacts.each_ref(), element.friction_coefficient * self.units.load);
@@ -193,7 +193,7 @@ impl State {
         moved: Option<&(OldSprings, Nodes)>,
     ) -> PerAxis<Lanes<4>> {
         let node_slopes = moved.map(|(_, node_slopes)| node_slopes);
-        let (mut tangent, mut changes) = (StepTangent::NONE, PerParameter::default());
+        let (mut tangent, mut changes) = (StepTangent::ZERO, PerParameter::default());
         let [from, to] = contacts.map(|contact| ContactSlopes::new(&self.nodes, node_slopes, contact));
         tangent.set((solved, path), contacts, [&from, &to], node_slopes);
         changes.end = Lanes([0.0, 0.0, 1.0, 0.0]);
@@ -218,7 +218,7 @@ impl State {
             let path = ContactPath::new(element, &self.units, [self.displacement, to], [true, false]);
             let unit = element.friction_coefficient * self.units.load;
             let unit = unit * element.friction_coefficient * self.units.shift * path.scale;
-            let open = ScaledNormalState::NONE;
+            let open = ScaledNormalState::ZERO;
             result.dissipated = unit * separated(&self.nodes, &self.contact(), &open, path.displacement, &self.springs);
         }
         *self = State::open(to);

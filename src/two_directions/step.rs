@@ -76,7 +76,7 @@ record! {
 }
 
 impl Displacements {
-    pub const NONE: Displacements = Displacements { v: [[0.0; SPRINGS]; 2], edge: [0.0; 2] };
+    pub const ZERO: Displacements = Displacements { v: [[0.0; SPRINGS]; 2], edge: [0.0; 2] };
 }
 
 /// Limits below this, in the unit of the springs, are rounding errors. The fourth power of a motion over it stays
@@ -270,14 +270,14 @@ pub(crate) struct SolvedStep {
 }
 
 impl SolvedStep {
-    pub const NONE: SolvedStep = SolvedStep {
-        old: Displacements::NONE,
+    pub const ZERO: SolvedStep = SolvedStep {
+        old: Displacements::ZERO,
         follow: [[0.0; SPRINGS]; 2],
         gross_slip: 0.0,
-        end_springs: Springs::NONE,
-        middle_springs: Springs::NONE,
-        slips: [Slip::NONE, Slip::NONE],
-        metric: Metric::NONE,
+        end_springs: Springs::ZERO,
+        middle_springs: Springs::ZERO,
+        slips: [Slip::ZERO, Slip::ZERO],
+        metric: Metric::ZERO,
     };
 
     /// Advances springs from one contact to another: the force, which is not yet bounded.

@@ -40,11 +40,11 @@ impl ContactSlopes {
     pub fn new(nodes: &Nodes, node_slopes: Option<&Nodes>, contact: &LoadedContact) -> ContactSlopes {
         let LoadedContact { normal, slopes, shells } = contact;
         if normal.load == 0.0 {
-            return ContactSlopes { by_load: Shells::NONE, by_reference: Shells::NONE };
+            return ContactSlopes { by_load: Shells::ZERO, by_reference: Shells::ZERO };
         }
         ContactSlopes {
             by_load: shells.slopes((nodes, None), [normal, slopes]),
-            by_reference: shells.slopes((nodes, node_slopes), [normal, &ScaledNormalState::NONE]),
+            by_reference: shells.slopes((nodes, node_slopes), [normal, &ScaledNormalState::ZERO]),
         }
     }
 }
@@ -71,7 +71,7 @@ struct SlipTerms {
 }
 
 impl SlipTerms {
-    const NONE: SlipTerms = {
+    const ZERO: SlipTerms = {
         let zero = [Row::ZERO; 2];
         SlipTerms { tractions: zero, forces: zero, slip: zero }
     };
@@ -128,12 +128,12 @@ fn stiffness_slopes(springs: &Springs, axis: usize, slopes: &Shells) -> Row {
 }
 
 impl ParameterTerms {
-    const NONE: ParameterTerms = ParameterTerms {
-        states: [ScaledNormalState::NONE; 2],
+    const ZERO: ParameterTerms = ParameterTerms {
+        states: [ScaledNormalState::ZERO; 2],
         shift_of_nodes: [Row::ZERO; 2],
         stiffness: [Row::ZERO; 2],
         edge_stiffness: [0.0; 2],
-        slips: [SlipTerms::NONE; 2],
+        slips: [SlipTerms::ZERO; 2],
     };
 
     /// Sets the terms, given the derivatives of the normal states at both ends, and those of the shells as in
@@ -164,7 +164,7 @@ struct SlipJacobian {
 }
 
 impl SlipJacobian {
-    const NONE: SlipJacobian = SlipJacobian { metric: [[Row::ZERO; SPRINGS]; 2], inverse: [Row::ZERO; SPRINGS] };
+    const ZERO: SlipJacobian = SlipJacobian { metric: [[Row::ZERO; SPRINGS]; 2], inverse: [Row::ZERO; SPRINGS] };
 
     fn set(&mut self, springs: &Springs, slip: &Slip) {
         let (points, range) = (&slip.points, slip.range(springs));
@@ -182,9 +182,9 @@ pub(crate) struct StepTangent {
 }
 
 impl StepTangent {
-    pub const NONE: StepTangent = StepTangent {
-        terms: PerParameter { start: ParameterTerms::NONE, end: ParameterTerms::NONE, reference: ParameterTerms::NONE },
-        slips: [SlipJacobian::NONE, SlipJacobian::NONE],
+    pub const ZERO: StepTangent = StepTangent {
+        terms: PerParameter { start: ParameterTerms::ZERO, end: ParameterTerms::ZERO, reference: ParameterTerms::ZERO },
+        slips: [SlipJacobian::ZERO, SlipJacobian::ZERO],
     };
 
     /// Sets the derivatives of a step between contacts, given those of their shells, and of the nodes if they depend on
@@ -196,10 +196,10 @@ impl StepTangent {
         [by_from, by_to]: [&ContactSlopes; 2],
         node_slopes: Option<&Nodes>,
     ) {
-        let (none, terms) = (ScaledNormalState::NONE, &mut self.terms);
+        let (none, terms) = (ScaledNormalState::ZERO, &mut self.terms);
         // By the load, only the last shells have derivatives.
-        let by_start = ([&by_from.by_load, &Shells::NONE], None, from.shells.last);
-        let by_end = ([&Shells::NONE, &by_to.by_load], None, to.shells.last);
+        let by_start = ([&by_from.by_load, &Shells::ZERO], None, from.shells.last);
+        let by_end = ([&Shells::ZERO, &by_to.by_load], None, to.shells.last);
         terms.start.set((solved, path), [from.slopes, none], by_start);
         terms.end.set((solved, path), [none, to.slopes], by_end);
         if node_slopes.is_some() {

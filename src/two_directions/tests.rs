@@ -6,7 +6,7 @@ use super::shells::{ScaledNormalState, Springs};
 use super::slip::{Metric, Slip};
 use super::step::LoadedContact;
 use crate::element::{Directions, Element, NormalInput};
-use crate::numerics::total::Zero;
+use crate::numerics::slices::Zero;
 use crate::parameters::{Layer, Material, Parameters};
 
 /// Sums of 16 terms have rounding errors of 1e-15; those of a thin shell are ten times as large.
@@ -32,7 +32,7 @@ fn for_contacts(check: impl Fn(&LoadedContact, &Nodes, &Springs)) {
     let flat = Parameters { flat_half_width: 2e-3, ..cylinder };
     for parameters in [cylinder, flat, Parameters { layer, ..cylinder }, Parameters { layer, ..flat }] {
         let element = Element::rounded_flat(&parameters, Directions::Two, NormalInput::Force).unwrap();
-        let (units, mut nodes, mut springs) = (Units::at_load(&element, 800.0), Nodes::zero(), Springs::NONE);
+        let (units, mut nodes, mut springs) = (Units::at_load(&element, 800.0), Nodes::zero(), Springs::ZERO);
         nodes.fill(&element, &units, 1.0);
         for load in [800.0, 799.0, 500.0, 90.0, 3.0, 1e-3] {
             let state = ScaledNormalState::new(&element, &units, load, &element.normal(load));
@@ -72,7 +72,7 @@ fn slip() {
     for_contacts(|contact, nodes, springs| {
         let limits = contact.limits(nodes);
         let find = |trial: PerAxis<Row>| {
-            let (mut slip, mut metric) = (Slip::NONE, Metric::NONE);
+            let (mut slip, mut metric) = (Slip::ZERO, Metric::ZERO);
             slip.find(&mut metric, springs, trial, contact.normal.load);
             slip.points
         };
@@ -92,7 +92,7 @@ fn slip() {
             let trial = [0.8 * angle.cos() * limits[0] + push, 0.8 * angle.sin() * limits[1] - 0.3 * push];
             let points = find(trial);
             // Sweeps alone find the same springs, but slowly: ten times as many reduce the error to a tenth.
-            let (mut swept, tractions) = (Slip::NONE.points, springs.tractions(&trial));
+            let (mut swept, tractions) = (Slip::ZERO.points, springs.tractions(&trial));
             let mut q = tractions;
             swept.v = trial;
             (0..10).for_each(|_| swept.sweep(springs, &tractions, &mut q));

@@ -118,8 +118,9 @@ pub fn set_filled_state(call: &Call, law: &Law, arguments: &mut Arguments, place
     used
 }
 
-/// Own states are valid in every rounding mode, also with a layer of the smallest N_c: the loads of neighbouring knots differ by the error
-/// of the polynomials of N(S), which is largest where two of them meet, at shifts S = 2^k (1 + q/4). Gross slip is at mu S.
+/// Own states are valid in every rounding mode, also with a layer of the smallest N_c: the loads of neighbouring knots differ by
+/// the error of the polynomials of N(S), which is largest where two of them meet, at shifts S = 2^k (1 + q/4). Gross slip is at mu
+/// S.
 #[test]
 fn states_with_layers_are_valid() {
     let update = call("mslip_element_update");
@@ -213,7 +214,8 @@ fn invalid_states() {
                 found(4, 1e-6 * load, "less than the last knot");
             }
             _ => {
-                // Loads, units, the normal state and its derivatives, springs, guesses of slips, a double of 17 digits, and rows of the nodes.
+                // Loads, units, the normal state and its derivatives, springs, guesses of slips, a double of 17 digits, and rows of
+                // the nodes.
                 const ROW: usize = 16;
                 let [pressed, slopes, springs, guesses, all_digits, nodes] = [10, 17, 24, 58, 90, 91];
                 let tables = [(0, 3), (5, 3), (6, 3), (7, 3), (8, 3), (11, 2)].map(|(row, j)| nodes + ROW * row + j);
@@ -242,8 +244,8 @@ fn invalid_states() {
     }
 }
 
-/// Results depend neither on the unused part of a state, nor on the new one before the call, which may be discarded, nor on the scratch
-/// memory of a workspace.
+/// Results depend neither on the unused part of a state, nor on the new one before the call, which may be discarded, nor on the
+/// scratch memory of a workspace.
 #[test]
 fn unused_memory() {
     for_each_call(|call, law, mut arguments| {

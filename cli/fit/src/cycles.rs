@@ -148,8 +148,8 @@ fn first_cycle(displacement: &[f64], first: usize, noise: f64) -> usize {
     let (values, count) = (smoothed(displacement), displacement.len());
     let above = |i: &usize| (values[*i] - values[0]) * (values[0] - values[first]).signum();
     let top = |from: usize, to: usize| (from..to).max_by(|i, j| above(i).total_cmp(&above(j))).unwrap_or(first);
-    // Whether the record starts before a reversal that is too close to its start to be found: farther from there than by noise, in six
-    // standard deviations.
+    // Whether the record starts before a reversal that is too close to its start to be found: farther from there than by noise, in
+    // six standard deviations.
     let before = above(&top(0, first)) > 6.0 * noise;
     let from = if before { first } else { top(first, count) + 1 };
     (from..count).find(|i| if before { above(i) >= 0.0 } else { above(i) <= 0.0 }).unwrap_or(count)

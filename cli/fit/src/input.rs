@@ -198,8 +198,8 @@ pub fn missing_parameters(is_given: impl Fn(&str) -> bool) -> Result<Vec<&'stati
     Ok(shape.iter().chain(&COMMON).copied().filter(|name| !is_given(name)).collect())
 }
 
-/// A record of displacement and tangential force, with at least one cycle. Samples in which a number is missing, NaN, or infinite are
-/// left out; in JSON it is null.
+/// A record of displacement and tangential force, with at least one cycle. Samples in which a number is missing, NaN, or infinite
+/// are left out; in JSON it is null.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Measurement {

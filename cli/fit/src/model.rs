@@ -7,8 +7,8 @@
 //! ```
 //!
 //! f the factor on the displacements of the law, C the series compliance under the normal force N₀ of the contact. The series
-//! stiffness is constant, h = T, or a share s of it grows in proportion to N. That is the library's contact of moduli E/f and radius R/f
-//! with a layer of N_c = N₀ (1/s - 1), and its derivatives. A spring in parallel adds a force in proportion to u.
+//! stiffness is constant, h = T, or a share s of it grows in proportion to N. That is the library's contact of moduli E/f and
+//! radius R/f with a layer of N_c = N₀ (1/s - 1), and its derivatives. A spring in parallel adds a force in proportion to u.
 
 use crate::cycles::{Loop, Sample};
 use crate::error::{Error, error};
@@ -289,8 +289,8 @@ mod tests {
         input::Contact { geometry, normal_force: 800.0, friction_coefficient: 0.5, material: [material; 2] }
     }
 
-    /// Central differences of relative step 1e-5 have an error of about 1e-10 of third derivatives, which grow towards gross slip, the
-    /// derivative by the share an error of its step.
+    /// Central differences of relative step 1e-5 have an error of about 1e-10 of third derivatives, which grow towards gross slip,
+    /// the derivative by the share an error of its step.
     #[test]
     fn derivatives_are_those_of_the_force() {
         for (parameter, share) in [(ShapeParameter::FlatHalfWidth, 0.9), (ShapeParameter::EdgeRadius, 0.3)] {

@@ -103,7 +103,8 @@ const SMALL_PART: f64 = 0.1;
 /// A plateau, and microslip, are claimed only beyond this multiple of the quantile: with a confidence of 0.9999.
 const CLAIM: f64 = 2.0;
 
-/// Whether a fit is as good as another one: it explains no less than by this part of the sum of squares, or by an error of the model.
+/// Whether a fit is as good as another one: it explains no less than by this part of the sum of squares, or by an error of the
+/// model.
 fn is_as_good_as(this: &Fit, other: &Fit, excess: f64) -> bool {
     let pairs = || misfits(this).into_iter().zip(misfits(other));
     this.chi_squared - other.chi_squared <= excess

@@ -227,8 +227,8 @@ fn causes_are_named_and_nothing_wrong_is_determined() {
 }
 
 /// A play that exceeds the displacement of gross slip many times, crossed at once or against a spring within a part of the slip
-/// force on both sides, bends the fit so far that the direction of a lag or of the speed explains more. At a small number of samples
-/// the force jumps behind the play.
+/// force on both sides, bends the fit so far that the direction of a lag or of the speed explains more. At a small number of
+/// samples the force jumps behind the play.
 #[test]
 fn a_large_play_is_named_first() {
     for (play, width) in [(1.5, 0.01), (3.0, 0.3), (5.0, 0.01), (10.0, 0.5), (40.0, 0.01)] {

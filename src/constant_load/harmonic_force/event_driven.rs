@@ -28,7 +28,7 @@ use crate::fourier::rows::row_blocks;
 use crate::fourier::sampled_jacobian::Assembly;
 use crate::fourier::workspace::{Blocks, Layout, Parts, SamplingSize};
 use crate::fourier::{complete_half_wave, normalise};
-use crate::numerics::total::PanicFreeSlice;
+use crate::numerics::slices::PanicFreeSlice;
 use crate::parameters::PARAMETERS;
 use crate::tag::Kind;
 use core::f64::consts::PI;

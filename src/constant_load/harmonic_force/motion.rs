@@ -3,7 +3,7 @@
 use crate::fourier::folded::FoldedFourier;
 use crate::fourier::workspace::record;
 use crate::numerics::roots::bracketed_newton;
-use crate::numerics::total::PanicFreeSlice;
+use crate::numerics::slices::PanicFreeSlice;
 use core::f64::consts::PI;
 use core::iter::successors;
 use core::ops::{Add, Mul, Sub};

@@ -11,7 +11,7 @@
 
 use crate::fourier::rows::{OuterProducts, RowStrips, Rows, Strip, StripTerms, add_scaled, row_blocks, with_strips};
 use crate::fourier::workspace::{Blocks, record};
-use crate::numerics::total::{PanicFreeSlice, Zero};
+use crate::numerics::slices::{PanicFreeSlice, Zero};
 
 record! {
     /// Consecutive samples on a branch.

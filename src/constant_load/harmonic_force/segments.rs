@@ -7,7 +7,7 @@ use super::motion::{Motion, harmonics};
 use crate::fourier::workspace::{Parts, SamplingSize};
 use crate::numerics::lanes::Lanes;
 use crate::numerics::quadrature::{MAX_GAUSS_BLOCKS, gauss_rule};
-use crate::numerics::total::PanicFreeSlice;
+use crate::numerics::slices::PanicFreeSlice;
 use core::f64::consts::PI;
 
 /// Fewest blocks of four nodes on a segment.
@@ -119,7 +119,7 @@ impl<'a> NodalFourier<'a> {
             *product = *(Lanes(*weight) * Lanes(*value));
             sum += Lanes(*product);
         }
-        *constant += sum.total();
+        *constant += sum.sum();
         let products = products.part(..weights.len());
         for ([by_cosine, by_sine], [cosines, sines]) in pairs.blocks_mut::<2>().iter_mut().zip(self.rows.iter()) {
             let (mut c, mut s) = (Lanes::ZERO, Lanes::ZERO);
@@ -127,8 +127,8 @@ impl<'a> NodalFourier<'a> {
                 c += Lanes(*product) * Lanes(*cosine);
                 s += Lanes(*product) * Lanes(*sine);
             }
-            *by_cosine += c.total();
-            *by_sine += s.total();
+            *by_cosine += c.sum();
+            *by_sine += s.sum();
         }
     }
 }

@@ -5,7 +5,7 @@
 //! and the derivatives of the curve along the branch.
 
 use crate::constant_load::steady_state::SteadyState;
-use crate::numerics::total::PanicFreeSlice;
+use crate::numerics::slices::PanicFreeSlice;
 use crate::parameters::Sensitivity;
 
 /// The derivatives at the reversals on the stack; both rules keep them where the Jacobian has its terms of the reversals.

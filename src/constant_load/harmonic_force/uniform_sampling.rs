@@ -15,7 +15,7 @@ use crate::fourier::rows::{OuterProducts, Rows, row_blocks};
 use crate::fourier::sampled_jacobian::Assembly;
 use crate::fourier::workspace::{Layout, Parts, SamplingSize, padded};
 use crate::fourier::{largest_of, normalise};
-use crate::numerics::total::{PanicFreeSlice, Stack};
+use crate::numerics::slices::{PanicFreeSlice, Stack};
 use crate::parameters::{PARAMETERS, Sensitivity};
 use crate::tag::Kind;
 

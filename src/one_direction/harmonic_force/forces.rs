@@ -1,7 +1,7 @@
 //! Tangential forces of the samples, run by run.
 
 use crate::element::Element;
-use crate::numerics::total::PanicFreeSlice;
+use crate::numerics::slices::PanicFreeSlice;
 use crate::one_direction::harmonic_force::runs::{PieceEnd, Run};
 use crate::one_direction::harmonic_force::samples::Samples;
 
@@ -53,21 +53,21 @@ impl Forces<'_> {
             let inner = self.at_piece_end(samples, run.inner);
             let loads = run.part_of(samples.load);
             let forces = self.force.part_mut(range.clone());
-            let mu = run.sign * friction_coefficient;
+            let slip_slope = run.sign * friction_coefficient;
             match run.kind {
                 Run::OPEN | Run::GROSS_SLIP => {
-                    forces.iter_mut().zip(loads).for_each(|(force, load)| *force = mu * load);
+                    forces.iter_mut().zip(loads).for_each(|(force, load)| *force = slip_slope * load);
                 }
                 Run::STUCK => {
                     let slopes = self.slope.part_mut(range.clone());
-                    stick(samples, run, mu, slopes, inner, forces);
+                    stick(samples, run, slip_slope, slopes, inner, forces);
                 }
                 _ => {
                     let [inner_load, inner_force] = inner;
                     let slope = friction_coefficient * run.parameter;
                     let cuts = self.cut_load.part(run.cuts());
                     for ((force, &load), &cut_load) in forces.iter_mut().zip(loads).zip(cuts) {
-                        *force = inner_force + slope * (cut_load - inner_load) + mu * (load - cut_load);
+                        *force = inner_force + slope * (cut_load - inner_load) + slip_slope * (load - cut_load);
                     }
                     if let Some(&cut_load) = cuts.last() {
                         let force = inner_force + slope * (cut_load - inner_load);
@@ -80,7 +80,7 @@ impl Forces<'_> {
 }
 
 /// Slopes and forces of samples that stick.
-fn stick(samples: &Samples, run: &Run, mu: f64, slopes: &mut [f64], inner: [f64; 2], forces: &mut [f64]) {
+fn stick(samples: &Samples, run: &Run, slip_slope: f64, slopes: &mut [f64], inner: [f64; 2], forces: &mut [f64]) {
     let [mut load_before, mut force_before] = inner;
     let before = samples.before(run.samples().start);
     let [mut xi_before, mut eta_before] = if run.inner == PieceEnd::CENTRE {
@@ -90,7 +90,7 @@ fn stick(samples: &Samples, run: &Run, mu: f64, slopes: &mut [f64], inner: [f64;
     };
     for ((slope, &xi), &eta) in slopes.iter_mut().zip(run.part_of(samples.xi)).zip(run.part_of(samples.eta)) {
         let (falling, rising) = (xi_before - xi, eta - eta_before);
-        *slope = mu * ((rising - falling) / (rising + falling).max(f64::MIN_POSITIVE));
+        *slope = slip_slope * ((rising - falling) / (rising + falling).max(f64::MIN_POSITIVE));
         (xi_before, eta_before) = (xi, eta);
     }
     for ((force, &slope), &load) in forces.iter_mut().zip(slopes.iter()).zip(run.part_of(samples.load)) {

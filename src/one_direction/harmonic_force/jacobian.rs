@@ -13,10 +13,11 @@
 //!   weight, `[(S_2 - S_i)/K_t(S_2) - (N_2 - N_i)]/(S_j - S_i)`.
 //! - The core of the contact, which keeps D = 0 throughout the period, never moves.
 //!
-//! S_2 is the outer end of the piece, which later samples cut. What depends on the sample itself is a weighted sum over
-//! `φ ⊗ φ`, composed of Fourier sums of the weights. Everything else is gathered by pieces: each sums φ of the later samples times
-//! its weight, which is constant while it is covered, so that differences of antiderivatives of φ give the sums. Once the piece is
-//! removed, the sum is added to those of the one or two samples that made it; in the end the Jacobian grows by `Σ Y_j ⊗ φ_j`.
+//! S_2 is the outer end of the piece, which later samples cut. What depends on the sample itself is a weighted sum over `φ ⊗ φ`,
+//! composed of Fourier sums of the weights. Everything else is gathered by pieces. Each piece adds up φ of the later samples times
+//! its weight. While later slip zones cover the piece its weight is constant, and the sum is a difference of antiderivatives of φ.
+//! Once the piece is removed, the sum is added to those of the one or two samples that made it; in the end the Jacobian grows by
+//! `Σ Y_j ⊗ φ_j`.
 
 use crate::element::Element;
 use crate::fourier::rows::{
@@ -24,7 +25,7 @@ use crate::fourier::rows::{
 };
 use crate::fourier::workspace::{Blocks, record};
 use crate::numerics::guard::quotient;
-use crate::numerics::total::{PanicFreeSlice, Stack, Zero};
+use crate::numerics::slices::{PanicFreeSlice, Stack, Zero};
 use crate::one_direction::harmonic_force::runs::{Run, closing};
 use crate::one_direction::harmonic_force::samples::{EvaluatedPart, Samples};
 use crate::one_direction::step::Crossing;
@@ -125,14 +126,14 @@ impl JacobianMemory<'_> {
         let Context { element, samples, cut_stiffnesses, .. } = *context;
         let [by_u, by_input] = &mut self.own;
         let (by_u, by_input) = (by_u.part_mut(run.samples()), by_input.part_mut(run.samples()));
-        let mu = run.sign * element.friction_coefficient;
+        let slip_slope = run.sign * element.friction_coefficient;
         match run.kind {
             Run::OPEN | Run::GROSS_SLIP => {
                 by_u.fill(0.0);
                 by_input
                     .iter_mut()
                     .zip(run.part_of(samples.load_slope))
-                    .for_each(|(weight, slope)| *weight = mu * slope);
+                    .for_each(|(weight, slope)| *weight = slip_slope * slope);
             }
             Run::STUCK => {
                 by_input.fill(0.0);
@@ -143,7 +144,7 @@ impl JacobianMemory<'_> {
                 let values = cuts.iter().zip(run.part_of(samples.stiffness)).zip(run.part_of(samples.shift_slope));
                 for ((by_u, by_input), ((cut, stiffness), slope)) in by_u.iter_mut().zip(by_input).zip(values) {
                     *by_u = *cut;
-                    *by_input = mu * slope * (stiffness - cut);
+                    *by_input = slip_slope * slope * (stiffness - cut);
                 }
             }
         }
@@ -308,8 +309,8 @@ impl<const N: usize> Gathering<'_, N> {
         let own = (sample, linear, [-1.0, slope * shift_slope]);
         // The parts are added in a loop, so that the compiler inlines `add` once: it is long.
         let (parts, count) = if !piece.is_stuck() {
-            let mu = element.friction_coefficient * if made == Piece::FORWARDS { 1.0 } else { -1.0 };
-            ([(sample, constant, [-1.0, mu * shift_slope]), own, own], 1)
+            let slip_slope = element.friction_coefficient * if made == Piece::FORWARDS { 1.0 } else { -1.0 };
+            ([(sample, constant, [-1.0, slip_slope * shift_slope]), own, own], 1)
         } else if made == Piece::BY_STICKING {
             let inner = (before, &difference, [1.0, -slope * samples.shift_slope.or_zero(before)]);
             ([own, inner, own], 2)

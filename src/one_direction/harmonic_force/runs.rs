@@ -5,7 +5,7 @@
 
 use crate::element::Element;
 use crate::fourier::workspace::record;
-use crate::numerics::total::{PanicFreeSlice, Stack};
+use crate::numerics::slices::{PanicFreeSlice, Stack};
 use crate::one_direction::diagram::slope;
 use crate::one_direction::harmonic_force::samples::{EvaluatedPart, Samples, ranges};
 use crate::one_direction::step::Crossing;
@@ -165,13 +165,12 @@ impl PeriodicPath<'_> {
         }
     }
 
-    /// Closes the loops that a step to ξ = x, η = y passes: removes the knots outside the quadrant ξ > x, η < y. Returns whether
-    /// one was removed.
-    fn close_loops(&mut self, x: f64, y: f64) -> bool {
+    /// Removes the knots outside the quadrant of the new ξ and η: the loops that the step closes. Returns whether any was removed.
+    fn close_loops(&mut self, to_xi: f64, to_eta: f64) -> bool {
         let before = self.knots.depth;
         while let Some(&RunKnot { xi, eta, .. }) =
             self.knots.depth.checked_sub(1).and_then(|top| self.knots.values.get(top))
-            && !(xi > x && eta < y)
+            && !(xi > to_xi && eta < to_eta)
         {
             self.knots.depth -= 1;
         }
@@ -219,13 +218,13 @@ impl PeriodicPath<'_> {
     }
 
     /// Samples whose slip zone grows in one direction, along the piece above the last knot that stays.
-    fn slip(&mut self, first: usize, [xi, eta]: [&[f64]; 2], [x, y]: [f64; 2], per_two_mu: f64) -> Run {
+    fn slip(&mut self, first: usize, [xi, eta]: [&[f64]; 2], [to_xi, to_eta]: [f64; 2], per_two_mu: f64) -> Run {
         let kept = self.knots.depth;
         let (inner, outer) = (self.knot(kept - 1), self.knot(kept));
         let (falling, rising) = (inner.xi - outer.xi, outer.eta - inner.eta);
-        // The piece leaves the quadrant through ξ = x unless it crosses η = y first: the quotient is at most 1.
-        let is_forward =
-            outer.xi <= x && (rising <= 0.0 || inner.eta + rising * ((inner.xi - x) / falling.max(SMALLEST)) <= y);
+        // The piece leaves the quadrant through ξ = to_xi unless it crosses η = to_eta first: the quotient is at most 1.
+        let is_forward = outer.xi <= to_xi
+            && (rising <= 0.0 || inner.eta + rising * ((inner.xi - to_xi) / falling.max(SMALLEST)) <= to_eta);
         // Coordinates such that slip in either direction is forward slip, and the change of the other coordinate along the piece,
         // which is 0 for a slip zone.
         let (sign, [moving, other], [inner_x, inner_y], [by, change]) = if is_forward {
@@ -238,17 +237,18 @@ impl PeriodicPath<'_> {
         let places = self.cut_shift.part_mut(self.cut_count..);
         for place in places {
             let (Some(moving), Some(other)) = (moving.get(sample), other.get(sample)) else { break };
-            let (x, y) = (sign * moving, sign * other);
-            let cut = inner_y + ratio * (inner_x - x);
-            if sample > first && (x < last[0] || x >= inner_x || cut > y) {
+            let (forward, across) = (sign * moving, sign * other);
+            let cut = inner_y + ratio * (inner_x - forward);
+            if sample > first && (forward < last[0] || forward >= inner_x || cut > across) {
                 break;
             }
-            *place = ((cut - x) * per_two_mu).max(0.0);
-            (last, last_cut) = ([x, y], cut);
+            *place = ((cut - forward) * per_two_mu).max(0.0);
+            (last, last_cut) = ([forward, across], cut);
             sample += 1;
         }
-        let [x, y] = last;
-        let [cut, end] = [[x, last_cut], [x, y]].map(|[x, y]| if is_forward { [x, y] } else { [-y, -x] });
+        let [forward, across] = last;
+        let [cut, end] = [[forward, last_cut], [forward, across]]
+            .map(|[forward, across]| if is_forward { [forward, across] } else { [-across, -forward] });
         self.knots.push(RunKnot { xi: cut[0], eta: cut[1], end: PieceEnd::cut(sample - 1) });
         self.knots.push(RunKnot { xi: end[0], eta: end[1], end: PieceEnd::end(sample - 1) });
         Run {

@@ -2,7 +2,7 @@
 
 use crate::element::Element;
 use crate::numerics::lanes::Lanes;
-use crate::numerics::total::PanicFreeSlice;
+use crate::numerics::slices::PanicFreeSlice;
 
 /// Arrays over the samples of a period, continued periodically to whole blocks of four.
 pub(super) struct Samples<'a> {
@@ -72,12 +72,13 @@ impl Samples<'_> {
     /// Characteristic coordinates, and the part of the period to evaluate.
     ///
     /// The definition starts at the sample of largest normal force with D = 0 everywhere and evaluates the second of two periods.
-    /// With X the largest ξ and Y the smallest η, the state is the same at one sample of the first period whatever the history:
+    /// With ξ_max and η_min of all samples, the state is the same at one sample of the first period whatever the history:
     ///
     /// - at an open sample: it is empty;
-    /// - X > 0: the centre has at most this displacement, so the sample of X is one of gross slip, and o = X; Y < 0 accordingly;
-    /// - otherwise there is no gross slip and o = 0; the part of the diagram with D = 0 that is never reached ends at S = min(-X,
-    ///   Y)/mu. At the sample where that is attained everything beyond is slip zone.
+    /// - ξ_max > 0: the centre has at most this displacement, so the sample of ξ_max is one of gross slip, and o = ξ_max; η_min < 0
+    ///   accordingly;
+    /// - otherwise there is no gross slip and o = 0; the part of the diagram with D = 0 that is never reached ends at S =
+    ///   min(-ξ_max, η_min)/mu. At the sample where that is attained everything beyond is slip zone.
     pub fn enter_steady_state(&mut self, element: &Element, half_wave: bool, least_input: f64) -> EvaluatedPart {
         let mu = element.friction_coefficient;
         let (mut largest, mut smallest) = ([f64::MIN; 4], [f64::MAX; 4]);

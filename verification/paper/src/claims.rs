@@ -1,5 +1,5 @@
-//! Claims of the paper, in the order of the page: those that hold as limits or with a corrected equation, and those that another computation
-//! confirms.
+//! Claims of the paper, in the order of the page: those that hold as limits or with a corrected equation, and those that another
+//! computation confirms.
 
 use crate::cases::Case;
 use crate::drawings::{LENGTH, LENGTHS, NEARLY_FLAT, REVERSAL, SHAPE, SHAPES, even};

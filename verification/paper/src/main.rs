@@ -1,7 +1,7 @@
 //! The figures of the paper and of the guide computed by the library, and a check of each claim of the paper.
 //!
-//! - `paper` writes the data of the figures to `target/figures`, the claims in `docs/claims.csv`, the tables of samples and of periods
-//!   in `docs/guide.md`, and that of the roundings of the work in `docs/accuracy.md`;
+//! - `paper` writes the data of the figures to `target/figures`, the claims in `docs/claims.csv`, the tables of samples and of
+//!   periods in `docs/guide.md`, and that of the roundings of the work in `docs/accuracy.md`;
 //! - `paper --check` compares the tables with what the library computes now.
 
 mod cases;

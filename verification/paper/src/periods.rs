@@ -51,7 +51,8 @@ pub fn table() -> String {
     format!("| `periods` | amplitude | energy | drift |\n|---:|---:|---:|---:|\n{}", rows.collect::<String>())
 }
 
-/// Amplitude along y, energy and drift. The motion, u and v over the unit of displacement, is the first guess and then the solution.
+/// Amplitude along y, energy and drift. The motion, u and v over the unit of displacement, is the first guess and then the
+/// solution.
 fn solve(element: &Element, load: [f64; 2], frequency: f64, periods: usize, motion: &mut Vector) -> [f64; 3] {
     let mut memory = vec![0.0; workspace_length(1, SAMPLES)];
     workspace_init(1, SAMPLES, periods, &mut memory).expect("allowed numbers");

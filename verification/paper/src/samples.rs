@@ -48,8 +48,8 @@ pub fn table() -> String {
 /// Amplitudes of the table of roundings over that of gross slip.
 const AMPLITUDES: [f64; 4] = [1e-1, 1e-2, 1e-4, 1e-6];
 
-/// The rows of the table of roundings: the largest relative difference of the energies of a motion and of the same motion some samples
-/// later, which has the same samples; rounded up to a power of ten.
+/// The rows of the table of roundings: the largest relative difference of the energies of a motion and of the same motion some
+/// samples later, which has the same samples; rounded up to a power of ten.
 pub fn roundings() -> String {
     let cells = AMPLITUDES.map(|amplitude| format!("{amplitude:.0e} | "));
     let mut text =

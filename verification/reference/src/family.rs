@@ -7,8 +7,8 @@ use crate::{Input, Real};
 use microslip::parameters::{CENTRE_POINT, Layer};
 use microslip::{EllipticParameters, Material, Parameters};
 
-/// Bits of the functions of a size after cancellation. Differences of energies lose up to 210: a slip of one rounding error, cubed, and
-/// a change of the load by one.
+/// Bits of the functions of a size after cancellation. Differences of energies lose up to 210: a slip of one rounding error, cubed,
+/// and a change of the load by one.
 const BITS: u32 = 320;
 
 /// Changes of the parameters N, mu, a, R, L and E*: factors, but of a, to which a length is added.
@@ -280,7 +280,8 @@ impl Family {
         }
     }
 
-    /// Slip at x (Eq. 15) over mu, of the stick zone of a size in a contact that sticks nowhere else; beyond the contact its continuation.
+    /// Slip at x (Eq. 15) over mu, of the stick zone of a size in a contact that sticks nowhere else; beyond the contact its
+    /// continuation.
     pub fn slip(&self, size: &Size, x: &Real) -> Real {
         let Kind::Flat { a, load_scale, compliance_scale, .. } = &self.kind else { panic!("no slip of an ellipse") };
         let (w, psi) = (&size.w, angle(a, &size.w));
@@ -301,8 +302,8 @@ impl Family {
         &size.stiffening / (size.tangential_compliance.square() * &size.tangential_compliance)
     }
 
-    /// K = ln(2L/s) less its constant, of the approach and of the shift; 1 for an ellipse. The logarithm is known to rounding only, in
-    /// absolute terms.
+    /// K = ln(2L/s) less its constant, of the approach and of the shift; 1 for an ellipse. The logarithm is known to rounding only,
+    /// in absolute terms.
     pub fn log_compliances(&self, size: &Size) -> [f64; 2] {
         match &self.kind {
             Kind::Flat { compliance_scale, .. } => {

@@ -1,7 +1,8 @@
-//! One contact under a constant normal force: size, monotonic curve, energy and tractions, as differences of two sizes of its family.
+//! One contact under a constant normal force: size, monotonic curve, energy and tractions, as differences of two sizes of its
+//! family.
 //!
-//! Loads are in units of N, forces of mu N, displacements of mu N times the unit of compliances, positions of b. A stick zone of size c
-//! has τ = 1 - N_c/N and the displacement mu (S_b - S_c).
+//! Loads are in units of N, forces of mu N, displacements of mu N times the unit of compliances, positions of b. A stick zone of
+//! size c has τ = 1 - N_c/N and the displacement mu (S_b - S_c).
 
 use crate::Real;
 use crate::family::{ADDED, Change, Family, Given, Size, unchanged};
@@ -34,8 +35,9 @@ impl Reference {
         Reference { input, levels: RefCell::default(), lost: family.lost(&whole) }
     }
 
-    /// Differences of the force \[N\] at a displacement \[m\] by the parameters N, mu, a, R, L and E*, each times its parameter (a: times b),
-    /// with steps of 2⁻¹⁰⁰: central, with the relative error of their square; from above if a is about 0, where the second derivative is finite.
+    /// Differences of the force \[N\] at a displacement \[m\] by the parameters N, mu, a, R, L and E*, each times its parameter (a:
+    /// times b), with steps of 2⁻¹⁰⁰: central, with the relative error of their square; from above if a is about 0, where the
+    /// second derivative is finite.
     pub fn differences(&self, displacement: f64) -> [Real; 6] {
         let first = self.law(0);
         let share = first.x(displacement.abs()) / &first.x_slip;

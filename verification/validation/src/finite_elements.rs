@@ -30,8 +30,8 @@ fn contact() -> Contact {
     Contact::rounded_flat(&parameters).expect("a contact")
 }
 
-/// Largest differences of a case in per cent, of pressures over the largest one, and of shear tractions over mu times that: those of
-/// nodes away from edges of contact and stick, and then those of all nodes in the contact.
+/// Largest differences of a case in per cent, of pressures over the largest one, and of shear tractions over mu times that: those
+/// of nodes away from edges of contact and stick, and then those of all nodes in the contact.
 fn differences(unloaded: bool) -> [f64; 4] {
     let contact = contact();
     let at = |force: f64| contact.curve_at_force(force * contact.slip_force).expect("below gross slip");
@@ -75,8 +75,9 @@ pub fn compare(documents: &mut Documents) {
         let found = differences(unloaded);
         let [pressure, shear, all_pressures, all_shears] = found;
         table += &format!("| {name} | {pressure:.2} | {shear:.2} | {all_pressures:.1} | {all_shears:.1} |\n");
-        // Away from edges: what its authors' mesh leaves of the peak pressure, and slip by the penalty of its contact. At an edge a node
-        // has the mean over its spacing h of a traction that falls like c (1 - x²/c²)^(1/2): about half of c (h/c)^(1/2) = 0.28.
+        // Away from edges: what its authors' mesh leaves of the peak pressure, and slip by the penalty of its contact. At an edge a
+        // node has the mean over its spacing h of a traction that falls like c (1 - x²/c²)^(1/2): about half of c (h/c)^(1/2) =
+        // 0.28.
         let holds = found.iter().zip([0.3, 0.6, 14.0, 14.0]).all(|(difference, bound)| *difference <= bound);
         documents.check(holds, format!("finite elements, {name}: {found:?}"));
     }

@@ -12,8 +12,8 @@ const SUBSTEPS: u32 = 6;
 /// Largest difference of the approach of a line contact, relative: four printed digits.
 const APPROACH: f64 = 6e-4;
 
-/// The contacts of the files: names there and in the table; friction coefficient, shear modulus and Poisson's ratio; a, R and L, of the
-/// sphere only its radius.
+/// The contacts of the files: names there and in the table; friction coefficient, shear modulus and Poisson's ratio; a, R and L, of
+/// the sphere only its radius.
 const SHAPES: [(&str, &str, [f64; 3], [f64; 3]); 3] = [
     ("cylinder", "cylinder", [0.3, 82e9, 0.28], [0.0, 0.5, 0.2]),
     ("roundedflat", "flat with rounded edges", [0.5, 76.9231e9, 0.3], [0.5e-3, 3e-3, 20e-3]),
@@ -31,9 +31,10 @@ const PATHS: [[&str; 2]; 5] = [
 
 /// Largest difference of displacements, relative: the error of CONTACT.
 ///
-/// - Always that of its mesh (the sphere is cut into squares, 31 along the diameter), and of the four printed digits of each increment.
-/// - Under a changing load also that of its steps: what comes into contact within a step is free of traction at its end, an error of
-///   first order in the change of the width. The flat hardly changes its width; in phase and in antiphase nothing slips.
+/// - Always that of its mesh (the sphere is cut into squares, 31 along the diameter), and of the four printed digits of each
+///   increment.
+/// - Under a changing load also that of its steps: what comes into contact within a step is free of traction at its end, an error
+///   of first order in the change of the width. The flat hardly changes its width; in phase and in antiphase nothing slips.
 fn bound(shape: &str, path: &str) -> f64 {
     match (shape, path) {
         ("cylinder", "phase90") => 1.2e-3,
@@ -45,8 +46,8 @@ fn bound(shape: &str, path: &str) -> f64 {
     }
 }
 
-/// Its losses are those of 24 steps in a cycle; under a constant load they are those of the law, except that a flat slips in one or two
-/// of its elements only.
+/// Its losses are those of 24 steps in a cycle; under a constant load they are those of the law, except that a flat slips in one or
+/// two of its elements only.
 fn bounds_of_dissipation(shape: &str, path: &str) -> [f64; 2] {
     match (shape, path) {
         ("roundedflat", "constN") => [0.6, 1.4],

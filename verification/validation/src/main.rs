@@ -1,5 +1,5 @@
-//! The law against Kalker and Vollebregt's boundary-element code CONTACT, row by row; in two directions against boundary elements of
-//! our own; a sphere against published formulas; strips of finite length against boundary elements; a sliding cylinder against
+//! The law against Kalker and Vollebregt's boundary-element code CONTACT, row by row; in two directions against boundary elements
+//! of our own; a sphere against published formulas; strips of finite length against boundary elements; a sliding cylinder against
 //! published measurements.
 //!
 //! - `validation` writes the data of the figures to `target/figures`, and the tables of `docs/validation.md`;

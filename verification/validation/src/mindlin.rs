@@ -1,5 +1,5 @@
-//! A sphere under oblique forces: the incremental formulas of Mindlin and Deresiewicz (J. Appl. Mech. 20, 1953, 327-344), integrated
-//! along forces that change together, T faster than mu N.
+//! A sphere under oblique forces: the incremental formulas of Mindlin and Deresiewicz (J. Appl. Mech. 20, 1953, 327-344),
+//! integrated along forces that change together, T faster than mu N.
 
 use crate::documents::Documents;
 use crate::histories::line_or_sphere;

@@ -8,8 +8,8 @@ use microslip::parameters::{CENTRE_POINT, Parameters};
 use microslip::{Contact, Error};
 use std::f64::consts::PI;
 
-/// L over the half-width under the mean load. A cell of the reference is as long as its contact is wide: shorter ones would resolve the
-/// width, which the equation does not contain.
+/// L over the half-width under the mean load. A cell of the reference is as long as its contact is wide: shorter ones would resolve
+/// the width, which the equation does not contain.
 const LENGTH: f64 = 39.0;
 const CELLS: usize = 20;
 const PARTS: usize = 10;

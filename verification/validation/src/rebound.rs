@@ -1,8 +1,9 @@
-//! Oblique impacts of an elastic sphere: measurements (`tests/golden/kharaz2001_oblique_impact.csv`, three digitisations) and finite
-//! elements (`fem_oblique_impact.csv`) against the law, Hertz and Mindlin without partial slip, and a spring-slider. Nothing is fitted.
+//! Oblique impacts of an elastic sphere: measurements (`tests/golden/kharaz2001_oblique_impact.csv`, three digitisations) and
+//! finite elements (`fem_oblique_impact.csv`) against the law, Hertz and Mindlin without partial slip, and a spring-slider. Nothing
+//! is fitted.
 //!
-//! The centre moves by m x'' = -T, m w'' = -N (w the approach); the surface at the contact by m u'' = -(7/2) T, with the rotation of
-//! a solid sphere. u(t) and w(t) go to the law, a step each: a load that rises and falls.
+//! The centre moves by m x'' = -T, m w'' = -N (w the approach); the surface at the contact by m u'' = -(7/2) T, with the rotation
+//! of a solid sphere. u(t) and w(t) go to the law, a step each: a load that rises and falls.
 
 use crate::PAGE;
 use crate::documents::Documents;
@@ -132,7 +133,8 @@ fn readings() -> Vec<Reading> {
     let read = |row: &Row| {
         let (quantity, source) = (row.text("quantity"), row.text("source"));
         let [degrees, measured] = [row["angle_deg"], row["value"]];
-        // At less than 1 degree the angle is as large as the error of its reading; readings of spin contradict those of restitution.
+        // At less than 1 degree the angle is as large as the error of its reading; readings of spin contradict those of
+        // restitution.
         if !["e_t", "rebound_angle_deg"].contains(&quantity) || degrees < 1.0 {
             return None;
         }

@@ -30,8 +30,8 @@ const FRICTION: f64 = 0.5;
 const SLIP_FORCE: f64 = FRICTION * LARGEST_LOAD;
 const BODY: Material = Material { young_modulus: 2e11, poisson_ratio: 0.3 };
 
-/// The contact of a shape, by parameters for a multiple of the largest load. The half-width of a flat of a/b is 0.5 mm under the largest
-/// load.
+/// The contact of a shape, by parameters for a multiple of the largest load. The half-width of a flat of a/b is 0.5 mm under the
+/// largest load.
 fn element(shape: &str, layer: Layer, factor: f64) -> Element {
     let (normal_force, friction_coefficient, material) = (factor * LARGEST_LOAD, FRICTION, [BODY; 2]);
     let semi_axes: [f64; 2] = match shape {
@@ -178,9 +178,9 @@ const GROUPS: [&str; 7] = [
 const ROWS: usize = 288;
 /// The load of other parameters over the largest one: nodes follow the load, not the parameters.
 const OTHER_LOAD: f64 = 3.0;
-/// Bounds on the errors of force and energy. On a line N(S) is a polygon of the shells: N'' of a sphere rises to infinity at S = 0, and the
-/// knee of a rough layer is at 1 % of the load. In the plane each shell has one point, and in the
-/// smallest circles one or two shells slip. The energy of steps beside static shear lacks the change of the stiffness with the load.
+/// Bounds on the errors of force and energy. On a line N(S) is a polygon of the shells: N'' of a sphere rises to infinity at S = 0,
+/// and the knee of a rough layer is at 1 % of the load. In the plane each shell has one point, and in the smallest circles one or
+/// two shells slip. The energy of steps beside static shear lacks the change of the stiffness with the load.
 fn bounds(contact: usize, motion: usize) -> [f64; 2] {
     // The last row is that of all contacts by parameters for a larger load.
     let of_line = [0.004, 0.004, 0.004, 0.01, 0.01, 0.01, 0.015, 0.015][contact];

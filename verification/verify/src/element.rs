@@ -140,7 +140,8 @@ impl Check<'_> {
         self.farthest + &self.case.reference.family.friction * shift
     }
 
-    /// Results of the steps to neighbouring displacements and normal inputs: at a corner the tangent jumps, and so does the slip zone.
+    /// Results of the steps to neighbouring displacements and normal inputs: at a corner the tangent jumps, and so does the slip
+    /// zone.
     fn around(&self, size: &Size, result: impl Fn(&Step) -> Real) -> Vec<Real> {
         let units = [-UNITS, 0.0, UNITS].map(|units| units * f64::EPSILON);
         let shifts = units.iter().flat_map(|du| units.iter().map(move |dw| [*du, *dw]));

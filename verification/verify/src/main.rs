@@ -1,10 +1,11 @@
-//! Measures the error of every output of the library against the multi-precision reference, and checks properties of long histories, at
-//! random contacts, elements, layers and histories. No call may raise a floating-point exception that an application can trap.
+//! Measures the error of every output of the library against the multi-precision reference, and checks properties of long
+//! histories, at random contacts, elements, layers and histories. No call may raise a floating-point exception that an application
+//! can trap.
 //!
 //!     verify [--points N] [--only TEXT] [--regions FILE] [--promises FILE] [--replay FILE]
 //!
-//! `MICROSLIP_SEED` is the seed, 1 without it. Regions and promises are written to CSV files. `--only` takes the measurements whose name
-//! contains a text. `--replay` compares the worst inputs of a CSV of regions again, beside the random points.
+//! `MICROSLIP_SEED` is the seed, 1 without it. Regions and promises are written to CSV files. `--only` takes the measurements whose
+//! name contains a text. `--replay` compares the worst inputs of a CSV of regions again, beside the random points.
 
 mod bounds;
 mod call;
@@ -67,8 +68,8 @@ const MEASUREMENTS: [(&str, Measurement, f64, usize); 17] = [
     ("modes::of_laws", Contact(modes::of_laws), 10.0, 20),
 ];
 
-/// Measurements, kinds and seeds of jobs that have raised an exception: squares of derivatives overflowed; a size underflowed where the
-/// compliance of a short contact nearly vanishes; a stick zone larger than such a contact.
+/// Measurements, kinds and seeds of jobs that have raised an exception: squares of derivatives overflowed; a size underflowed where
+/// the compliance of a short contact nearly vanishes; a stick zone larger than such a contact.
 const FOUND: [(&str, &str, u64); 4] = [
     ("two_directions::histories", "extreme scales", 11400714819323245717),
     ("two_directions::histories", "a/b -> 1", 11400714819323246898),

@@ -1,5 +1,5 @@
-//! Every function of the C interface in every rounding mode, with contacts and elements of every kind, half of them with a layer: no call
-//! raises an exception that an application may trap or returns NaN, and every new state passes its check.
+//! Every function of the C interface in every rounding mode, with contacts and elements of every kind, half of them with a layer:
+//! no call raises an exception that an application may trap or returns NaN, and every new state passes its check.
 
 use crate::calls::Kind::{Contact, Element, NewState, Output, State, Value};
 use crate::calls::{self, Arguments, CALLS, Call, Law, MODES, Memory};

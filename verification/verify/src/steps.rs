@@ -1,5 +1,5 @@
-//! Properties of long adversarial histories, most of them to the bit: Coulomb's bound, energy, odd symmetry, restart from the reversals,
-//! and the error that bounded memory reports. With a layer and without.
+//! Properties of long adversarial histories, most of them to the bit: Coulomb's bound, energy, odd symmetry, restart from the
+//! reversals, and the error that bounded memory reports. With a layer and without.
 
 use crate::call;
 use crate::element::prepare;

@@ -1,4 +1,5 @@
-//! Elements of two tangential directions in adversarial histories, with checks on every step. `verification/validation` compares values.
+//! Elements of two tangential directions in adversarial histories, with checks on every step. `verification/validation` compares
+//! values.
 
 use crate::call::quiet;
 use crate::element::make;
@@ -7,8 +8,8 @@ use microslip::element::{Directions, Element, NormalInput};
 use microslip::law::StepResult;
 use microslip::two_directions::{Law, TwoDirections};
 
-/// Error of the force of a step that is repeated, over mu N of the parameters: rounding errors of the springs, times the condition of the map
-/// to tractions, up to 1e-8 in millions of steps.
+/// Error of the force of a step that is repeated, over mu N of the parameters: rounding errors of the springs, times the condition
+/// of the map to tractions, up to 1e-8 in millions of steps.
 const REPEATED: f64 = 1e-7;
 
 /// A displacement after another one; `scale` is the length of most steps.

@@ -46,7 +46,8 @@ pub fn says(report: &Report, text: &str) -> bool {
     report.verdict.iter().any(|sentence| sentence.contains(text))
 }
 
-/// The rows of a table of the document, each with its number of fits. All fits write it; of fewer, the counts must be those of a part.
+/// The rows of a table of the document, each with its number of fits. All fits write it; of fewer, the counts must be those of a
+/// part.
 pub fn check_table(name: &str, rows: &[(usize, String)]) {
     let text = fs::read_to_string(DOCUMENT).unwrap();
     let ends = ["begin", "end"].map(|end| format!("<!-- {name}: {end} -->"));
