@@ -97,6 +97,9 @@ const TAG: u64 = (0x6d73_6c69_7065 << 16) | (LAYOUT << 8);
 /// 2^40: loads of an element with a layer are at most this many times the normal force of the parameters.
 const MOST_LOAD_WITH_LAYER: f64 = f64::from_bits((1023 + 40) << 52);
 
+/// Units of rounding by which a sample of the normal force may be negative, over the sum of the magnitudes of its coefficients.
+pub(crate) const NORMAL_FORCE_ROUNDING: f64 = 8.0 * f64::EPSILON;
+
 /// 2^-150: sizes of loads below this part of the normal force of the parameters are not distinguished, and a contact whose input is
 /// below this part of that of the tables counts as open in a step. There squares and products would underflow.
 pub(crate) const SMALLEST_LOAD: f64 = f64::from_bits((1023 - 150) << 52);
@@ -426,6 +429,13 @@ impl Element {
     pub fn check_normal_force(&self, normal_force: f64) -> Result<(), Error> {
         ensure(in_0_to(normal_force, MAX_DISPLACEMENT), Error::BadNormalForce)?;
         ensure(le(normal_force, self.largest_load), Error::LengthTooShort)
+    }
+
+    /// Whether a normal component with these Fourier coefficients is allowed whatever the phases of its harmonics.
+    pub(crate) fn accepts_all_phases(&self, input: &[f64]) -> bool {
+        let (mean, harmonics) = input.split_first().unwrap_or((&0.0, &[]));
+        let amplitude: f64 = harmonics.iter().map(|value| value.abs()).sum();
+        (self.by_approach() || *mean >= amplitude) && self.check_input(mean + amplitude).is_ok()
     }
 
     /// Checks the normal component of a displacement, an approach or a normal force.

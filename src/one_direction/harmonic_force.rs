@@ -18,7 +18,7 @@ mod samples;
 
 pub use crate::fourier::HarmonicOutput;
 
-use crate::element::Element;
+use crate::element::{Element, NORMAL_FORCE_ROUNDING};
 use crate::error::Error;
 use crate::fourier::folded::{FoldedFourier, sample_length};
 use crate::fourier::rows::{OuterProducts, Rows, row_blocks};
@@ -101,9 +101,6 @@ impl<'a> Layout<'a> for OneDirectionWorkspace<'a> {
         OneDirectionWorkspace { size, fourier, samples, path, forces, jacobian_memory, assembly }
     }
 }
-
-/// Units of rounding by which a sample of the normal force may be negative, over the sum of the magnitudes of its coefficients.
-const NORMAL_FORCE_ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// Harmonic force of a periodic motion, given by its 2 (2H + 1) coefficients: those of u \[m\], then those of the normal component,
 /// the approach \[m\] or the normal force \[N\].
@@ -211,9 +208,7 @@ impl OneDirectionWorkspace<'_> {
     pub(crate) fn check(&mut self, element: &Element, displacement: &[f64]) -> Result<(), Error> {
         check_coefficients(displacement)?;
         let (_, input) = displacement.split_at_checked(self.coefficients()).ok_or(Error::BadArraySize)?;
-        let mean = input.or_zero(0);
-        let amplitude: f64 = input.iter().skip(1).map(|value| value.abs()).sum();
-        if (element.by_approach() || mean >= amplitude) && element.check_input(mean + amplitude).is_ok() {
+        if element.accepts_all_phases(input) {
             return Ok(());
         }
         self.press(element, input, false).map(|_| ())

@@ -20,7 +20,7 @@ use super::nodes::{Nodes, PerAxis, Units, by_axis, length};
 use super::path::ContactPath;
 use super::step::{Displacements, LoadedContact, SolvedStep};
 use super::tangent::{ContactSlopes, ParameterChanges, PerParameter, Propagation, StepTangent};
-use crate::element::{Element, NormalState};
+use crate::element::{Element, NORMAL_FORCE_ROUNDING, NormalState};
 use crate::error::Error;
 use crate::fourier::workspace::{Layout, Parts, Record, SamplingSize, doubles_mut, record};
 use crate::fourier::{basis, normalise, work};
@@ -135,10 +135,7 @@ impl<'a> TwoDirectionsWorkspace<'a> {
     /// Errors: those of [`harmonic_force`].
     pub(crate) fn check(&mut self, element: &Element, displacement: &[f64]) -> Result<(), Error> {
         check_coefficients(displacement)?;
-        // A normal component that is allowed for all phases of its harmonics needs no samples.
-        let (mean, others) = displacement.part(2 * self.coefficients()..).split_first().unwrap_or((&0.0, &[]));
-        let amplitude: f64 = others.iter().map(|value| value.abs()).sum();
-        if (element.by_approach() || *mean >= amplitude) && element.check_input(mean + amplitude).is_ok() {
+        if element.accepts_all_phases(displacement.part(2 * self.coefficients()..)) {
             return Ok(());
         }
         self.synthesise(element, displacement)
@@ -148,7 +145,7 @@ impl<'a> TwoDirectionsWorkspace<'a> {
     fn synthesise(&mut self, element: &Element, displacement: &[f64]) -> Result<(), Error> {
         let n = self.coefficients();
         let input = displacement.get(2 * n..).unwrap_or(&[]);
-        let rounding = 8.0 * f64::EPSILON * input.iter().map(|value| value.abs()).sum::<f64>();
+        let rounding = NORMAL_FORCE_ROUNDING * input.iter().map(|value| value.abs()).sum::<f64>();
         for (sample, basis) in self.samples.iter_mut().zip(self.basis.chunks_exact(n)) {
             for (coefficients, slot) in displacement.chunks_exact(n).zip(&mut sample.displacement) {
                 *slot = coefficients.iter().zip(basis).map(|(value, basis)| value * basis).sum();
