@@ -1,5 +1,5 @@
-//! Numerical methods that do not depend on contact mechanics: interpolation, quadrature, root finding, polynomials, and the
-//! classification of floating-point values.
+//! Numerical methods that do not depend on contact mechanics: interpolation, quadrature, root finding, polynomials, numbers with
+//! derivatives, records in arrays of doubles, and the classification of floating-point values.
 
 pub(crate) mod chebyshev;
 pub(crate) mod const_math;
@@ -9,5 +9,6 @@ pub(crate) mod guard;
 pub(crate) mod lanes;
 pub(crate) mod polynomial;
 pub(crate) mod quadrature;
+pub(crate) mod record;
 pub(crate) mod roots;
 pub(crate) mod slices;

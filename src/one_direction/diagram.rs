@@ -12,7 +12,7 @@
 //! This covers a load that rises, falls or stays, slip of either direction, and its erasure by a falling load.
 
 use crate::element::{Element, NormalState};
-use crate::fourier::workspace::{record, records_mut};
+use crate::numerics::record::{record, records_mut};
 use crate::numerics::slices::PanicFreeSlice;
 
 record! {

@@ -7,10 +7,10 @@
 
 use crate::element::{Directions, Element, NormalState};
 use crate::error::{Error, ensure};
-use crate::fourier::workspace::records;
 use crate::law::{Law, LawStep, Requested, StepResult};
 use crate::limits::check_displacement;
 use crate::numerics::fp_class::is_finite;
+use crate::numerics::record::records;
 use crate::numerics::slices::PanicFreeSlice;
 use crate::one_direction::OneDirection;
 use crate::one_direction::diagram::{Knot, Polygon};

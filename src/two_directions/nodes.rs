@@ -28,10 +28,10 @@
 //! All is in units of N, of S across the line and of the leg, √(s² - a²), of the reference size.
 
 use crate::element::Element;
-use crate::fourier::workspace::{doubles_mut, record};
 use crate::numerics::dual::{Dual, Number};
 use crate::numerics::guard::{TINY, quotient};
 use crate::numerics::lanes::Lanes;
+use crate::numerics::record::{doubles_mut, record};
 use crate::numerics::slices::Zero;
 
 /// Number of springs: one for each shell. The first one is that of the flat.

@@ -16,10 +16,10 @@ use super::nodes::{
     pressure, pressure_at_edge,
 };
 use crate::element::{Element, NormalState, SMALLEST_LOAD};
-use crate::fourier::workspace::record;
 use crate::numerics::dual::{Dual, Number};
 use crate::numerics::guard::quotient;
 use crate::numerics::lanes::Lanes;
+use crate::numerics::record::record;
 use core::ops::Range;
 
 record! {

@@ -11,11 +11,11 @@ use super::step::{Displacements, LoadedContact, SMALLEST_LENGTH, SolvedStep, by_
 use super::tangent::{ContactSlopes, ParameterChanges, PerParameter, Propagation, StepTangent};
 use crate::element::{Directions, Element, NormalState};
 use crate::error::{Error, ensure};
-use crate::fourier::workspace::{records, records_mut};
 use crate::law::{Law, LawStep, Requested, StepResult};
 use crate::limits::check_displacement;
 use crate::numerics::fp_class::is_finite;
 use crate::numerics::lanes::Lanes;
+use crate::numerics::record::{records, records_mut};
 use crate::tag::Kind;
 use core::ops::RangeInclusive;
 

@@ -20,9 +20,9 @@ use super::nodes::{Nodes, PerAxis, Row, SPRINGS, by_axis, length, mask_of, point
 use super::path::ContactPath;
 use super::shells::{ScaledNormalState, Shells, Springs};
 use super::slip::{Metric, Slip};
-use crate::fourier::workspace::record;
 use crate::numerics::dual::Number;
 use crate::numerics::lanes::Lanes;
+use crate::numerics::record::record;
 use core::ops::Range;
 
 /// A contact under a load, by default open: its normal state, with derivatives by the normal component over its scale,

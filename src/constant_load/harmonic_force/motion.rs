@@ -1,7 +1,7 @@
 //! Periodic displacement in continuous time: instants of reversal, and of crossing a given displacement.
 
 use crate::fourier::folded::FoldedFourier;
-use crate::fourier::workspace::record;
+use crate::numerics::record::record;
 use crate::numerics::roots::bracketed_newton;
 use crate::numerics::slices::PanicFreeSlice;
 use core::f64::consts::PI;

@@ -10,7 +10,8 @@
 //! ```
 
 use crate::fourier::rows::{OuterProducts, RowStrips, Rows, Strip, StripTerms, add_scaled, row_blocks, with_strips};
-use crate::fourier::workspace::{Blocks, record};
+use crate::fourier::workspace::Blocks;
+use crate::numerics::record::record;
 use crate::numerics::slices::{PanicFreeSlice, Zero};
 
 record! {

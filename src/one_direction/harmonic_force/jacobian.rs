@@ -23,8 +23,9 @@ use crate::element::Element;
 use crate::fourier::rows::{
     OuterProducts, RowStrips, Rows, Strip, StripTerms, add_scaled, row_blocks, scaled, with_strips,
 };
-use crate::fourier::workspace::{Blocks, record};
+use crate::fourier::workspace::Blocks;
 use crate::numerics::guard::quotient;
+use crate::numerics::record::record;
 use crate::numerics::slices::{PanicFreeSlice, Stack, Zero};
 use crate::one_direction::harmonic_force::runs::{Run, closing};
 use crate::one_direction::harmonic_force::samples::{EvaluatedPart, Samples};

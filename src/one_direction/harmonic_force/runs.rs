@@ -4,7 +4,7 @@
 //! evaluated afterwards, all at once: the shifts of these boundaries are packed in the order of the samples that slip.
 
 use crate::element::Element;
-use crate::fourier::workspace::record;
+use crate::numerics::record::record;
 use crate::numerics::slices::{PanicFreeSlice, Stack};
 use crate::one_direction::diagram::slope;
 use crate::one_direction::harmonic_force::samples::{EvaluatedPart, Samples, ranges};
