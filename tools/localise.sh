@@ -12,7 +12,7 @@ to=$2
 for tool in "$AR" "$LD" "$NM" "$OBJCOPY" "$READELF"; do
     command -v "${tool%% *}" > /dev/null || { echo "$0: ${tool%% *} is missing: install GNU binutils" >&2; exit 1; }
 done
-# LD may be a compiler or another linker, which cannot make one object of what is reached.
+# LD may be a compiler or another linker, which cannot link into one object (-r).
 for linker in "$LD" ld.bfd ld.lld; do
     ! $linker -v 2> /dev/null | grep -qE '^GNU ld|LLD [0-9]' || break
     linker=

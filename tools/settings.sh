@@ -27,7 +27,7 @@ overflow-checks = true
 '
 printf '#!/bin/sh\necho cargo 1.80.0\n' > "$work/old_cargo" && chmod +x "$work/old_cargo"
 
-# The settings, of one word each, and what a sentence of the build has: nothing if there is an archive.
+# The settings, of one word each, and a part of the expected error message: nothing if there is an archive.
 table="
 RUSTFLAGS=-Coverflow-checks=on RUSTC_WRAPPER=                                      :
 CARGO_ENCODED_RUSTFLAGS=-Clinker-plugin-lto                                        :

@@ -306,13 +306,13 @@ pub static SPHERE: EllipticParameters = EllipticParameters {
 };
 
 pub const RULES: [i32; 2] = [MSLIP_UNIFORM_SAMPLING, MSLIP_EVENT_DRIVEN];
-/// Items, steps and points.
+/// Numbers of items, steps and points.
 pub const N: usize = 3;
 pub const HARMONICS: usize = 1;
-/// Of ellipses one less.
+/// Samples of a period; an ellipse has one less.
 pub const SAMPLES: usize = 9;
 pub const PERIODS: usize = 2;
-/// Of nodes of a part.
+/// Pairs of nodes of a part of a face.
 pub const PAIRS: usize = 2;
 
 /// A contact or an element, with its units, and the rule of a workspace.

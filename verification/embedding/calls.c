@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Points and steps; of a state shorter than the steps need. */
+/* N: number of points and steps, for which the states are too short. MOST: arrays of a call. */
 enum { N = 9, HARMONICS = 3, COEFFICIENTS = 7, SAMPLES = 64, PERIODS = 2, SLIDERS = 8, MOST = 8 };
 
 /* Arrays of a call, whose bits are hashed (FNV-1a). */

@@ -20,12 +20,12 @@ use crate::report::{CauseKind, Estimate, Explanation, ProfilePoint, Status};
 const QUANTILE: f64 = 1.96;
 /// Number of shapes of the profile.
 const SHAPES: usize = 10;
-/// Widest interval of a/b, and half-widths of the others as fractions, of what is determined: of friction coefficient, series
-/// compliance (of the total one), factor of the contact, total compliance, and parallel stiffness (of the slope of a plateau that
-/// rises by μN up to the amplitude).
+/// A parameter is determined if its interval is at most this wide: a/b by its whole interval, others by half of it as a fraction of
+/// friction coefficient, total compliance (series compliance), factor of the contact, total compliance, and slope of a plateau that
+/// rises by μN up to the amplitude (parallel stiffness).
 const WIDEST_SHAPE: f64 = 0.3;
 const WIDEST: [f64; COMBINATIONS] = [0.1, 0.1, 0.5, 0.1, 0.01];
-/// Half-width of what is determined of the share of the series stiffness that grows with the load.
+/// The same for the half-width of the share of the series stiffness that grows with the load.
 const WIDEST_STIFFENING: f64 = 0.1;
 
 /// A best fit, and what it determines.

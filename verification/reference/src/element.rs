@@ -2,7 +2,7 @@
 //! of the sizes, `T = ∫ D dN` and `u = o + ∫ D dS`, as a list of pieces of constant D.
 //!
 //! A step is straight in (S, u). Its end follows from the slip that is left over once the outer pieces are cut at the new size,
-//! and the energy from the events on the way: ends of pieces, and the contact size overtaking the edge of the slip zone.
+//! and the energy from the events on the edge_rate: ends of pieces, and the contact size overtaking the edge of the slip zone.
 
 use crate::family::{Family, Given, Size};
 use crate::{Input, Real};
@@ -101,7 +101,7 @@ impl Element {
         }
         if open {
             let end = crossing();
-            let march = self.march(state, &end, &self.touch());
+            let march = self.trace_energy(state, &end, &self.touch());
             *state = State {
                 displacement: displacement.clone(),
                 input: input.clone(),
@@ -126,7 +126,7 @@ impl Element {
             state.displacement = start.clone();
             state.origin = start;
         }
-        let march = self.march(state, displacement, &size);
+        let march = self.trace_energy(state, displacement, &size);
         let mut step = self.end(state, displacement, &size);
         if let Some((before, from)) = gap
             && step.kind == Kind::Stick
@@ -260,8 +260,8 @@ impl Element {
     }
 
     /// Follows the events of a step from a closed contact, or from first touch, for its energy. Along the step, λ from 0 to 1, the
-    /// contact size moves at the rate `rise` and the edge of the slip zone at the rate `way`, both in S.
-    fn march(&self, state: &State, displacement: &Real, end: &Size) -> March {
+    /// contact size changes by `rise` and the edge of the slip zone by `edge_rate` per unit λ, both in S.
+    fn trace_energy(&self, state: &State, displacement: &Real, end: &Size) -> March {
         let mu = &self.family.friction;
         let (zero, one) = (self.real(0.0), self.real(1.0));
         let start = state.size.clone().unwrap_or_else(|| self.touch());
@@ -301,7 +301,7 @@ impl Element {
             };
             sign = Some(direction.clone());
             let speed = slope - &direction;
-            let way = if speed.is_zero() { zero.clone() } else { (&motion - &direction * &rise) / &speed };
+            let edge_rate = if speed.is_zero() { zero.clone() } else { (&motion - &direction * &rise) / &speed };
             if speed.is_zero() {
                 // In slip in this direction already.
                 march.stick_load = march.stick_load.min(&inner.load);
@@ -309,16 +309,17 @@ impl Element {
                 pieces.pop();
                 continue;
             }
-            if way >= zero {
+            if edge_rate >= zero {
                 return march;
             }
-            let to_inner = &lambda + (&inner.shift - &edge.shift) / &way;
+            let to_inner = &lambda + (&inner.shift - &edge.shift) / &edge_rate;
             // A step that returns to a reversal ends there.
             let returns = (&to_inner - &one).exponent() < ROUNDING - self.family.bits as i32;
             let mut next = if returns { one.clone() } else { to_inner.clone().min(&one) };
-            let overtaken = (way > rise).then(|| &lambda + (&edge.shift - &outer.shift) / (&rise - &way));
+            let overtaken = (edge_rate > rise).then(|| &lambda + (&edge.shift - &outer.shift) / (&rise - &edge_rate));
             next = overtaken.iter().fold(next, Real::min);
-            let next_edge = if next == to_inner { inner } else { at_shift(&edge.shift + (&next - &lambda) * &way) };
+            let next_edge =
+                if next == to_inner { inner } else { at_shift(&edge.shift + (&next - &lambda) * &edge_rate) };
             let meets = overtaken.is_some_and(|overtaken| overtaken == next);
             let next_outer = if next == one {
                 end.clone()
@@ -328,7 +329,7 @@ impl Element {
                 at_shift(&start.shift + &next * &rise)
             };
             let slip = Slip { edge: [&edge, &next_edge], outer: [&outer, &next_outer] };
-            march.energy = &march.energy + &direction * speed * slip.integral(&rise, &way);
+            march.energy = &march.energy + &direction * speed * slip.integral(&rise, &edge_rate);
             march.stick_load = march.stick_load.min(&next_edge.load);
             if next == one {
                 return march;
@@ -364,7 +365,7 @@ struct Slip<'a> {
 
 impl Slip<'_> {
     /// `∫ (N_b dS_c - S_b dN_c) - ∫ (N_c dS_c - S_c dN_c)` in closed form, for rates of S_b and S_c.
-    fn integral(&self, rise: &Real, way: &Real) -> Real {
+    fn integral(&self, rise: &Real, edge_rate: &Real) -> Real {
         let ([from, to], [outer_from, outer_to]) = (self.edge, self.outer);
         let potential = &to.potential - &from.potential;
         let own = &to.shift * &to.load - &from.shift * &from.load - &potential;
@@ -372,7 +373,7 @@ impl Slip<'_> {
             let first = &outer_to.load * (&to.shift - &from.shift) - potential;
             return first - (&outer_to.shift * (&to.load - &from.load) - own);
         }
-        let rate = way / rise;
+        let rate = edge_rate / rise;
         let first = &rate * (&outer_to.potential - &outer_from.potential) - &potential;
         let product = &outer_to.shift * &to.load - &outer_from.shift * &from.load;
         first - (product - potential / rate - own)

@@ -65,7 +65,7 @@ const MEASUREMENTS: [(&str, Measurement, f64, usize); 17] = [
     ("steps::of_contact", Contact(steps::of_contact), 20.0, 50),
     ("steps::of_element", Element(steps::of_element), 40.0, 50),
     ("two_directions::histories", Element(two_directions::histories), 200.0, 10),
-    ("modes::of_laws", Contact(modes::of_laws), 10.0, 20),
+    ("modes::check_all_laws", Contact(modes::check_all_laws), 10.0, 20),
 ];
 
 /// Measurements, kinds and seeds of jobs that have raised an exception: squares of derivatives overflowed; a size underflowed where

@@ -77,7 +77,7 @@ fn change(arguments: &mut Arguments, call: &Call, law: &Law, sampler: &mut Sampl
     }
 }
 
-pub fn of_laws(case: &Case, sampler: &mut Sampler, _: &mut crate::Tally) {
+pub fn check_all_laws(case: &Case, sampler: &mut Sampler, _: &mut crate::Tally) {
     let layered = sampler.chance(0.5).then(|| layer::random(case, sampler).reference.input);
     let (mut made, mut accepted) = (0, 0);
     let input =
