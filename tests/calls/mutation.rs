@@ -59,7 +59,7 @@ pub fn mutated_call(bytes: &mut Bytes) {
     let law = Law { harmonics, samples, ..laws[bytes.byte() % laws.len()].clone() };
     let mut arguments = Arguments::new(call, &law);
     if call.has(State) {
-        apply_random_calls(bytes, call, &law, &mut arguments);
+        apply_random_history(bytes, call, &law, &mut arguments);
     }
     let mut memory_is_valid = true;
     for _ in 0..bytes.byte() % 6 {
@@ -93,7 +93,7 @@ fn contents(arguments: &Arguments) -> Vec<Vec<u8>> {
 }
 
 /// Sets states of any length after any history.
-fn apply_random_calls(bytes: &mut Bytes, call: &Call, law: &Law, arguments: &mut Arguments) {
+fn apply_random_history(bytes: &mut Bytes, call: &Call, law: &Law, arguments: &mut Arguments) {
     let of_element = call.is_of_element();
     let length = law.memory_length(call, "state") + bytes.byte() % 64;
     let state = law.long_state(call, length);
