@@ -1,11 +1,24 @@
-//! Derivatives of a step whose values are known: one more step of Newton's method from the solution of each slip.
+//! Derivatives of a step whose values are known.
 //!
-//! A step is linear in small changes of the motion and of the springs at its start, so many are propagated at once, in
-//! lanes. Changes of the parameters of the contact add terms to them, with the changes dC and dk of the shells:
+//! The springs after a step depend on the springs before, on the displacement, and on three parameters of the contact:
+//! the normal component at both ends, and the reference size of the nodes. [`StepInput::advance`] is the step for
+//! numbers with derivatives, too. Only the slip of a stage needs formulas of its own, because its values come from an
+//! iteration: one more step of Newton's method from the solution. With the trial state v*, the springs v, their
+//! tractions q and the slip r of [`slip`](super::slip),
 //!
 //! ```text
-//! C dv = dq - dC v,   dr = C⁻¹'[k (dv* - dv) + dk (v* - v) - dC' r],   e × dr + de × r = 0,   de = e⊥ dθ
+//! q = C v              dq = C dv + dC v
+//! C' r = k (v* - v)    dr = C⁻¹'[k (dv* - dv) + dk (v* - v) - dC' r]
+//! e × r = 0            e × dr + de × r = 0,   de = e⊥ dθ  at points that slip;   dr = 0  at those that stick
 //! ```
+//!
+//! in three stages: dv and dr as if dq were 0, dq from the last line with -J⁻¹, and dv = C⁻¹ (dq - dC v)
+//! ([`Slip::differentiate`]). What dC and dk, the changes of the shells, add is the same for all changes of a
+//! parameter. It is computed once a step ([`ParameterTerms`]); then changes by many coefficients are propagated,
+//! several at once in the lanes of a number ([`Propagation`]).
+//!
+//! `tests/two_directions.rs` compares Jacobians of random motions with differences. A wrong derivative by one
+//! parameter, with the others right, shows in the normal component or in a load beyond that of the nodes only.
 
 use super::matrix::{dot, times_symmetric, times_upper, times_upper_transposed};
 use super::nodes::{FLAT_EDGE, Matrix, Nodes, PerAxis, PointSet, Row, SPRINGS, by_axis, points_in};
