@@ -30,6 +30,8 @@ impl Forces<'_> {
     }
 
     /// Evaluates the forces of all runs from the shifts at the boundaries of the slip zones; if `SLOPES`, also 1/K_t there.
+    /// Not inlined: beside the rest of a harmonic force its loops take a tenth more time.
+    #[inline(never)]
     pub fn evaluate<const SLOPES: bool>(
         &mut self,
         element: &Element,
