@@ -356,8 +356,8 @@ impl Shape {
         let half_width = self.half_width(to);
         let unit = half_width.max(TINY);
         let point = SurfacePoint::new(x, half_width, self.flat);
-        let squares = ((to - from) / unit) * ((to + from) / unit);
-        let legs = [from / unit, to / unit, squares];
+        let square_difference = ((to - from) / unit) * ((to + from) / unit);
+        let legs = [from / unit, to / unit, square_difference];
         let size = Size { flat: self.flat / unit, ..self.reference_size };
         self.pressure_scale * unit * size.pressure(legs, &point)
     }

@@ -80,8 +80,7 @@ impl<const L: usize> Number for Dual<L> {
     }
 }
 
-/// 1/x of x >= 0. Not inlined, as [`reciprocal_root`]: the compiler would divide by what is beside it in a vector
-/// register of the caller.
+/// 1/x for x >= 0. Not inlined, as [`reciprocal_root`], see `numerics/guard.rs`.
 #[inline(never)]
 fn reciprocal(x: f64) -> f64 {
     quotient(1.0, x)

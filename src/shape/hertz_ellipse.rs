@@ -111,12 +111,12 @@ pub fn estimated_leg(_: &Size, load: f64) -> f64 {
 }
 
 /// The difference of the pressures `sqrt(s² - x²)` of two sizes.
-pub fn pressure(_: &Size, [from, _, squares]: [f64; 3], point: &SurfacePoint) -> f64 {
+pub fn pressure(_: &Size, [from, _, square_difference]: [f64; 3], point: &SurfacePoint) -> f64 {
     let outer = point.from_edge * (1.0 + point.x);
     let inner = (from - point.x) * (from + point.x);
     // The sum of both heights; the inner one is 0 outside that size.
     let sum = root(outer) + root(inner);
-    0.375 * if inner > 0.0 { quotient(squares, sum) } else { sum }
+    0.375 * if inner > 0.0 { quotient(square_difference, sum) } else { sum }
 }
 
 pub fn slip(_: &Size, _: &SurfacePoint) -> f64 {

@@ -38,9 +38,9 @@ impl SurfacePoint {
 /// Ratio of a sum to its terms below which quadrature is used: six bits lost to cancellation.
 const CANCELLATION_LIMIT: f64 = 1.0 / 64.0;
 
-/// `∫ ψ c' dc'/sqrt(c'² - x²)` over the sizes with leg between `from` and `to`, lengths in the units of the flat. `squares` is the
+/// `∫ ψ c' dc'/sqrt(c'² - x²)` over the sizes with leg between `from` and `to`, lengths in the units of the flat. `square_difference` is the
 /// difference `to² - from²`, computed without cancellation for a narrow slip zone.
-pub(crate) fn pressure(size: &Size, [from, to, squares]: [f64; 3], point: &SurfacePoint) -> f64 {
+pub(crate) fn pressure(size: &Size, [from, to, square_difference]: [f64; 3], point: &SurfacePoint) -> f64 {
     let outside = outside(size.flat, point);
     let edge = root(outside);
     if edge >= to {
@@ -59,9 +59,9 @@ pub(crate) fn pressure(size: &Size, [from, to, squares]: [f64; 3], point: &Surfa
         return closed;
     }
     let root_inside = |leg: f64| root(leg * leg - outside);
-    let squares = if from > edge { squares } else { to * to - edge * edge };
+    let square_difference = if from > edge { square_difference } else { to * to - edge * edge };
     if outside < 0.0 {
-        gauss(squares / (to + start), |step| {
+        gauss(square_difference / (to + start), |step| {
             let leg = start + step;
             leg.atan2(size.flat) * leg / root_inside(leg).max(TINY)
         })
@@ -69,7 +69,7 @@ pub(crate) fn pressure(size: &Size, [from, to, squares]: [f64; 3], point: &Surfa
         // The substitution root_inside removes the square root at c' = |x|.
         let first = if from > edge { root_inside(from) } else { 0.0 };
         // root_inside(to)² >= to² - from²; the bound matters only if root_inside(to) vanishes, with rounding downward.
-        let length = squares / (root_inside(to) + first).max(0.5 * root(squares)).max(TINY);
+        let length = square_difference / (root_inside(to) + first).max(0.5 * root(square_difference)).max(TINY);
         gauss(length, |step| {
             let root_inside = first + step;
             (root_inside * root_inside + outside).sqrt().atan2(size.flat)

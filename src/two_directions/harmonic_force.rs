@@ -320,8 +320,10 @@ fn fade(changes: &mut Displacements<Columns>) {
 #[inline(never)]
 fn integrate_periods(element: &Element, workspace: &mut TwoDirectionsWorkspace, derivatives: bool) -> f64 {
     let SamplingSize { samples: count, harmonics, periods } = workspace.size;
-    workspace.spring_changes.fill(Displacements::zero());
-    workspace.sums.fill(Zero::zero());
+    if derivatives {
+        workspace.spring_changes.fill(Displacements::zero());
+        workspace.sums.fill(Zero::zero());
+    }
     let (mut largest, mut largest_input, mut opens) = (0, f64::MIN, false);
     for (index, sample) in workspace.samples.iter_mut().enumerate() {
         let [.., input] = sample.displacement;
@@ -460,7 +462,7 @@ fn transform_force(workspace: &mut TwoDirectionsWorkspace) {
     force.chunks_exact_mut(n).for_each(|sums| normalise(sums, 1.0 / size.samples as f64));
 }
 
-/// Writes the Jacobian: that of the tangential forces from the sums, and that of the normal force.
+/// Writes the Jacobian of the tangential forces from the sums, and the Jacobian of the normal force.
 fn write_jacobian(workspace: &TwoDirectionsWorkspace, jacobian: &mut [f64]) {
     let TwoDirectionsWorkspace { size, sums, samples, basis, spring_changes, .. } = workspace;
     let n = size.coefficients();
@@ -469,10 +471,9 @@ fn write_jacobian(workspace: &TwoDirectionsWorkspace, jacobian: &mut [f64]) {
         // The columns of a block are those of the normal component, of u and of v.
         let (component, coefficient) = ((j / n + 1) % 3, j % n);
         let (block, lane) = (coefficient / BLOCK, component * BLOCK + coefficient % BLOCK);
-        for (axis, places) in column.chunks_exact_mut(n).enumerate().take(2) {
-            for (c, place) in places.iter_mut().enumerate() {
-                *place =
-                    sums.or_zero(c * spring_changes.len() + block).as_slice().or_zero(axis).as_slice().or_zero(lane);
+        for c in 0..n {
+            for (axis, sum) in sums.or_zero(c * spring_changes.len() + block).iter().enumerate() {
+                column.set(axis * n + c, sum.or_zero(lane));
             }
         }
     }

@@ -234,9 +234,8 @@ impl<T: Number> LastShell<T> {
         let mut pressures = [T::constant(0.0); SPRINGS];
         for i in first..last {
             let own = pressure(nodes, last, now.inside_leg_squared, i);
-            let bound =
-                monotone_pressure(own, nodes.get(|nodes| nodes.pressure[next_to_last.min(SPRINGS - 2)][i]), steps);
-            pressures[i] = if i <= next_to_last { bound } else { own };
+            let before = nodes.get(|nodes| nodes.pressure[next_to_last.min(SPRINGS - 2)][i]);
+            pressures[i] = monotone_pressure(own, before, steps);
         }
         pressures[last] = pressure_at_edge(nodes, last, now.inside_leg_squared);
         LastShell {

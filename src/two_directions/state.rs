@@ -170,8 +170,8 @@ impl State {
             result.tangent = [xx, yx, 0.0, xy, yy, 0.0, xn, yn, self.load_slope];
         }
         if requested.energy {
-            let unit = unit * element.friction_coefficient * self.units.shift * path.scale;
-            result.dissipated = unit * dissipated(&self.nodes, contacts, &path, &solved, &self.springs);
+            result.dissipated =
+                self.energy_unit(element, &path) * dissipated(&self.nodes, contacts, &path, &solved, &self.springs);
         }
         self.rotation_guess = solved.slips.each_ref().map(|slip| slip.rotation_guess);
         if let Some(load) = self.load_of_nodes_after_gross_slip(contacts[1], &solved, [x, y]) {
@@ -211,15 +211,20 @@ impl State {
         propagation.propagate(&displacement, &mut springs)
     }
 
+    /// The unit of the energy of a step \[J\].
+    fn energy_unit(&self, element: &Element, path: &ContactPath) -> f64 {
+        let Units { load, shift, .. } = self.units;
+        element.friction_coefficient * load * element.friction_coefficient * shift * path.scale
+    }
+
     /// A step of a contact that is open at its end.
     fn separate(&mut self, element: &Element, to: [f64; 3], requested: Requested) -> LawStep<TwoDirections> {
         let mut result = StepResult::NONE;
         if requested.energy && self.normal_force > 0.0 {
             let path = ContactPath::new(element, &self.units, [self.displacement, to], [true, false]);
-            let unit = element.friction_coefficient * self.units.load;
-            let unit = unit * element.friction_coefficient * self.units.shift * path.scale;
             let open = ScaledNormalState::ZERO;
-            result.dissipated = unit * separated(&self.nodes, &self.contact(), &open, path.displacement, &self.springs);
+            result.dissipated = self.energy_unit(element, &path)
+                * separated(&self.nodes, &self.contact(), &open, path.displacement, &self.springs);
         }
         *self = State::open(to);
         result
